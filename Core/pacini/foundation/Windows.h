@@ -1,0 +1,66 @@
+#pragma once
+
+// Window functions.
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+namespace pacini
+{
+
+/// Periodic Hann window (for transforms): 0.5 - 0.5 cos(2 pi i / n), i = 0..n-1.
+[[nodiscard]] inline std::vector<double> hannPeriodic(std::size_t n)
+{
+    std::vector<double> w(n);
+    for (std::size_t i = 0; i < n; ++i)
+        w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
+    return w;
+}
+
+/// Symmetric Hann window without its zero end points, scaled to sum 1: a smoothing kernel of n taps.
+[[nodiscard]] inline std::vector<double> hannKernel(std::size_t n)
+{
+    std::vector<double> w(n);
+    for (std::size_t i = 0; i < n; ++i)
+        w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i + 1) / static_cast<double>(n + 1));
+    const double sum = std::accumulate(w.begin(), w.end(), 0.0);
+    for (double& v : w)
+        v /= sum;
+    return w;
+}
+
+/// Zeroth-order modified Bessel function of the first kind, by its power series (converges for every finite x).
+[[nodiscard]] inline double besselI0(double x)
+{
+    const double quarter = x * x / 4.0;
+    double term = 1.0;
+    double sum = 1.0;
+    for (int k = 1; term > sum * 1e-17; ++k)
+    {
+        term *= quarter / (static_cast<double>(k) * static_cast<double>(k));
+        sum += term;
+    }
+    return sum;
+}
+
+/// Kaiser's shape parameter for a stop-band attenuation in dB (Kaiser 1974).
+[[nodiscard]] inline double kaiserBeta(double attenuation)
+{
+    if (attenuation > 50.0)
+        return 0.1102 * (attenuation - 8.7);
+    if (attenuation >= 21.0)
+        return 0.5842 * std::pow(attenuation - 21.0, 0.4) + 0.07886 * (attenuation - 21.0);
+    return 0.0;
+}
+
+/// Kaiser window value at position u in [-1, 1] (0 outside) for the shape `beta`.
+[[nodiscard]] inline double kaiser(double u, double beta)
+{
+    const double rest = 1.0 - u * u;
+    return rest < 0.0 ? 0.0 : besselI0(beta * std::sqrt(rest)) / besselI0(beta);
+}
+
+} // namespace pacini

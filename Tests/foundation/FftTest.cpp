@@ -1,0 +1,60 @@
+#include "support/Catch.h"
+
+#include <pacini/foundation/Fft.h>
+#include <pacini/foundation/Random.h>
+
+#include <numbers>
+
+using namespace pacini;
+
+TEST_CASE("Real transform equals the definition summed in long double", "[foundation]")
+{
+    for (std::size_t n : {2u, 6u, 16u, 30u, 100u})
+    {
+        Random random(n);
+        std::vector<double> x(n);
+        for (double& v : x)
+            v = random.uniform(-1.0, 1.0);
+        RealFft<double> fft(n);
+        std::vector<std::complex<double>> spectrum(fft.bins());
+        fft.forward(x, spectrum);
+        for (std::size_t k = 0; k < fft.bins(); ++k)
+        {
+            std::complex<long double> sum = 0;
+            for (std::size_t m = 0; m < n; ++m)
+                sum += static_cast<long double>(x[m]) *
+                       std::polar(1.0L, -2.0L * std::numbers::pi_v<long double> * static_cast<long double>(k * m % n) /
+                                            static_cast<long double>(n));
+            CHECK(std::abs(std::complex<double>(sum) - spectrum[k]) < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("Complex inverse undoes forward up to the size", "[foundation]")
+{
+    const std::size_t n = 60;
+    ComplexFft<double> fft(n);
+    Random random(3);
+    std::vector<std::complex<double>> x(n), y(n), z(n);
+    for (auto& v : x)
+        v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    fft.forward(x, y);
+    fft.inverse(y, z);
+    for (std::size_t i = 0; i < n; ++i)
+        CHECK(std::abs(z[i] / static_cast<double>(n) - x[i]) < 1e-14);
+}
+
+TEST_CASE("Fast transform sizes are even, large enough and smooth", "[foundation]")
+{
+    for (std::size_t n = 1; n < 3000; n += 7)
+    {
+        auto size = nextFastFftSize(n);
+        CHECK(size >= n);
+        CHECK(size % 2 == 0);
+        CHECK(size <= 2 * n + 2);
+        for (std::size_t p : {2u, 3u, 5u})
+            while (size % p == 0)
+                size /= p;
+        CHECK(size == 1);
+    }
+}

@@ -1,0 +1,25 @@
+# Third-party libraries. Debian and Ubuntu packages, Homebrew or vcpkg all provide them; cmake/bootstrap.sh installs
+# them on Debian and Ubuntu.
+
+# kissfft: only its C++ header is used.
+find_path(PACINI_KISSFFT_INCLUDE_DIR kissfft.hh PATH_SUFFIXES kissfft REQUIRED)
+add_library(pacini_kissfft INTERFACE)
+target_include_directories(pacini_kissfft SYSTEM INTERFACE "${PACINI_KISSFFT_INCLUDE_DIR}")
+
+if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_FUZZERS)
+    find_package(nlohmann_json 3.10 REQUIRED)
+    find_package(fmt REQUIRED)
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+endif()
+if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
+    find_package(CLI11 REQUIRED)
+    find_package(Threads REQUIRED)
+    pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+endif()
+if(PACINI_BUILD_TESTS)
+    find_package(Catch2 REQUIRED)
+endif()
+if(PACINI_BUILD_BENCHMARKS)
+    find_package(benchmark REQUIRED)
+endif()
