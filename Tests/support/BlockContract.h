@@ -17,8 +17,8 @@ namespace pacini::test
 
 struct ContractOptions
 {
-    bool linear = true;          ///< silence in gives silence out
-    double bound = 1e6;          ///< no output sample of unit noise is larger
+    bool linear = true; ///< silence in gives silence out
+    double bound = 1e6; ///< no output sample of unit noise is larger
     std::size_t frames = 6000;
 };
 

@@ -35,30 +35,93 @@ void release(void* memory)
 } // namespace
 
 // The whole family is replaced, the nothrow and aligned forms too.
-void* operator new(std::size_t n) { return orThrow(allocate(n)); }
-void* operator new[](std::size_t n) { return orThrow(allocate(n)); }
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return allocate(n); }
-void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return allocate(n); }
-void* operator new(std::size_t n, std::align_val_t a) { return orThrow(allocateAligned(n, a)); }
-void* operator new[](std::size_t n, std::align_val_t a) { return orThrow(allocateAligned(n, a)); }
-void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return allocateAligned(n, a); }
-void* operator new[](std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return allocateAligned(n, a); }
-void operator delete(void* p) noexcept { release(p); }
-void operator delete[](void* p) noexcept { release(p); }
-void operator delete(void* p, std::size_t) noexcept { release(p); }
-void operator delete[](void* p, std::size_t) noexcept { release(p); }
-void operator delete(void* p, const std::nothrow_t&) noexcept { release(p); }
-void operator delete[](void* p, const std::nothrow_t&) noexcept { release(p); }
-void operator delete(void* p, std::align_val_t) noexcept { release(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept { release(p); }
-void operator delete[](void* p, std::align_val_t, const std::nothrow_t&) noexcept { release(p); }
+void* operator new(std::size_t n)
+{
+    return orThrow(allocate(n));
+}
+void* operator new[](std::size_t n)
+{
+    return orThrow(allocate(n));
+}
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept
+{
+    return allocate(n);
+}
+void* operator new[](std::size_t n, const std::nothrow_t&) noexcept
+{
+    return allocate(n);
+}
+void* operator new(std::size_t n, std::align_val_t a)
+{
+    return orThrow(allocateAligned(n, a));
+}
+void* operator new[](std::size_t n, std::align_val_t a)
+{
+    return orThrow(allocateAligned(n, a));
+}
+void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept
+{
+    return allocateAligned(n, a);
+}
+void* operator new[](std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept
+{
+    return allocateAligned(n, a);
+}
+void operator delete(void* p) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p) noexcept
+{
+    release(p);
+}
+void operator delete(void* p, std::size_t) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p, std::size_t) noexcept
+{
+    release(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p, const std::nothrow_t&) noexcept
+{
+    release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p, std::align_val_t) noexcept
+{
+    release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept
+{
+    release(p);
+}
+void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    release(p);
+}
+void operator delete[](void* p, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    release(p);
+}
 
 namespace pacini::test
 {
 HeapGuard::HeapGuard() : start(operations) {}
 HeapGuard::~HeapGuard() = default;
-std::size_t HeapGuard::traffic() const { return operations - start; }
+std::size_t HeapGuard::traffic() const
+{
+    return operations - start;
+}
 } // namespace pacini::test

@@ -29,7 +29,8 @@ struct Band
     bool operator==(const Band&) const = default;
 };
 
-/// A short event: when it happens, the level that it reaches (linear, 1 = full drive), and how sharp it feels (0 dull, 1 crisp).
+/// A short event: when it happens, the level that it reaches (linear, 1 = full drive), and how sharp it feels (0 dull,
+/// 1 crisp).
 struct Transient
 {
     double time = 0.0;
@@ -183,14 +184,16 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
     {
         const Band& band = clip.bands[i];
         const auto where = indexed("bands", i);
-        for (const auto& [value, field] : {std::pair(band.lowFrequency, ".lowFrequency"),
-                                           std::pair(band.centreFrequency, ".centreFrequency"),
-                                           std::pair(band.highFrequency, ".highFrequency")})
+        for (const auto& [value, field] :
+             {std::pair(band.lowFrequency, ".lowFrequency"), std::pair(band.centreFrequency, ".centreFrequency"),
+              std::pair(band.highFrequency, ".highFrequency")})
             if (auto r = checkNumber(value, 0.0, limits::frequency, where + field); !r)
                 return r;
         if (!(band.lowFrequency <= band.centreFrequency && band.centreFrequency <= band.highFrequency))
             return brokenRule(where, "needs lowFrequency <= centreFrequency <= highFrequency");
-        if (auto r = checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude"); !r)
+        if (auto r =
+                checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude");
+            !r)
             return r;
         if (auto r = checkCurve(band.pitch, "frequency", clip.duration, 1e-3, limits::frequency, where + ".pitch"); !r)
             return r;
@@ -216,9 +219,12 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
         const auto where = indexed("noise", i);
         if (auto r = checkNumber(band.lowFrequency, 0.0, limits::frequency, where + ".lowFrequency"); !r)
             return r;
-        if (auto r = checkNumber(band.highFrequency, band.lowFrequency, limits::frequency, where + ".highFrequency"); !r)
+        if (auto r = checkNumber(band.highFrequency, band.lowFrequency, limits::frequency, where + ".highFrequency");
+            !r)
             return r;
-        if (auto r = checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude"); !r)
+        if (auto r =
+                checkCurve(band.amplitude, "amplitude", clip.duration, 0.0, limits::amplitude, where + ".amplitude");
+            !r)
             return r;
     }
     before = 0.0;

@@ -27,8 +27,8 @@ using Curve = std::vector<Breakpoint>;
 {
     if (curve.empty())
         return 0.0;
-    const auto next = std::upper_bound(curve.begin(), curve.end(), time,
-                                       [](double t, const Breakpoint& p) { return t < p.time; });
+    const auto next =
+        std::upper_bound(curve.begin(), curve.end(), time, [](double t, const Breakpoint& p) { return t < p.time; });
     if (next == curve.begin())
         return curve.front().value;
     if (next == curve.end())

@@ -60,7 +60,8 @@ class RealFft
 {
 public:
     /// `size` must be even and at least 2.
-    explicit RealFft(std::size_t size) : n(size), half(size / 2), plan(size / 2, false), packed(size / 2), twiddles(size / 2)
+    explicit RealFft(std::size_t size)
+        : n(size), half(size / 2), plan(size / 2, false), packed(size / 2), twiddles(size / 2)
     {
         const double step = -2.0 * 3.14159265358979323846 / static_cast<double>(size);
         for (std::size_t k = 0; k < half; ++k)

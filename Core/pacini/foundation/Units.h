@@ -49,16 +49,46 @@ struct Decibels
 
 inline namespace literals
 {
-constexpr Hertz operator""_Hz(long double v) { return Hertz(static_cast<double>(v)); }
-constexpr Hertz operator""_Hz(unsigned long long v) { return Hertz(static_cast<double>(v)); }
-constexpr Hertz operator""_kHz(long double v) { return Hertz(static_cast<double>(v) * 1e3); }
-constexpr Hertz operator""_kHz(unsigned long long v) { return Hertz(static_cast<double>(v) * 1e3); }
-constexpr Seconds operator""_s(long double v) { return Seconds(static_cast<double>(v)); }
-constexpr Seconds operator""_s(unsigned long long v) { return Seconds(static_cast<double>(v)); }
-constexpr Seconds operator""_ms(long double v) { return Seconds(static_cast<double>(v) / 1e3); }
-constexpr Seconds operator""_ms(unsigned long long v) { return Seconds(static_cast<double>(v) / 1e3); }
-constexpr Decibels operator""_dB(long double v) { return Decibels(static_cast<double>(v)); }
-constexpr Decibels operator""_dB(unsigned long long v) { return Decibels(static_cast<double>(v)); }
+constexpr Hertz operator""_Hz(long double v)
+{
+    return Hertz(static_cast<double>(v));
+}
+constexpr Hertz operator""_Hz(unsigned long long v)
+{
+    return Hertz(static_cast<double>(v));
+}
+constexpr Hertz operator""_kHz(long double v)
+{
+    return Hertz(static_cast<double>(v) * 1e3);
+}
+constexpr Hertz operator""_kHz(unsigned long long v)
+{
+    return Hertz(static_cast<double>(v) * 1e3);
+}
+constexpr Seconds operator""_s(long double v)
+{
+    return Seconds(static_cast<double>(v));
+}
+constexpr Seconds operator""_s(unsigned long long v)
+{
+    return Seconds(static_cast<double>(v));
+}
+constexpr Seconds operator""_ms(long double v)
+{
+    return Seconds(static_cast<double>(v) / 1e3);
+}
+constexpr Seconds operator""_ms(unsigned long long v)
+{
+    return Seconds(static_cast<double>(v) / 1e3);
+}
+constexpr Decibels operator""_dB(long double v)
+{
+    return Decibels(static_cast<double>(v));
+}
+constexpr Decibels operator""_dB(unsigned long long v)
+{
+    return Decibels(static_cast<double>(v));
+}
 } // namespace literals
 
 } // namespace pacini

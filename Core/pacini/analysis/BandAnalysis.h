@@ -1,0 +1,328 @@
+#pragma once
+
+// The offline analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
+
+#include <pacini/analysis/AnalyticTrack.h>
+#include <pacini/analysis/BandEdges.h>
+#include <pacini/foundation/Fft.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// The rate at which every sound is analysed offline, Hz: twice what lies above the top of touch (1-1.8 kHz).
+inline constexpr int analysisRate = 4000;
+
+struct BandAnalysisParams
+{
+    std::vector<BandEdges> bands;  ///< adjoining, frequencies rise
+    double overlap = 0.5;          ///< see BandFades
+    double envelopeWindow = 0.010; ///< s, Hann window of the total envelope
+    double bandWindow = 0.040;     ///< s, Hann window of band envelopes and pitches
+    bool operator==(const BandAnalysisParams&) const = default;
+};
+
+/// What the analysis found, dense in time: frame i of an array stands at i * its step.
+struct BandAnalysisResult
+{
+    static constexpr double envelopeStep = 0.005; ///< s
+    static constexpr double bandStep = 0.020;     ///< s
+
+    struct Track
+    {
+        std::vector<float> amplitude; ///< linear: amplitude of the sine of equal power
+        std::vector<float> frequency; ///< Hz: power-weighted mean frequency within the band; 0 where silent
+    };
+
+    double peak = 0.0;           ///< largest magnitude of the analytic signal of all bands together
+    std::vector<float> envelope; ///< mean magnitude of that analytic signal
+    std::vector<Track> tracks;   ///< one for every band
+};
+
+/// Zero-phase analysis of a stream of one or more channels at analysisRate. The signal is cut into blocks with short
+/// cross-fades; each block is transformed once, the channels are mixed in the spectrum so that nothing can cancel, and
+/// each band is transformed back from just its own bins, at a low rate, as an analytic signal. Bands are linear
+/// filters, so blocks add up to what one transform of the whole sound would give, but for the ringing that outlasts the
+/// 0.25 s guard. Memory grows only with the result, about 9 kB per second for 12 bands. reset() makes the object ready
+/// for the next sound and keeps its transforms, whose making costs as much as a second of sound.
+class BandAnalysis
+{
+public:
+    explicit BandAnalysis(const BandAnalysisParams& params)
+        : settings(params),
+          fades(params.bands, params.overlap),
+          wide(envelopeRate, params.envelopeWindow, BandAnalysisResult::envelopeStep)
+    {
+        assert(!params.bands.empty());
+        for (std::size_t k = 0; k < bandCount(); ++k)
+        {
+            // The lowest of a few rates that holds the band with room for its frequency to be read off the rotation.
+            const double width = fades.highestFrequency(k) - fades.lowestFrequency(k);
+            int rate = 250;
+            while (rate < envelopeRate && width > 0.8 * rate)
+                rate *= 2;
+            tracks.emplace_back(rate, settings.bandWindow, BandAnalysisResult::bandStep);
+        }
+        reset(1);
+    }
+
+    /// Starts over with a sound of `channels` channels.
+    void reset(std::size_t channels)
+    {
+        pending.assign(channels, {});
+        blockStart = 0;
+        received = 0;
+        wide.reset();
+        for (AnalyticTrack& track : tracks)
+            track.reset();
+        output = {};
+        output.tracks.resize(bandCount());
+    }
+
+    /// Takes the next samples, one span per channel, all of one length.
+    void push(std::span<const std::span<const float>> channels)
+    {
+        assert(channels.size() == pending.size());
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            pending[c].insert(pending[c].end(), channels[c].begin(), channels[c].end());
+        received += channels.front().size();
+        // The last block must stay whole, since it has no fade-out: go on only when more than a block is there.
+        while (pending.front().size() > bodyFrames)
+            analyseAndAdvance();
+    }
+
+    /// Completes the analysis of the sound.
+    [[nodiscard]] BandAnalysisResult finish()
+    {
+        analyseBlock(pending.front().size(), true);
+        return std::exchange(output, {});
+    }
+
+private:
+    static constexpr std::size_t guardFrames = 1024; // ringing before and after a block
+    static constexpr std::size_t longestFft = 8192;  // 2.048 s
+    static constexpr std::size_t bodyFrames = longestFft - 2 * guardFrames;
+    static constexpr std::size_t fadeFrames = 512;
+    static constexpr std::size_t hopFrames = bodyFrames - fadeFrames;
+    static constexpr int envelopeRate = 2000;
+
+    using Complex = std::complex<double>;
+
+    /// Transform and weights of one range of bins.
+    struct BinRange
+    {
+        std::size_t first = 0;
+        std::vector<double> weights; // with the scale of the transforms and the 2 of analytic signals
+        ComplexFft<double> inverse;
+    };
+
+    /// Everything that depends on the size of a block; short sounds take a short block.
+    struct Plan
+    {
+        RealFft<double> forward;
+        BinRange wide;
+        std::vector<BinRange> bands;
+    };
+
+    [[nodiscard]] std::size_t bandCount() const noexcept { return settings.bands.size(); }
+
+    [[nodiscard]] BinRange makeRange(std::size_t size, std::size_t firstBand, std::size_t lastBand, int rate) const
+    {
+        const double binWidth = static_cast<double>(analysisRate) / static_cast<double>(size);
+        BinRange range{0, {}, ComplexFft<double>(size * static_cast<std::size_t>(rate) / analysisRate)};
+        range.first = static_cast<std::size_t>(std::max(1.0, std::ceil(fades.lowestFrequency(firstBand) / binWidth)));
+        const auto last = static_cast<std::size_t>(fades.highestFrequency(lastBand) / binWidth);
+        const std::size_t end = std::min({last + 1, size / 2, range.first + range.inverse.size()});
+        for (std::size_t b = range.first; b < end; ++b)
+            range.weights.push_back(2.0 / static_cast<double>(size) *
+                                    fades.weight(firstBand, lastBand, static_cast<double>(b) * binWidth));
+        return range;
+    }
+
+    Plan& planFor(std::size_t frames, bool only)
+    {
+        std::size_t size = only ? 2 * guardFrames : longestFft;
+        while (size < frames + 2 * guardFrames)
+            size *= 2;
+        for (const auto& plan : plans)
+            if (plan->forward.size() == size)
+                return *plan;
+        auto plan =
+            std::make_unique<Plan>(Plan{RealFft<double>(size), makeRange(size, 0, bandCount() - 1, envelopeRate), {}});
+        for (std::size_t k = 0; k < bandCount(); ++k)
+            plan->bands.push_back(makeRange(size, k, k, tracks[k].rate()));
+        plans.push_back(std::move(plan));
+        return *plans.back();
+    }
+
+    void analyseAndAdvance()
+    {
+        analyseBlock(bodyFrames, false);
+        for (auto& channel : pending)
+            channel.erase(channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(hopFrames));
+        blockStart += static_cast<std::int64_t>(hopFrames);
+    }
+
+    void analyseBlock(std::size_t frames, bool last)
+    {
+        Plan& plan = planFor(frames, blockStart == 0 && last);
+        const std::size_t size = plan.forward.size();
+        spectra.resize(pending.size());
+        block.assign(size, 0.0);
+        for (std::size_t c = 0; c < pending.size(); ++c)
+        {
+            for (std::size_t i = 0; i < frames; ++i)
+            {
+                double w = 1.0;
+                if (blockStart > 0 && i < fadeFrames)
+                    w = fadeIn(i);
+                if (!last && i >= hopFrames)
+                    w = 1.0 - fadeIn(i - hopFrames);
+                block[guardFrames + i] = w * static_cast<double>(pending[c][i]);
+            }
+            spectra[c].resize(plan.forward.bins());
+            plan.forward.forward(block, spectra[c]);
+        }
+        if (spectra.size() > 1)
+            mixChannels(plan);
+
+        // Frames before the next block's guard are complete.
+        const std::int64_t complete =
+            last ? std::numeric_limits<std::int64_t>::max() / 2
+                 : blockStart + static_cast<std::int64_t>(hopFrames) - static_cast<std::int64_t>(guardFrames);
+        const auto feed =
+            [&]<FrameContent content>(const BinRange& range, AnalyticTrack& track, double step, auto&& emit)
+        {
+            const std::int64_t perSample = analysisRate / track.rate();
+            track.add((blockStart - static_cast<std::int64_t>(guardFrames)) / perSample, analytic(range, size));
+            const auto frameCount =
+                static_cast<std::int64_t>(std::floor(static_cast<double>(received) / analysisRate / step + 1e-9)) + 1;
+            track.drain<content>(complete / perSample, frameCount, emit);
+        };
+        feed.template operator()<FrameContent::magnitude>(
+            plan.wide, wide, BandAnalysisResult::envelopeStep,
+            [&](const AnalyticFrame& frame)
+            {
+                output.envelope.push_back(static_cast<float>(frame.magnitude));
+                output.peak = std::max(output.peak, std::sqrt(frame.peakPower));
+            });
+        for (std::size_t k = 0; k < bandCount(); ++k)
+        {
+            const double base = static_cast<double>(plan.bands[k].first) * analysisRate / static_cast<double>(size);
+            feed.template operator()<FrameContent::powerAndRotation>(
+                plan.bands[k], tracks[k], BandAnalysisResult::bandStep,
+                [&](const AnalyticFrame& frame) { emitBand(output.tracks[k], frame, base, tracks[k].rate()); });
+        }
+    }
+
+    /// The analytic signal of a range of bins, turned down by the frequency of its first bin and by the same phase in
+    /// every block, so that blocks add up.
+    std::span<const Complex> analytic(const BinRange& range, std::size_t size)
+    {
+        const std::size_t n = range.inverse.size();
+        const double turns = static_cast<double>(range.first) *
+                             static_cast<double>(blockStart - static_cast<std::int64_t>(guardFrames)) /
+                             static_cast<double>(size);
+        const double angle = -2.0 * std::numbers::pi * (turns - std::floor(turns));
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        bins.assign(n, {});
+        for (std::size_t i = 0; i < range.weights.size(); ++i)
+        {
+            const Complex x = spectra.front()[range.first + i];
+            bins[i] = {range.weights[i] * (x.real() * c - x.imag() * s),
+                       range.weights[i] * (x.real() * s + x.imag() * c)};
+        }
+        part.resize(n);
+        range.inverse.inverse(bins, part);
+        return part;
+    }
+
+    /// Mixes all channels into spectra.front(): the mean, except in bands where the mean has lost more than half of the
+    /// power that unrelated channels would keep (antiphase); there the strongest channel takes over gradually.
+    void mixChannels(const Plan& plan)
+    {
+        const auto n = static_cast<double>(spectra.size());
+        mixed.assign(spectra.front().size(), {});
+        for (const auto& spectrum : spectra)
+            for (std::size_t b = 0; b < mixed.size(); ++b)
+                mixed[b] += spectrum[b] / n;
+        const std::vector<Complex> mean = mixed;
+        for (const BinRange& range : plan.bands)
+        {
+            const auto powerOf = [&](const std::vector<Complex>& spectrum)
+            {
+                double power = 0.0;
+                for (std::size_t i = 0; i < range.weights.size(); ++i)
+                    power += range.weights[i] * std::norm(spectrum[range.first + i]);
+                return power;
+            };
+            double total = 0.0;
+            double strongest = -1.0;
+            const std::vector<Complex>* loudest = nullptr;
+            for (const auto& spectrum : spectra)
+            {
+                const double power = powerOf(spectrum);
+                total += power;
+                if (power > strongest)
+                {
+                    strongest = power;
+                    loudest = &spectrum;
+                }
+            }
+            const double kept = total > 0.0 ? powerOf(mean) * n * n / total : 1.0; // 1 for unrelated channels
+            const double share = std::clamp((0.5 - kept) / 0.25, 0.0, 1.0);
+            const auto scale = static_cast<double>(mean.size() - 1); // size / 2: takes the scale out of the weights
+            for (std::size_t i = 0; share > 0.0 && i < range.weights.size(); ++i)
+            {
+                const std::size_t b = range.first + i;
+                mixed[b] += share * range.weights[i] * scale * ((*loudest)[b] - mean[b]);
+            }
+        }
+        spectra.front() = mixed;
+    }
+
+    static void emitBand(BandAnalysisResult::Track& track, const AnalyticFrame& frame, double base, int rate)
+    {
+        double turns = std::atan2(frame.rotation.imag(), frame.rotation.real()) / (2.0 * std::numbers::pi);
+        if (turns < 0.0)
+            turns += 1.0;
+        track.amplitude.push_back(static_cast<float>(std::sqrt(frame.power)));
+        track.frequency.push_back(frame.power > 0.0 ? static_cast<float>(base + turns * rate) : 0.0f);
+    }
+
+    [[nodiscard]] static double fadeIn(std::size_t i) noexcept
+    {
+        return 0.5 -
+               0.5 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(fadeFrames));
+    }
+
+    BandAnalysisParams settings;
+    BandFades fades;
+    AnalyticTrack wide;
+    std::vector<AnalyticTrack> tracks;
+    std::vector<std::unique_ptr<Plan>> plans;
+
+    std::vector<std::vector<float>> pending; // samples of each channel from blockStart on
+    std::int64_t blockStart = 0;
+    std::size_t received = 0;
+    BandAnalysisResult output;
+
+    std::vector<double> block;
+    std::vector<std::vector<Complex>> spectra;
+    std::vector<Complex> mixed, bins, part;
+};
+
+} // namespace pacini

@@ -1,0 +1,231 @@
+#pragma once
+
+// Samples -> Clip: Pacini's own translation, "a2vt".
+
+#include <pacini/analysis/BandAnalysis.h>
+#include <pacini/analysis/CurveFitter.h>
+#include <pacini/clip/BandPriority.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/filters/RationalDecimator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+struct EncoderParams
+{
+    int bands = 12;                ///< 1 to 32
+    double lowFrequency = 30.0;    ///< Hz
+    double highFrequency = 1000.0; ///< Hz
+    BandSpacing spacing = BandSpacing::logarithmic;
+    double breakpoints = 20.0; ///< at most this many per second of sound and band, all curves together
+    int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
+    bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive
+    bool operator==(const EncoderParams&) const = default;
+};
+
+/// Checks the ranges of EncoderParams.
+[[nodiscard]] inline Result<void> validate(const EncoderParams& params)
+{
+    const auto wrong = [](std::string where, std::string message) -> Result<void>
+    {
+        return Error{ErrorCode::invalidArgument, std::move(where), std::move(message)};
+    };
+    if (params.bands < 1 || params.bands > 32)
+        return wrong("bands", "must be 1 to 32");
+    if (!(params.lowFrequency >= 1.0 && params.highFrequency <= 1800.0 && params.lowFrequency < params.highFrequency))
+        return wrong("frequency range", "must lie within 1 to 1800 Hz, the low end below the high end");
+    if (!(params.breakpoints >= 0.5 && params.breakpoints <= 1000.0))
+        return wrong("breakpoints", "must be 0.5 to 1000 per second and band");
+    if (params.quantise < 4 || params.quantise > 16)
+        return wrong("quantise", "must be 4 to 16 bits");
+    return {};
+}
+
+/// Encodes one sound after another; keeps its transforms and filters between them. Use: start, push any number of
+/// times, finish. Memory grows with the clip, not with the sound. One thread at a time, never the audio thread.
+class Encoder
+{
+public:
+    /// `params` must be valid.
+    explicit Encoder(const EncoderParams& params)
+        : settings(params),
+          analysis({tiledBands(static_cast<std::size_t>(params.bands), params.lowFrequency, params.highFrequency,
+                               params.spacing)}),
+          edges(tiledBands(static_cast<std::size_t>(params.bands), params.lowFrequency, params.highFrequency,
+                           params.spacing))
+    {
+    }
+
+    /// Begins a sound of 1-64 channels at 8000 to 384000 Hz.
+    void start(int sampleRate, int channels)
+    {
+        fs = sampleRate;
+        channelCount = static_cast<std::size_t>(channels);
+        frames = 0;
+        if (decimators.empty() || decimators.front().inputRate() != sampleRate)
+            decimators.assign(channelCount, RationalDecimator(sampleRate, analysisRate));
+        decimators.resize(channelCount, decimators.front());
+        for (RationalDecimator& decimator : decimators)
+            decimator.reset();
+        analysis.reset(channelCount);
+    }
+
+    /// Takes interleaved samples, whole frames, all finite.
+    void push(std::span<const float> interleaved)
+    {
+        const std::size_t count = interleaved.size() / channelCount;
+        frames += count;
+        for (std::size_t c = 0; c < channelCount; ++c)
+        {
+            decimated.resize(channelCount);
+            decimated[c].clear();
+            if (channelCount == 1)
+                decimators[c].push(interleaved, decimated[c]);
+            else
+            {
+                channel.resize(count);
+                for (std::size_t i = 0; i < count; ++i)
+                    channel[i] = interleaved[i * channelCount + c];
+                decimators[c].push(channel, decimated[c]);
+            }
+        }
+        pushDecimated();
+    }
+
+    /// Completes the clip; its curves lie on the grids of `quantise` bits.
+    [[nodiscard]] Clip finish()
+    {
+        for (std::size_t c = 0; c < channelCount; ++c)
+        {
+            decimated.resize(channelCount);
+            decimated[c].clear();
+            decimators[c].finish(decimated[c]);
+        }
+        pushDecimated();
+        return makeClip(analysis.finish());
+    }
+
+private:
+    void pushDecimated()
+    {
+        views.assign(decimated.begin(), decimated.end());
+        analysis.push(views);
+    }
+
+    [[nodiscard]] Clip makeClip(const BandAnalysisResult& found)
+    {
+        Clip clip;
+        clip.duration = static_cast<double>(frames) / fs;
+        clip.source.sampleRate = fs;
+        clip.source.channels = static_cast<int>(channelCount);
+        const double gain = settings.normalise && found.peak > silence ? 1.0 / found.peak : 1.0;
+        clip.encoder = {{"method", std::string("a2vt")},
+                        {"bands", static_cast<double>(settings.bands)},
+                        {"breakpoints", settings.breakpoints},
+                        {"quantise", static_cast<double>(settings.quantise)},
+                        {"gain", roundedTo3Digits(gain)}};
+        for (const BandEdges& edge : edges)
+            clip.bands.push_back({edge.low, edge.centre, edge.high, 0, {}, {}});
+        if (found.peak <= silence)
+            return clip;
+
+        double price = std::pow(20.0 / settings.breakpoints, 1.56);
+        fitCurves(clip, found, gain, price);
+        const double most = settings.breakpoints * settings.bands * std::max(activeSeconds(found, gain), 0.1);
+        while (static_cast<double>(breakpointCount(clip)) > most + 2.0 * (settings.bands + 2.0) && price < 1e6)
+        {
+            price *= 1.6;
+            fitCurves(clip, found, gain, price);
+        }
+        std::vector<double> energies;
+        for (const Band& band : clip.bands)
+            energies.push_back(curveEnergy(band.amplitude, clip.duration));
+        const auto priorities = prioritiesByEnergy(energies);
+        for (std::size_t k = 0; k < clip.bands.size(); ++k)
+            clip.bands[k].priority = priorities[k];
+        return clip;
+    }
+
+    void fitCurves(Clip& clip, const BandAnalysisResult& found, double gain, double price)
+    {
+        clip.envelope =
+            fitter.fitAmplitude(found.envelope, BandAnalysisResult::envelopeStep, gain, floor, envelopePrice * price);
+        const std::size_t n = found.tracks.front().amplitude.size();
+        std::vector<double> total(n, 1e-20);
+        for (const auto& track : found.tracks)
+            for (std::size_t i = 0; i < n; ++i)
+                total[i] += static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
+        std::vector<double> weighted(n, 0.0);
+        std::vector<double> pitch(n), importance(n), level(n);
+        for (std::size_t i = 0; i < n; ++i)
+            level[i] = std::max(0.0, 1.0 - 10.0 * std::log10(total[i] * gain * gain) / floorDecibels);
+        for (std::size_t k = 0; k < clip.bands.size(); ++k)
+        {
+            const auto& track = found.tracks[k];
+            Band& band = clip.bands[k];
+            band.amplitude =
+                fitter.fitAmplitude(track.amplitude, BandAnalysisResult::bandStep, gain, floor, bandPrice * price);
+            for (std::size_t i = 0; i < n; ++i)
+            {
+                const double power = static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
+                pitch[i] = track.frequency[i] > 0.0f ? static_cast<double>(track.frequency[i]) : band.centreFrequency;
+                pitch[i] = std::clamp(pitch[i], 0.8 * band.lowFrequency, 1.25 * band.highFrequency);
+                importance[i] = std::sqrt(power / total[i]) * level[i];
+                weighted[i] += power * pitch[i];
+            }
+            band.pitch = band.amplitude.empty()
+                             ? Curve{}
+                             : fitter.fitPitch(pitch, importance, BandAnalysisResult::bandStep, pitchPrice * price);
+        }
+        for (std::size_t i = 0; i < n; ++i)
+            weighted[i] = std::max(weighted[i] / total[i], 1.0);
+        clip.centroid = fitter.fitPitch(weighted, level, BandAnalysisResult::bandStep, centroidPrice * price);
+    }
+
+    /// Time in which the envelope is above -75 dB of full drive (Weber 2020, section 4.3).
+    [[nodiscard]] static double activeSeconds(const BandAnalysisResult& found, double gain)
+    {
+        std::size_t active = 0;
+        for (float e : found.envelope)
+            active += gain * static_cast<double>(e) > 1.778e-4 ? 1 : 0;
+        return static_cast<double>(active) * BandAnalysisResult::envelopeStep;
+    }
+
+    [[nodiscard]] static double roundedTo3Digits(double value)
+    {
+        const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+        return std::round(value / unit) * unit;
+    }
+
+    static constexpr double silence = 1e-6;        // -120 dB: dither and rounding noise
+    static constexpr double floorDecibels = -45.0; // below full drive: the range of touch
+    static constexpr double floor = 0.005623413251903491;
+    static constexpr double envelopePrice = 5.0;  // dB^2 frames
+    static constexpr double bandPrice = 25.0;     // dB^2 frames
+    static constexpr double pitchPrice = 20.0;    // semitones^2 frames
+    static constexpr double centroidPrice = 60.0; // semitones^2 frames
+
+    EncoderParams settings;
+    BandAnalysis analysis;
+    std::vector<BandEdges> edges;
+    CurveFitter fitter;
+    int fs = 0;
+    std::size_t channelCount = 1;
+    std::size_t frames = 0;
+    std::vector<RationalDecimator> decimators;
+    std::vector<std::vector<float>> decimated;
+    std::vector<std::span<const float>> views;
+    std::vector<float> channel;
+};
+
+} // namespace pacini

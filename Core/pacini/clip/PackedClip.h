@@ -1,0 +1,618 @@
+#pragma once
+
+// The packed form of a clip (.pacb): quantised, predicted and entropy-coded.
+
+#include <pacini/clip/BandPriority.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/clip/PackedCurves.h>
+#include <pacini/clip/PackedText.h>
+#include <pacini/clip/Quantiser.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <climits>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
+struct PackParams
+{
+    int bits = 12;                       ///< 4 to 16
+    std::uint32_t ticksPerSecond = 1000; ///< 1 to 1 000 000
+    bool operator==(const PackParams&) const = default;
+};
+
+namespace detail
+{
+
+/// Codes a whole clip both ways: with a RangeWriter it writes the clip that it is given, with a RangeReader it fills
+/// one.
+template <typename Coder>
+class ClipCoder
+{
+public:
+    /// `inputBytes` bounds what a reader believes: no real clip has more than 512 points per byte.
+    ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / 512)
+        : coder(coderToUse),
+          params(packParams),
+          levelQuantiser(params.bits),
+          pitches(params.bits),
+          sharpnesses(params.bits, 0.0, 1.0),
+          mostPoints(std::min(limits::points, 512 * (inputBytes + 8)))
+    {
+    }
+
+    /// Returns false when the input is damaged beyond use.
+    bool code(Clip& clip)
+    {
+        codeDuration(clip);
+        if (failed)
+            return false;
+        codeCurves(clip);
+        codeTransients(clip);
+        codeNoise(clip);
+        codeTexts(clip);
+        return !failed;
+    }
+
+private:
+    static constexpr bool reading = Coder::reading;
+
+    // ---- numbers
+
+    std::uint64_t number(std::uint64_t value, double typical)
+    {
+        AdaptiveNumber model(typical);
+        return model.code(coder, value);
+    }
+
+    std::uint64_t raw(std::uint64_t value, int bits)
+    {
+        std::uint64_t result = 0;
+        for (int i = bits - 1; i >= 0; --i)
+            result = (result << 1) | static_cast<std::uint64_t>(coder.bit(((value >> i) & 1u) != 0));
+        return result;
+    }
+
+    /// A double as a small whole number where it is one, else bit for bit.
+    double exact(double value)
+    {
+        const bool small = value >= 0.0 && value < 1048576.0 && value == std::floor(value) && !std::signbit(value);
+        if (coder.bit(small, wholeModel))
+            return static_cast<double>(number(small ? static_cast<std::uint64_t>(value) : 0, 1000.0));
+        return std::bit_cast<double>(raw(std::bit_cast<std::uint64_t>(value), 64));
+    }
+
+    // ---- time
+
+    void codeDuration(Clip& clip)
+    {
+        clip.source.sampleRate = codeSampleRate(clip.source.sampleRate);
+        clip.source.channels = static_cast<int>(std::min<std::uint64_t>(
+            number(static_cast<std::uint64_t>(std::max(clip.source.channels, 0)), 1.0), 1u << 30));
+        // A whole number of frames of the source, or any number.
+        const double fs = clip.source.sampleRate;
+        const double frames = std::round(clip.duration * fs);
+        const bool whole = fs > 0.0 && frames < 1e12 && frames / fs == clip.duration;
+        if (coder.bit(whole, wholeDurationModel))
+            clip.duration = static_cast<double>(number(whole ? static_cast<std::uint64_t>(frames) : 0, 100000.0)) / fs;
+        else
+            clip.duration = std::bit_cast<double>(raw(std::bit_cast<std::uint64_t>(clip.duration), 64));
+        if (!std::isfinite(clip.duration) || clip.duration < 0.0 || clip.duration > limits::duration)
+        {
+            failed = true;
+            return;
+        }
+        lastTick = static_cast<std::int64_t>(std::floor(clip.duration * params.ticksPerSecond + 1e-6));
+    }
+
+    double codeSampleRate(double rate)
+    {
+        constexpr std::array<double, 8> usual = {0.0, 44100.0, 48000.0, 96000.0, 22050.0, 32000.0, 8000.0, 192000.0};
+        const auto found = std::find(usual.begin(), usual.end(), rate);
+        if (coder.bit(found != usual.end(), usualRateModel))
+            return usual[static_cast<std::size_t>(
+                raw(static_cast<std::uint64_t>(found == usual.end() ? 0 : found - usual.begin()), 3))];
+        return exact(rate);
+    }
+
+    [[nodiscard]] std::int64_t tickOf(double time) const
+    {
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::llround(time * params.ticksPerSecond)), 0,
+                                        lastTick);
+    }
+
+    [[nodiscard]] double timeOf(std::int64_t tick) const
+    {
+        return static_cast<double>(tick) / static_cast<double>(params.ticksPerSecond);
+    }
+
+    // ---- curves
+
+    template <typename Quantiser>
+    GridCurve toGrid(const Curve& curve, const Quantiser& quantiser) const
+    {
+        GridCurve grid;
+        grid.reserve(curve.size());
+        for (const Breakpoint& point : curve)
+            grid.push_back({tickOf(point.time), quantiser.code(point.value)});
+        return grid;
+    }
+
+    template <typename Quantiser>
+    Curve toCurve(const GridCurve& grid, const Quantiser& quantiser) const
+    {
+        Curve curve;
+        curve.reserve(grid.size());
+        for (const GridPoint& point : grid)
+            curve.push_back({timeOf(point.tick), quantiser.value(point.code)});
+        return curve;
+    }
+
+    template <typename Quantiser>
+    GridCurve codeCurve(Curve& curve, CurveCoder& kind, const Quantiser& quantiser, const CurveHints& hints)
+    {
+        const GridCurve wanted = reading ? GridCurve{} : toGrid(curve, quantiser);
+        if (failed)
+            return {};
+        GridCurve grid = kind.code(coder, wanted, lastTick, hints, mostPoints - points);
+        points += grid.size();
+        if constexpr (reading)
+        {
+            if (points >= mostPoints)
+                failed = true;
+            curve = toCurve(grid, quantiser);
+        }
+        return grid;
+    }
+
+    void codeCurves(Clip& clip)
+    {
+        const double levelStep = 3.0 / (LevelQuantiser::range / static_cast<double>((1 << params.bits) - 2));
+        const double pitchStep = 3.0 * static_cast<double>(1 << params.bits) / 64.0;
+        CurveCoder envelopeCoder(3.5, 2.0 * levelStep);
+        CurveCoder bandCoder(11.0, 1.3 * levelStep);
+        CurveCoder pitchCoder(20.0, pitchStep);
+        CurveCoder centroidCoder(20.0, pitchStep);
+
+        codeBandFrequencies(clip.bands);
+        if (failed)
+            return;
+        const FlooredLevels levels{levelQuantiser, codeFloor(clip)};
+        const GridCurve envelope = codeCurve(clip.envelope, envelopeCoder, levels, {});
+        GridCurve below;
+        std::vector<double> energies;
+        for (Band& band : clip.bands)
+        {
+            below = codeCurve(band.amplitude, bandCoder, levels, {&below, &envelope});
+            energies.push_back(curveEnergy(toCurve(below, levels), clip.duration));
+        }
+        GridCurve pitchBelow;
+        for (Band& band : clip.bands)
+            pitchBelow = codePitch(band, pitchCoder, pitchBelow);
+        codePriorities(clip.bands, prioritiesByEnergy(energies));
+        codeCurve(clip.centroid, centroidCoder, pitches, {});
+    }
+
+    /// Silence is code 0, far below the faintest real level: moved up to just below that, steps to and from it cost
+    /// little.
+    struct FlooredLevels
+    {
+        const LevelQuantiser& levels;
+        std::int64_t silence;
+        [[nodiscard]] std::int64_t code(double amplitude) const { return std::max(levels.code(amplitude), silence); }
+        [[nodiscard]] double value(std::int64_t code) const { return code <= silence ? 0.0 : levels.value(code); }
+    };
+
+    /// The code that stands for silence: one below the lowest level in the clip's envelope and bands.
+    std::int64_t codeFloor(const Clip& clip)
+    {
+        std::int64_t lowest = levelQuantiser.topCode();
+        const auto look = [&](const Curve& curve)
+        {
+            for (const Breakpoint& point : curve)
+                if (const auto code = levelQuantiser.code(point.value); code > 0)
+                    lowest = std::min(lowest, code);
+        };
+        if constexpr (!reading)
+        {
+            look(clip.envelope);
+            for (const Band& band : clip.bands)
+                look(band.amplitude);
+        }
+        return static_cast<std::int64_t>(
+            std::min<std::uint64_t>(number(static_cast<std::uint64_t>(lowest - 1), 32.0), 1u << 24));
+    }
+
+    /// A band's pitch is coded as its distance from the centre, which the bands have in common more than the pitch
+    /// itself.
+    GridCurve codePitch(Band& band, CurveCoder& kind, const GridCurve& below)
+    {
+        struct FromCentre
+        {
+            const PitchQuantiser& pitches;
+            std::int64_t centre;
+            [[nodiscard]] std::int64_t code(double hertz) const { return pitches.code(hertz) - centre; }
+            [[nodiscard]] double value(std::int64_t code) const { return pitches.value(code + centre); }
+        };
+        return codeCurve(band.pitch, kind, FromCentre{pitches, pitches.code(band.centreFrequency)}, {&below, nullptr});
+    }
+
+    void codeBandFrequencies(std::vector<Band>& bands)
+    {
+        const auto count = static_cast<std::size_t>(number(bands.size(), 12.0));
+        if (count > limits::bands)
+        {
+            failed = true;
+            return;
+        }
+        if constexpr (reading)
+            bands.resize(count);
+        if (bands.empty())
+            return;
+        const bool tiled = !reading && bands == tiledLike(bands);
+        if (coder.bit(tiled, tiledModel))
+        {
+            const double low = exact(bands.front().lowFrequency);
+            const double high = exact(bands.back().highFrequency);
+            if constexpr (reading)
+                tile(bands, low, high);
+            return;
+        }
+        for (Band& band : bands)
+        {
+            band.lowFrequency = exact(band.lowFrequency);
+            band.centreFrequency = exact(band.centreFrequency);
+            band.highFrequency = exact(band.highFrequency);
+        }
+    }
+
+    /// Sets the frequencies of equal bands on log frequency, rounded to 0.01 Hz so that every machine finds the same.
+    static void tile(std::vector<Band>& bands, double low, double high)
+    {
+        const auto edge = [&](double position)
+        {
+            return std::round(100.0 * low * std::pow(high / low, position / static_cast<double>(bands.size()))) / 100.0;
+        };
+        for (std::size_t k = 0; k < bands.size(); ++k)
+        {
+            const auto position = static_cast<double>(k);
+            bands[k].lowFrequency = k == 0 ? low : edge(position);
+            bands[k].centreFrequency = edge(position + 0.5);
+            bands[k].highFrequency = k + 1 == bands.size() ? high : edge(position + 1.0);
+        }
+    }
+
+    static std::vector<Band> tiledLike(const std::vector<Band>& bands)
+    {
+        std::vector<Band> result = bands;
+        if (bands.front().lowFrequency > 0.0)
+            tile(result, bands.front().lowFrequency, bands.back().highFrequency);
+        return result;
+    }
+
+    /// Priorities that rank the bands by energy cost one bit.
+    void codePriorities(std::vector<Band>& bands, const std::vector<int>& expected)
+    {
+        if (bands.empty())
+            return;
+        bool same = true;
+        for (std::size_t k = 0; k < bands.size(); ++k)
+            same = same && bands[k].priority == expected[k];
+        same = coder.bit(same, rankedModel);
+        AdaptiveSignedNumber model(4.0);
+        for (std::size_t k = 0; k < bands.size(); ++k)
+            bands[k].priority = same ? expected[k]
+                                     : static_cast<int>(std::clamp<std::int64_t>(model.code(coder, bands[k].priority),
+                                                                                 INT_MIN, INT_MAX));
+    }
+
+    // ---- events
+
+    void codeTransients(Clip& clip)
+    {
+        auto count = static_cast<std::size_t>(number(clip.transients.size(), 4.0));
+        count = std::min(count, mostPoints - points);
+        AdaptiveNumber gaps(300.0);
+        AdaptiveSignedNumber amplitudes(4.0), sharps(4.0);
+        std::int64_t tick = 0, level = 0, sharp = 0;
+        for (std::size_t i = 0; i < count && !failed; ++i)
+        {
+            const Transient wanted = reading ? Transient{} : clip.transients[i];
+            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
+                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
+            level = code(amplitudes, level, levelQuantiser.code(wanted.amplitude), std::int64_t{1} << 24);
+            sharp = code(sharps, sharp, sharpnesses.code(wanted.sharpness), (std::int64_t{1} << params.bits) - 1);
+            if constexpr (reading)
+                clip.transients.push_back({timeOf(tick), levelQuantiser.value(level), sharpnesses.value(sharp)});
+        }
+        points += count;
+    }
+
+    std::int64_t code(AdaptiveSignedNumber& model, std::int64_t before, std::int64_t wanted, std::int64_t top)
+    {
+        return std::clamp<std::int64_t>(before + model.code(coder, wanted - before), 0, top);
+    }
+
+    void codeNoise(Clip& clip)
+    {
+        const auto count = static_cast<std::size_t>(number(clip.noise.size(), 0.1));
+        if (count > limits::bands)
+            failed = true;
+        if (failed)
+            return;
+        if constexpr (reading)
+            clip.noise.resize(count);
+        CurveCoder kind(20.0, 4.0);
+        GridCurve below;
+        for (NoiseBand& band : clip.noise)
+        {
+            band.lowFrequency = exact(band.lowFrequency);
+            band.highFrequency = exact(band.highFrequency);
+            below = codeCurve(band.amplitude, kind, levelQuantiser, {&below, nullptr});
+        }
+    }
+
+    // ---- texts
+
+    void codeTexts(Clip& clip)
+    {
+        TextCoder text(primer());
+        const auto codeText = [&](const std::string& words)
+        {
+            return unescaped(text.code(coder, escaped(words)));
+        };
+        clip.source.file = codeText(clip.source.file);
+        if (coder.bit(clip.name == stem(clip.source.file), namedAfterFileModel))
+            clip.name = stem(clip.source.file);
+        else
+            clip.name = codeText(clip.name);
+
+        if constexpr (!reading)
+            text.code(coder, parameterText(clip.encoder));
+        else
+            clip.encoder = parametersOf(text.code(coder, {}));
+
+        auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
+        count = std::min(count, mostPoints - points);
+        AdaptiveNumber gaps(300.0);
+        std::int64_t tick = 0;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Marker wanted = reading ? Marker{} : clip.markers[i];
+            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
+                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
+            Marker marker{timeOf(tick), codeText(wanted.name)};
+            if constexpr (reading)
+                clip.markers.push_back(std::move(marker));
+        }
+    }
+
+    /// Text like what is to come; part of the format: changing it changes the version.
+    static std::string primer()
+    {
+        std::string text;
+        for (const char* name : {"Metal Impact 01.wav", "knock_wood_door.wav", "footsteps-gravel_2.flac", "engine.ogg",
+                                 "music_loop_128.aiff", "ambience 60s.mp3", "Explosion-long.wav", "click.wav"})
+            text += std::string(name) + '\0';
+        for (const char* gain : {"0.5", "1.25", "2.375"})
+            text += std::string("smethod=a2vt\nsversion=0.1.0\nnbands=12\nnbreakpoints=12\nnquantise=6\nngain=") +
+                    gain + "\n" + '\0';
+        return text;
+    }
+
+    /// Characters that mean something in the coded text ('=' and the ends of texts and lines) travel behind a 1.
+    static std::string escaped(std::string_view text)
+    {
+        std::string result;
+        for (char c : text)
+            if (c == '\0' || c == '\1' || c == '\n' || c == '=')
+            {
+                result += '\1';
+                result += static_cast<char>(c + 2);
+            }
+            else
+                result += c;
+        return result;
+    }
+
+    static std::string unescaped(std::string_view text)
+    {
+        std::string result;
+        for (std::size_t i = 0; i < text.size(); ++i)
+            if (text[i] == '\1' && i + 1 < text.size())
+                result += static_cast<char>(text[++i] - 2);
+            else
+                result += text[i];
+        return result;
+    }
+
+    static std::string stem(const std::string& file)
+    {
+        const auto dot = file.rfind('.');
+        return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
+    }
+
+    /// One line for each parameter: a letter for its type, the name, '=', the value.
+    static std::string parameterText(const std::vector<EncoderParameter>& parameters)
+    {
+        std::string text;
+        for (const EncoderParameter& parameter : parameters)
+        {
+            const std::string name = escaped(parameter.name);
+            if (const auto* number = std::get_if<double>(&parameter.value))
+            {
+                std::array<char, 40> digits{};
+                const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), *number).ptr;
+                text += "n" + name + "=" + std::string(digits.data(), end);
+            }
+            else if (const auto* words = std::get_if<std::string>(&parameter.value))
+                text += "s" + name + "=" + escaped(*words);
+            else
+                text += "b" + name + "=" + (std::get<bool>(parameter.value) ? "1" : "0");
+            text += "\n";
+        }
+        return text;
+    }
+
+    static std::vector<EncoderParameter> parametersOf(const std::string& text)
+    {
+        std::vector<EncoderParameter> parameters;
+        for (std::size_t at = 0; at < text.size();)
+        {
+            const auto end = std::min(text.find('\n', at), text.size());
+            const std::string_view line(text.data() + at, end - at);
+            at = end + 1;
+            const auto equals = line.find('=');
+            if (equals == std::string_view::npos || equals < 1)
+                continue;
+            EncoderParameter parameter{unescaped(line.substr(1, equals - 1)), {}};
+            const std::string_view value = line.substr(equals + 1);
+            if (line[0] == 'n')
+            {
+                double number = 0.0;
+                std::from_chars(value.data(), value.data() + value.size(), number);
+                parameter.value = number;
+            }
+            else if (line[0] == 'b')
+                parameter.value = value == "1";
+            else
+                parameter.value = unescaped(value);
+            parameters.push_back(std::move(parameter));
+        }
+        return parameters;
+    }
+
+    Coder& coder;
+    PackParams params;
+    LevelQuantiser levelQuantiser;
+    PitchQuantiser pitches;
+    UniformQuantiser sharpnesses;
+    std::int64_t lastTick = 0;
+    std::size_t mostPoints;
+    std::size_t points = 0;
+    bool failed = false;
+    AdaptiveBit wholeModel{0.8, 2}, wholeDurationModel{0.9, 2}, usualRateModel{0.9, 2}, tiledModel{0.9, 2},
+        rankedModel{0.9, 2}, namedAfterFileModel{0.9, 2};
+};
+
+/// CRC-16 (CCITT, polynomial 0x1021): catches a damaged or truncated file before its contents are believed.
+inline std::uint16_t crc16(std::span<const std::byte> data)
+{
+    std::uint16_t crc = 0xFFFF;
+    for (std::byte b : data)
+    {
+        crc = static_cast<std::uint16_t>(crc ^ (static_cast<std::uint16_t>(b) << 8));
+        for (int i = 0; i < 8; ++i)
+            crc = static_cast<std::uint16_t>((crc & 0x8000u) != 0 ? (crc << 1) ^ 0x1021 : crc << 1);
+    }
+    return crc;
+}
+
+inline constexpr std::array<char, 4> packedMagic = {'P', 'A', 'C', 'B'};
+inline constexpr std::uint8_t packedVersion = 1;
+inline constexpr std::size_t packedHeaderBytes = 7; // magic, version, checksum of what follows
+
+template <typename Coder>
+void codePackParams(Coder& coder, PackParams& params)
+{
+    AdaptiveBit millisecond(0.95, 4);
+    std::uint32_t bits = 0;
+    for (int i = 3; i >= 0; --i)
+        bits = (bits << 1) | static_cast<std::uint32_t>(coder.bit((((params.bits - 4) >> i) & 1) != 0));
+    params.bits = static_cast<int>(bits) + 4;
+    AdaptiveNumber ticks(1000.0);
+    if (coder.bit(params.ticksPerSecond == 1000, millisecond))
+        params.ticksPerSecond = 1000;
+    else
+        params.ticksPerSecond =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(ticks.code(coder, params.ticksPerSecond), 1, 1000000));
+}
+
+} // namespace detail
+
+/// The grids to pack a clip on: the encoder's `quantise` bits where the clip says them, else `otherwise`.
+[[nodiscard]] inline PackParams packParamsFor(const Clip& clip, const PackParams& otherwise = {})
+{
+    PackParams params = otherwise;
+    for (const EncoderParameter& parameter : clip.encoder)
+        if (parameter.name == "quantise")
+            if (const auto* bits = std::get_if<double>(&parameter.value))
+                params.bits = static_cast<int>(std::clamp(*bits, 4.0, 16.0));
+    return params;
+}
+
+/// The packed form of a valid clip: "PACB", a version, a checksum, and a range-coded rest. Amplitudes, frequencies and
+/// times are rounded to the grids of `params` (bits outside 4-16 are clamped); what is on the grids already is kept
+/// exactly.
+[[nodiscard]] inline std::vector<std::byte> packClip(const Clip& clip, PackParams params = {})
+{
+    params.bits = std::clamp(params.bits, 4, 16);
+    params.ticksPerSecond = std::clamp<std::uint32_t>(params.ticksPerSecond, 1, 1000000);
+    RangeWriter writer;
+    detail::codePackParams(writer, params);
+    Clip copy = clip;
+    detail::ClipCoder<RangeWriter>(writer, params).code(copy);
+    const std::vector<std::byte> payload = writer.finish();
+
+    std::vector<std::byte> bytes;
+    for (char c : detail::packedMagic)
+        bytes.push_back(static_cast<std::byte>(c));
+    bytes.push_back(static_cast<std::byte>(detail::packedVersion));
+    const std::uint16_t crc = detail::crc16(payload);
+    bytes.push_back(static_cast<std::byte>(crc >> 8));
+    bytes.push_back(static_cast<std::byte>(crc & 0xFF));
+    bytes.insert(bytes.end(), payload.begin(), payload.end());
+    return bytes;
+}
+
+/// Reads a packed clip. Errors: invalidData (not a packed clip, or damaged), truncated, unsupportedVersion, tooLarge.
+/// The result is a valid clip.
+[[nodiscard]] inline Result<Clip> unpackClip(std::span<const std::byte> bytes)
+{
+    using namespace detail;
+    for (std::size_t i = 0; i < packedMagic.size(); ++i)
+        if (i >= bytes.size() || static_cast<char>(bytes[i]) != packedMagic[i])
+            return Error{ErrorCode::invalidData, "header", "is not a packed Pacini clip"};
+    if (bytes.size() < packedHeaderBytes)
+        return Error{ErrorCode::truncated, "header", "ends too early"};
+    const auto version = static_cast<int>(bytes[4]);
+    if (version > packedVersion)
+        return Error{ErrorCode::unsupportedVersion, "header",
+                     "was written by a newer version (" + std::to_string(version) +
+                         ") of the format; this program reads version " +
+                         std::to_string(static_cast<int>(packedVersion))};
+    const auto payload = bytes.subspan(packedHeaderBytes);
+    if (crc16(payload) != ((static_cast<std::uint16_t>(bytes[5]) << 8) | static_cast<std::uint16_t>(bytes[6])))
+        return Error{ErrorCode::invalidData, "checksum", "does not match: the file is damaged or cut short"};
+    RangeReader reader(payload);
+    PackParams params;
+    codePackParams(reader, params);
+    Clip clip;
+    ClipCoder<RangeReader> coder(reader, params, payload.size());
+    if (!coder.code(clip))
+        return Error{ErrorCode::invalidData, "contents", "make no sense: the file is damaged"};
+    if (auto valid = validate(clip); !valid)
+        return valid.error();
+    return clip;
+}
+
+/// The clip on the grids of `params`: what packing and unpacking makes of it.
+[[nodiscard]] inline Clip quantised(const Clip& clip, const PackParams& params)
+{
+    auto result = unpackClip(packClip(clip, params));
+    return result.ok() ? std::move(result).value() : clip;
+}
+
+} // namespace pacini

@@ -1,0 +1,166 @@
+#pragma once
+
+// Streaming conversion of a sound of any rate to a fixed lower rate, for analysis.
+
+#include <pacini/foundation/Windows.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// Pass band, stop band and attenuation of a RationalDecimator.
+struct RationalDecimatorParams
+{
+    double passFrequency = 1700.0; ///< Hz, -0.1 dB or better below it
+    double stopFrequency = 2600.0; ///< Hz, attenuated above it
+    double attenuation = 60.0;     ///< dB
+    bool operator==(const RationalDecimatorParams&) const = default;
+};
+
+/// Converts from an integer input rate to an integer, lower or equal output rate by a polyphase windowed-sinc filter
+/// (Kaiser 1974; Crochiere and Rabiner, "Multirate Digital Signal Processing", 1983, ch. 2). Output frame n stands at
+/// time n / outputRate of the input: the filter's delay is compensated, so the first outputs need input from the future
+/// and appear when it has arrived. Linear phase, because envelopes and onsets must not move with frequency.
+/// Coefficients and sums are float: 160 to 2000 products keep the error below -120 dB, far under the stop band.
+class RationalDecimator
+{
+public:
+    RationalDecimator(int inputRate, int outputRate, const RationalDecimatorParams& params = {})
+        : inRate(inputRate), outRate(outputRate)
+    {
+        assert(inputRate >= outputRate && outputRate > 0);
+        const int divisor = std::gcd(inputRate, outputRate);
+        phases = outputRate / divisor;
+        step = inputRate / divisor;
+        if (inputRate == outputRate)
+            design(1, 1.0, 0.0);
+        else
+            designFor(params);
+        reset();
+    }
+
+    [[nodiscard]] int inputRate() const noexcept { return static_cast<int>(inRate); }
+
+    /// Forgets all input; the filter stays.
+    void reset()
+    {
+        historyStart = -static_cast<std::int64_t>(taps / 2); // silence before the first frame
+        history.assign(static_cast<std::size_t>(taps / 2), 0.0f);
+        pushed = 0;
+        produced = 0;
+    }
+
+    /// Appends the output frames that `input` completes to `output`.
+    void push(std::span<const float> input, std::vector<float>& output)
+    {
+        history.insert(history.end(), input.begin(), input.end());
+        pushed += static_cast<std::int64_t>(input.size());
+        run(output, std::numeric_limits<std::int64_t>::max());
+    }
+
+    /// Completes the last frames as if silence followed: ceil(pushed * outputRate / inputRate) frames in all.
+    void finish(std::vector<float>& output)
+    {
+        history.insert(history.end(), static_cast<std::size_t>(taps + step), 0.0f);
+        const std::int64_t wanted = (pushed * outRate + inRate - 1) / inRate;
+        run(output, wanted);
+    }
+
+private:
+    void designFor(const RationalDecimatorParams& params)
+    {
+        const double fs = static_cast<double>(inRate);
+        const double width = (params.stopFrequency - params.passFrequency) / fs;
+        const double cutoff = 0.5 * (params.stopFrequency + params.passFrequency) / fs; // cycles per input sample
+        const int length = static_cast<int>(std::ceil((params.attenuation - 7.95) / (14.36 * width))) + 1;
+        design((length + 7) / 8 * 8, cutoff, kaiserBeta(params.attenuation));
+    }
+
+    /// One row of `length` taps for every phase; row p is centred p / phases samples after the middle tap.
+    void design(int length, double cutoff, double beta)
+    {
+        taps = length;
+        coefficients.resize(static_cast<std::size_t>(phases) * static_cast<std::size_t>(taps));
+        if (length == 1)
+        {
+            coefficients[0] = 1.0f;
+            return;
+        }
+        const double half = 0.5 * static_cast<double>(length);
+        for (int p = 0; p < phases; ++p)
+        {
+            const double fraction = static_cast<double>(p) / static_cast<double>(phases);
+            std::vector<double> row(static_cast<std::size_t>(length));
+            double sum = 0.0;
+            for (int i = 0; i < length; ++i)
+            {
+                const double t = static_cast<double>(i - (length - 1) / 2) - fraction; // samples from the centre
+                const double x = 2.0 * cutoff * t;
+                const double sinc = std::abs(x) < 1e-12 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
+                row[static_cast<std::size_t>(i)] = sinc * kaiser(t / half, beta);
+                sum += row[static_cast<std::size_t>(i)];
+            }
+            for (int i = 0; i < length; ++i) // unit gain at DC in every phase
+                coefficients[static_cast<std::size_t>(p * length + i)] =
+                    static_cast<float>(row[static_cast<std::size_t>(i)] / sum);
+        }
+    }
+
+    void run(std::vector<float>& output, std::int64_t wanted)
+    {
+        // Frame n needs `taps` inputs around n * step / phases.
+        const std::int64_t end = historyStart + static_cast<std::int64_t>(history.size());
+        const auto length = static_cast<std::size_t>(taps);
+        std::int64_t first = firstInput();
+        while (first + taps <= end && produced < wanted)
+        {
+            const auto phase = static_cast<std::size_t>(produced * step % phases);
+            output.push_back(
+                dot(history.data() + (first - historyStart), coefficients.data() + phase * length, length));
+            ++produced;
+            first = firstInput();
+        }
+        const auto drop = std::clamp<std::int64_t>(first - historyStart, 0, static_cast<std::int64_t>(history.size()));
+        history.erase(history.begin(), history.begin() + drop);
+        historyStart += drop;
+    }
+
+    /// The first input that frame number `produced` needs.
+    [[nodiscard]] std::int64_t firstInput() const noexcept { return produced * step / phases - (taps - 1) / 2; }
+
+    /// Eight partial sums: the order of additions is fixed, and the compiler may use vector registers.
+    static float dot(const float* a, const float* b, std::size_t n) noexcept
+    {
+        float s[8] = {};
+        std::size_t i = 0;
+        for (; i + 8 <= n; i += 8)
+            for (std::size_t k = 0; k < 8; ++k)
+                s[k] += a[i + k] * b[i + k];
+        for (; i < n; ++i)
+            s[0] += a[i] * b[i];
+        return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
+    }
+
+    std::int64_t inRate;
+    std::int64_t outRate;
+    int phases = 1;
+    std::int64_t step = 1;
+    int taps = 1;
+    std::vector<float> coefficients;
+    std::vector<float> history;
+    std::int64_t historyStart = 0;
+    std::int64_t pushed = 0;
+    std::int64_t produced = 0;
+};
+
+} // namespace pacini

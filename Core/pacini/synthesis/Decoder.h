@@ -1,0 +1,312 @@
+#pragma once
+
+// Clip -> samples.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/filters/PolyphaseInterpolator.h>
+#include <pacini/synthesis/CarrierBank.h>
+#include <pacini/synthesis/EnvelopeLeveller.h>
+#include <pacini/synthesis/TransientPulse.h>
+#include <pacini/synthesis/Variation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Where a band's sinusoid stands.
+enum class CarrierMode
+{
+    fixed,    ///< at the band's centre frequency
+    pitch,    ///< on the band's pitch curve, at the centre where there is none
+    centroid, ///< all bands move with the clip's centroid, in the ratios of their centres (Weber 2020, section 4.3.3)
+};
+
+struct DecoderParams
+{
+    double sampleRate = 48000.0; ///< Hz, 2000 to 192000
+    CarrierMode carriers = CarrierMode::pitch;
+    bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
+    bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
+    PulseParams pulses;
+    VariationParams variation;
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;       ///< 2 = twice as long; pitches stay
+    double gain = 1.0;          ///< linear
+    double delay = 0.0;         ///< s of silence before the clip
+    bool operator==(const DecoderParams&) const = default;
+};
+
+/// The readings of the thesis: fixed centres, one square cycle at the actuator's resonance on top, no levelling.
+[[nodiscard]] inline DecoderParams thesisDecoderParams(double sampleRate, double resonance = 67.0)
+{
+    DecoderParams params;
+    params.sampleRate = sampleRate;
+    params.carriers = CarrierMode::fixed;
+    params.followEnvelope = false;
+    params.fullRate = true;
+    params.pulses = {PulseShape::square, resonance, 1.0};
+    return params;
+}
+
+/// Plays one clip. Construction allocates and copies what it needs; process() and reset() are real-time safe, and the
+/// output does not depend on how it is cut into blocks. Sinusoids are summed at an inner rate of 4-8 kHz (they end at
+/// 1-2 kHz), levelled to the envelope, raised to the output rate by a polyphase filter whose delay is taken out, and
+/// the pulses of the transients are added at full rate: an event tops the level of the bands up to its own amplitude,
+/// so its energy is never played twice. Values outside their ranges are clamped as stated.
+class Decoder
+{
+public:
+    Decoder(const Clip& clip, const DecoderParams& wanted) : params(clamped(wanted))
+    {
+        const Clip varied = vary(clip, params.variation);
+        const double fs = params.sampleRate;
+        const double transposition = std::pow(2.0, params.transposition / 12.0);
+        delayFrames = static_cast<std::int64_t>(std::floor(params.delay * fs + 0.5));
+        endFrame = delayFrames + static_cast<std::int64_t>(std::floor(clip.duration * params.stretch * fs + 0.5));
+
+        const double highest = highestFrequency(varied) * transposition;
+        ratio = params.fullRate
+                    ? 1
+                    : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
+        innerRate = fs / static_cast<double>(ratio);
+        carriers = CarrierBank(makeCarriers(varied, transposition));
+        if (params.followEnvelope && !varied.envelope.empty())
+        {
+            leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames);
+            for (const Breakpoint& point : varied.envelope)
+                envelope.push_back({point.time * params.stretch * innerRate, point.value});
+        }
+        interpolator =
+            std::make_unique<PolyphaseInterpolator>(ratio, std::clamp(1.05 * highest / innerRate, 0.05, 0.44));
+        makeEvents(varied, transposition);
+        re.resize(hopFrames);
+        im.resize(hopFrames);
+        wantedEnvelope.resize(hopFrames);
+        inner.resize(hopFrames);
+        ready.resize(hopFrames * ratio);
+        reset();
+    }
+
+    /// Length of the clip with its delay and stretch.
+    [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
+
+    /// Back to the start.
+    void reset() noexcept
+    {
+        carriers.reset();
+        if (leveller)
+            leveller->reset();
+        for (CurveReader& reader : envelopeReaders)
+            reader = CurveReader(envelope);
+        interpolator->reset();
+        innerFrame = 0;
+        readyFrom = ready.size();
+        skip = interpolator->latencyFrames() + (leveller ? leveller->latencyFrames() * ratio : 0);
+        position = 0;
+        firstEvent = 0;
+    }
+
+    /// Writes the next frames of the drive signal; silence after the end. [audio]
+    void process(std::span<float> out) noexcept
+    {
+        std::size_t done = 0;
+        if (position < delayFrames)
+        {
+            done = static_cast<std::size_t>(
+                std::min<std::int64_t>(delayFrames - position, static_cast<std::int64_t>(out.size())));
+            std::fill_n(out.begin(), done, 0.0f);
+        }
+        while (done < out.size() && position + static_cast<std::int64_t>(done) < endFrame)
+        {
+            if (readyFrom == ready.size())
+                makeHop();
+            const auto left = static_cast<std::size_t>(endFrame - position) - done;
+            const std::size_t n = std::min({out.size() - done, ready.size() - readyFrom, left});
+            std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(readyFrom), n,
+                        out.begin() + static_cast<std::ptrdiff_t>(done));
+            readyFrom += n;
+            done += n;
+        }
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(done), out.end(), 0.0f);
+        addEvents(out.first(done));
+        position += static_cast<std::int64_t>(out.size());
+    }
+
+private:
+    static constexpr std::size_t hopFrames = 64; // inner frames made at a time
+
+    struct Event
+    {
+        std::int64_t start = 0; // frame of the output
+        double gain = 0.0;
+        Pulse pulse;
+    };
+
+    static DecoderParams clamped(DecoderParams p)
+    {
+        p.sampleRate = std::clamp(p.sampleRate, 2000.0, 192000.0);
+        p.transposition = std::clamp(p.transposition, -96.0, 96.0);
+        p.stretch = std::clamp(p.stretch, 1e-3, 1e3);
+        p.delay = std::clamp(p.delay, 0.0, 3600.0);
+        p.pulses.frequency = std::clamp(p.pulses.frequency, 1.0, 20000.0);
+        p.pulses.cycles = std::clamp(p.pulses.cycles, 0.0, 100.0);
+        return p;
+    }
+
+    [[nodiscard]] double highestFrequency(const Clip& clip) const
+    {
+        double highest = 50.0;
+        for (const Band& band : clip.bands)
+        {
+            highest = std::max(highest, band.centreFrequency);
+            if (params.carriers == CarrierMode::pitch)
+                for (const Breakpoint& point : band.pitch)
+                    highest = std::max(highest, point.value);
+        }
+        if (params.carriers == CarrierMode::centroid)
+            for (const Breakpoint& point : clip.centroid)
+                highest = std::max(highest, point.value * highest / std::max(1.0, referenceFrequency(clip)));
+        return highest;
+    }
+
+    /// Geometric mean of the band centres.
+    static double referenceFrequency(const Clip& clip)
+    {
+        double sum = 0.0;
+        for (const Band& band : clip.bands)
+            sum += std::log(std::max(band.centreFrequency, 1e-3));
+        return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
+    }
+
+    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip, double transposition) const
+    {
+        std::vector<Carrier> result;
+        const double reference = referenceFrequency(clip);
+        for (const Band& band : clip.bands)
+        {
+            Carrier carrier;
+            for (const Breakpoint& point : band.amplitude)
+                carrier.amplitude.push_back({point.time * params.stretch * innerRate, point.value * params.gain});
+            const auto addFrequency = [&](double time, double hertz)
+            {
+                // Nothing may fold: what transposition pushes out of the range stays at its end.
+                const double f = std::clamp(hertz * transposition, 5.0, 0.45 * params.sampleRate);
+                carrier.frequency.push_back({time * params.stretch * innerRate, f / innerRate});
+            };
+            if (params.carriers == CarrierMode::pitch)
+                for (const Breakpoint& point : band.pitch)
+                    addFrequency(point.time, point.value);
+            if (params.carriers == CarrierMode::centroid)
+                for (const Breakpoint& point : clip.centroid)
+                    addFrequency(point.time, point.value * band.centreFrequency / reference);
+            if (carrier.frequency.empty())
+                addFrequency(0.0, band.centreFrequency);
+            if (!carrier.amplitude.empty())
+                result.push_back(std::move(carrier));
+        }
+        return result;
+    }
+
+    void makeEvents(const Clip& clip, double transposition)
+    {
+        const double fs = params.sampleRate;
+        for (std::size_t i = 0; i < clip.transients.size(); ++i)
+        {
+            const Transient& transient = clip.transients[i];
+            const double gap = i + 1 < clip.transients.size()
+                                   ? (clip.transients[i + 1].time - transient.time) * params.stretch
+                                   : std::numeric_limits<double>::infinity();
+            double level = transient.amplitude;
+            if (leveller)
+            {
+                // What the bands reach by themselves around the event needs no pulse.
+                double reached = 0.0;
+                for (const double after : {0.0, 0.005, 0.010})
+                    reached = std::max(reached, valueAt(clip.envelope, transient.time + after));
+                level = std::sqrt(std::max(level * level - reached * reached, 0.0));
+            }
+            if (level <= 0.0)
+                continue;
+            const auto start =
+                delayFrames + static_cast<std::int64_t>(std::floor(transient.time * params.stretch * fs + 0.5));
+            events.push_back(
+                {start, level * params.gain, makePulse(params.pulses, transient.sharpness, gap, fs, transposition)});
+            longestPulse = std::max(longestPulse, static_cast<std::int64_t>(events.back().pulse.frames));
+        }
+    }
+
+    void makeHop() noexcept
+    {
+        do
+        {
+            std::fill(re.begin(), re.end(), 0.0);
+            std::fill(im.begin(), im.end(), 0.0);
+            carriers.process(re, im);
+            if (leveller)
+                leveller->process(re, im, [this](std::size_t pass) { return envelopeOf(pass); });
+            for (std::size_t n = 0; n < hopFrames; ++n)
+                inner[n] = static_cast<float>(im[n]); // sines, as in Eq. 4.13
+            interpolator->process(inner, ready);
+            innerFrame += static_cast<std::int64_t>(hopFrames);
+            const std::size_t skipped = std::min(skip, ready.size());
+            skip -= skipped;
+            readyFrom = skipped;
+        } while (readyFrom == ready.size());
+    }
+
+    /// The envelope at the frames that pass `pass` of the leveller puts out in this hop.
+    std::span<const double> envelopeOf(std::size_t pass) noexcept
+    {
+        const auto first = static_cast<double>(innerFrame) - static_cast<double>(leveller->delayOfPass(pass));
+        for (std::size_t n = 0; n < hopFrames; ++n)
+            wantedEnvelope[n] = params.gain * envelopeReaders[pass].at(first + static_cast<double>(n));
+        return wantedEnvelope;
+    }
+
+    void addEvents(std::span<float> out) noexcept
+    {
+        const std::int64_t end = position + static_cast<std::int64_t>(out.size());
+        while (firstEvent < events.size() && events[firstEvent].start + longestPulse <= position)
+            ++firstEvent;
+        for (std::size_t i = firstEvent; i < events.size() && events[i].start < end; ++i)
+        {
+            const Event& event = events[i];
+            const std::int64_t from = std::max(event.start, position);
+            addPulse(event.pulse, event.gain, static_cast<std::size_t>(from - event.start),
+                     out.subspan(static_cast<std::size_t>(from - position)));
+        }
+    }
+
+    DecoderParams params;
+    std::int64_t delayFrames = 0;
+    std::int64_t endFrame = 0;
+    std::size_t ratio = 1;
+    double innerRate = 48000.0;
+    CarrierBank carriers;
+    std::unique_ptr<EnvelopeLeveller> leveller;
+    std::unique_ptr<PolyphaseInterpolator> interpolator;
+    Curve envelope; // time in inner frames
+    std::array<CurveReader, EnvelopeLeveller::passCount> envelopeReaders;
+    std::vector<Event> events;
+    std::int64_t longestPulse = 0;
+
+    std::vector<double> re, im, wantedEnvelope;
+    std::vector<float> inner, ready;
+    std::int64_t innerFrame = 0;
+    std::size_t readyFrom = 0;
+    std::size_t skip = 0;
+    std::int64_t position = 0;
+    std::size_t firstEvent = 0;
+};
+
+} // namespace pacini
