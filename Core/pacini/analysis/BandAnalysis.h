@@ -3,7 +3,7 @@
 // The offline analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
 
 #include <pacini/analysis/AnalyticTrack.h>
-#include <pacini/analysis/BandEdges.h>
+#include <pacini/analysis/BandFades.h>
 #include <pacini/foundation/Fft.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 // The packed form of a clip (.pacb): quantised, predicted and entropy-coded.
 
 #include <pacini/clip/BandPriority.h>
+#include <pacini/clip/BandTiling.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedCurves.h>
 #include <pacini/clip/PackedText.h>
@@ -261,15 +262,17 @@ private:
             bands.resize(count);
         if (bands.empty())
             return;
-        const bool tiled = !reading && bands == tiledLike(bands);
-        if (coder.bit(tiled, tiledModel))
-        {
-            const double low = exact(bands.front().lowFrequency);
-            const double high = exact(bands.back().highFrequency);
-            if constexpr (reading)
-                tile(bands, low, high);
-            return;
-        }
+        for (const BandSpacing spacing : {BandSpacing::logarithmic, BandSpacing::linear})
+            if (coder.bit(!reading && isTiled(bands, spacing), tiledModel))
+            {
+                const double low = exact(bands.front().lowFrequency);
+                const double high = exact(bands.back().highFrequency);
+                if (!canTile(low, high))
+                    failed = true;
+                else if (reading)
+                    setFrequencies(bands, tiledBands(bands.size(), low, high, spacing));
+                return;
+            }
         for (Band& band : bands)
         {
             band.lowFrequency = exact(band.lowFrequency);
@@ -278,28 +281,27 @@ private:
         }
     }
 
-    /// Sets the frequencies of equal bands on log frequency, rounded to 0.01 Hz so that every machine finds the same.
-    static void tile(std::vector<Band>& bands, double low, double high)
+    static bool canTile(double low, double high) { return low > 0.0 && high > low && high <= limits::frequency; }
+
+    static bool isTiled(const std::vector<Band>& bands, BandSpacing spacing)
     {
-        const auto edge = [&](double position)
-        {
-            return std::round(100.0 * low * std::pow(high / low, position / static_cast<double>(bands.size()))) / 100.0;
-        };
-        for (std::size_t k = 0; k < bands.size(); ++k)
-        {
-            const auto position = static_cast<double>(k);
-            bands[k].lowFrequency = k == 0 ? low : edge(position);
-            bands[k].centreFrequency = edge(position + 0.5);
-            bands[k].highFrequency = k + 1 == bands.size() ? high : edge(position + 1.0);
-        }
+        const double low = bands.front().lowFrequency;
+        const double high = bands.back().highFrequency;
+        if (!canTile(low, high))
+            return false;
+        std::vector<Band> tiled = bands;
+        setFrequencies(tiled, tiledBands(bands.size(), low, high, spacing));
+        return tiled == bands;
     }
 
-    static std::vector<Band> tiledLike(const std::vector<Band>& bands)
+    static void setFrequencies(std::vector<Band>& bands, const std::vector<BandEdges>& edges)
     {
-        std::vector<Band> result = bands;
-        if (bands.front().lowFrequency > 0.0)
-            tile(result, bands.front().lowFrequency, bands.back().highFrequency);
-        return result;
+        for (std::size_t k = 0; k < bands.size(); ++k)
+        {
+            bands[k].lowFrequency = edges[k].low;
+            bands[k].centreFrequency = edges[k].centre;
+            bands[k].highFrequency = edges[k].high;
+        }
     }
 
     /// Priorities that rank the bands by energy cost one bit.

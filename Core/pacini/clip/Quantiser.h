@@ -44,7 +44,8 @@ private:
 class LevelQuantiser
 {
 public:
-    static constexpr double range = 72.0; ///< dB
+    static constexpr double range = 72.0;     ///< dB below full drive
+    static constexpr double highest = 1000.0; ///< values above come back as this
 
     /// `bits` in 4-16.
     constexpr explicit LevelQuantiser(int bits) noexcept
@@ -62,7 +63,7 @@ public:
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return code <= 0 ? 0.0 : std::pow(10.0, static_cast<double>(code - top) * step / 20.0);
+        return code <= 0 ? 0.0 : std::min(highest, std::pow(10.0, static_cast<double>(code - top) * step / 20.0));
     }
 
 private:
@@ -75,6 +76,9 @@ private:
 class PitchQuantiser
 {
 public:
+    static constexpr double lowest = 1e-3; ///< Hz; values outside come back as the limits
+    static constexpr double highest = 4e5; ///< Hz
+
     constexpr explicit PitchQuantiser(int bits) noexcept
         : stepsPerOctave(3.0 * static_cast<double>(std::int64_t{1} << bits) / 4.0)
     {
@@ -83,11 +87,11 @@ public:
     /// Frequencies at or below 0 have no pitch: they get the lowest code.
     [[nodiscard]] std::int64_t code(double hertz) const noexcept
     {
-        return static_cast<std::int64_t>(std::round(std::log2(std::clamp(hertz, 1e-3, 1e9)) * stepsPerOctave));
+        return static_cast<std::int64_t>(std::round(std::log2(std::clamp(hertz, lowest, highest)) * stepsPerOctave));
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return std::exp2(static_cast<double>(code) / stepsPerOctave);
+        return std::clamp(std::exp2(static_cast<double>(code) / stepsPerOctave), lowest, highest);
     }
 
 private:

@@ -67,6 +67,20 @@ public:
         frame += frames;
     }
 
+    /// Goes on by `frames` without sound, in time that does not depend on their number but on that of breakpoints.
+    void skip(std::int64_t frames) noexcept
+    {
+        for (std::size_t i = 0; i < carriers.size(); ++i)
+            for (std::int64_t done = 0; done < frames;)
+            {
+                const Segment segment = segmentAt(carriers[i], states[i], frame + done);
+                const std::int64_t length = std::min(segment.end - frame, frames) - done;
+                advancePhase(segment, states[i], static_cast<double>(length));
+                done += length;
+            }
+        frame += frames;
+    }
+
 private:
     static constexpr std::int64_t restart = 256; // frames
     static constexpr std::size_t lanes = 4;
@@ -121,6 +135,13 @@ private:
         return {a.value, a.step, f.value, f.step, std::min(a.end, f.end)};
     }
 
+    /// The phase `n` frames on: sum of the frequencies until then, modulo one cycle.
+    static void advancePhase(const Segment& s, State& state, double n) noexcept
+    {
+        const double advanced = state.phase + s.frequency * n + 0.5 * s.frequencyStep * n * (n - 1.0);
+        state.phase = advanced - std::floor(advanced);
+    }
+
     /// exp(2 pi i cycles)
     static std::complex<double> turnBy(double cycles) noexcept
     {
@@ -136,10 +157,8 @@ private:
 
     static void run(const Segment& s, State& state, std::size_t length, double* re, double* im) noexcept
     {
-        const auto n = static_cast<double>(length);
         const double start = state.phase;
-        const double advanced = start + s.frequency * n + 0.5 * s.frequencyStep * n * (n - 1.0);
-        state.phase = advanced - std::floor(advanced);
+        advancePhase(s, state, static_cast<double>(length));
         if (s.amplitude == 0.0 && s.amplitudeStep == 0.0)
             return;
 

@@ -1,0 +1,95 @@
+#include "support/Catch.h"
+
+#include <pacini/synthesis/EnvelopeLeveller.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace pacini;
+
+namespace
+{
+constexpr std::size_t hop = 64;
+
+/// Levels a signal whose analytic form is given by `at(n)` to the constant `wanted`; returns the magnitudes that come
+/// out.
+template <typename At>
+std::vector<double> level(At&& at, double wanted, std::size_t hops, double fs = 4000.0)
+{
+    EnvelopeLeveller leveller(fs, hop);
+    std::vector<double> magnitudes, re(hop), im(hop), target(hop, wanted);
+    for (std::size_t h = 0; h < hops; ++h)
+    {
+        for (std::size_t i = 0; i < hop; ++i)
+        {
+            const auto z = at(h * hop + i);
+            re[i] = z.first;
+            im[i] = z.second;
+        }
+        leveller.process(re, im, [&](std::size_t) { return std::span<const double>(target); });
+        for (std::size_t i = 0; i < hop; ++i)
+            magnitudes.push_back(std::hypot(re[i], im[i]));
+    }
+    return magnitudes;
+}
+} // namespace
+
+TEST_CASE("A steady sinusoid comes out at the wanted level", "[synthesis]")
+{
+    const auto m = level(
+        [](std::size_t n) {
+            return std::pair(0.3 * std::cos(0.2 * static_cast<double>(n)),
+                             0.3 * std::sin(0.2 * static_cast<double>(n)));
+        },
+        0.5, 20);
+    for (std::size_t n = 200; n < m.size(); ++n)
+        REQUIRE(m[n] == Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("Slow beats of two sinusoids are levelled, fast ones stay", "[synthesis]")
+{
+    const auto depth = [](double beat)
+    {
+        const auto m = level(
+            [&](std::size_t n)
+            {
+                const double t = static_cast<double>(n) / 4000.0, a = 2.0 * std::numbers::pi * 300.0 * t,
+                             b = 2.0 * std::numbers::pi * (300.0 + beat) * t;
+                return std::pair(std::cos(a) + 0.7 * std::cos(b), std::sin(a) + 0.7 * std::sin(b));
+            },
+            1.0, 100);
+        // Depth of the envelope smoothed over 10 ms, which is what the leveller answers for.
+        double low = 1e9, high = 0.0;
+        for (std::size_t n = 400; n + 40 < m.size(); ++n)
+        {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < 40; ++k)
+                sum += m[n + k] / 40.0;
+            low = std::min(low, sum);
+            high = std::max(high, sum);
+        }
+        return (high - low) / (high + low);
+    };
+    CHECK(depth(8.0) < 0.03);
+    CHECK(depth(20.0) < 0.10);
+    const auto raw = level(
+        [](std::size_t n)
+        {
+            const double a = 0.4 * static_cast<double>(n),
+                         b = a + 2.0 * std::numbers::pi * 150.0 * static_cast<double>(n) / 4000.0;
+            return std::pair(std::cos(a) + 0.7 * std::cos(b), std::sin(a) + 0.7 * std::sin(b));
+        },
+        1.0, 100);
+    const auto [low, high] = std::minmax_element(raw.begin() + 400, raw.end());
+    CHECK((*high - *low) / (*high + *low) > 0.6); // 0.7 before
+}
+
+TEST_CASE("Silence stays silence and gains stay bounded", "[synthesis]")
+{
+    for (double v : level([](std::size_t) { return std::pair(0.0, 0.0); }, 1.0, 10))
+        CHECK(v == 0.0);
+    for (double v : level([](std::size_t n) { return std::pair(1e-4, n % 2 == 0 ? 1e-4 : 0.0); }, 1.0, 10))
+        CHECK(v <= 1e-4 * 1.5 * EnvelopeLeveller::largestGain * EnvelopeLeveller::largestGain);
+    for (double v : level([](std::size_t n) { return std::pair(n == 200 ? 1e100 : 1.0, 0.0); }, 1.0, 10))
+        CHECK(std::isfinite(v));
+}
