@@ -125,4 +125,24 @@ std::optional<AudioDataSize> audioDataSize(std::FILE* file)
     return {};
 }
 
+bool hasMp3FrameCount(std::FILE* file)
+{
+    std::array<unsigned char, 64> bytes{};
+    if (!seekStream(file, 0, SEEK_SET) || std::fread(bytes.data(), 1, 10, file) != 10)
+        return false;
+    std::int64_t offset = 0;
+    // ID3v2 in front: its size has 7 bits per byte (M. Nilsson, "ID3 tag version 2.4.0", 2000).
+    if (startsWith(bytes, "ID3"))
+        offset = 10 + ((bytes[6] & 0x7F) << 21 | (bytes[7] & 0x7F) << 14 | (bytes[8] & 0x7F) << 7 | (bytes[9] & 0x7F));
+    if (!seekStream(file, offset, SEEK_SET))
+        return false;
+    const auto got = std::fread(bytes.data(), 1, bytes.size(), file);
+    // Behind the 4 bytes of the frame's header and at most 32 bytes of side information.
+    for (std::size_t i = 4; i + 8 <= got; ++i)
+        for (std::string_view id : {"Xing", "Info"})
+            if (startsWith(std::span(bytes).subspan(i), id))
+                return (bytes[i + 7] & 1u) != 0;
+    return false;
+}
+
 } // namespace pacini

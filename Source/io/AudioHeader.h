@@ -22,4 +22,8 @@ struct AudioDataSize
 /// Trusts no number of the file; moves the stream's position.
 [[nodiscard]] std::optional<AudioDataSize> audioDataSize(std::FILE* file);
 
+/// Whether an MP3 file starts with a header that counts its frames (Xing or Info). Without one, its length can only be
+/// guessed from the bit rate. Moves the stream's position.
+[[nodiscard]] bool hasMp3FrameCount(std::FILE* file);
+
 } // namespace pacini

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -59,11 +60,11 @@ Error invalid(std::string message)
     return {ErrorCode::invalidData, "", std::move(message)};
 }
 
-Error truncated(std::uint64_t present, std::uint64_t promised)
+Error truncated(std::uint64_t present, std::uint64_t promised, std::string_view unit = "frames")
 {
     return {ErrorCode::truncated, "",
-            fmt::format("is cut off: {} frames are there, {} were promised; get a whole copy or allow truncated files",
-                        present, promised)};
+            fmt::format("is cut off: {} {} are there, {} were promised; get a whole copy or allow truncated files",
+                        present, unit, promised)};
 }
 
 /// Bytes of one sample, 0 for codecs that pack samples together.
@@ -90,15 +91,34 @@ std::uint64_t sampleBytes(int format)
     }
 }
 
-/// Frames in `bytes` of audio data; codecs are taken in proportion to what is there.
-std::uint64_t framesIn(std::uint64_t bytes, const AudioDataSize& data, const SF_INFO& info)
+/// The Error for a header that promises more than the file has, or nothing.
+std::optional<Error> brokenPromise(const AudioDataSize& data, const SF_INFO& info)
 {
-    if (const auto width = sampleBytes(info.format); width != 0)
-        return bytes / (width * static_cast<std::uint64_t>(info.channels));
-    if (data.present == 0)
-        return bytes;
-    return static_cast<std::uint64_t>(
-        std::round(static_cast<double>(info.frames) * static_cast<double>(bytes) / static_cast<double>(data.present)));
+    if (data.present >= data.promised)
+        return {};
+    const auto width = sampleBytes(info.format);
+    if (width == 0)
+        return truncated(data.present, data.promised, "bytes of audio");
+    const auto frameBytes = width * static_cast<std::uint64_t>(info.channels);
+    if (data.present / frameBytes == data.promised / frameBytes)
+        return {};
+    // libsndfile delivers a frame or two less than fit in some formats.
+    const auto delivers = static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0));
+    return truncated(std::min(data.present / frameBytes, delivers), data.promised / frameBytes);
+}
+
+/// Why libsndfile could not open a file that exists.
+Error openingFailed(const std::optional<AudioDataSize>& data)
+{
+    if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
+        return invalid("is not audio in a known format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
+    if (data && data->present < data->promised)
+        return truncated(data->present, data->promised, "bytes of audio");
+    auto reason = soundError(nullptr);
+    // What its MP3 part says of every file that is too short to start.
+    if (reason.starts_with("file does not exist"))
+        reason = "its audio is incomplete";
+    return invalid(fmt::format("cannot be read as audio ({}); get a whole copy or convert it to WAV", reason));
 }
 } // namespace
 
@@ -108,6 +128,8 @@ struct AudioReader::State
     SoundHandle sound;
     SF_INFO info{};
     AudioReadOptions options;
+    std::optional<std::uint64_t> promisedFrames;
+    std::uint64_t slackFrames = 0; ///< frames that a promise may be off
     std::uint64_t delivered = 0;
     std::uint64_t replaced = 0;
 
@@ -144,12 +166,17 @@ struct AudioReader::State
             return fileError(EIO);
         if (options.allowTruncated)
             return {};
-        // The length of an MP3 is a guess, so it is no promise.
-        const bool counted = info.frames < SF_COUNT_MAX && (info.format & SF_FORMAT_TYPEMASK) != SF_FORMAT_MPEG;
-        if (counted && delivered < static_cast<std::uint64_t>(info.frames))
-            return truncated(delivered, static_cast<std::uint64_t>(info.frames));
+        const auto type = info.format & SF_FORMAT_TYPEMASK;
+        if (info.frames == SF_COUNT_MAX && type == SF_FORMAT_OGG)
+            return Error{
+                ErrorCode::truncated, "",
+                fmt::format("is cut off: {} frames are there, but not the mark of its end; get a whole copy or "
+                            "allow truncated files",
+                            delivered)};
+        if (promisedFrames && delivered + slackFrames < *promisedFrames)
+            return truncated(delivered, *promisedFrames);
         if (sf_error(sound.get()) != SF_ERR_NO_ERROR)
-            return invalid(fmt::format("is damaged after frame {}: {}; get a whole copy or allow truncated files",
+            return invalid(fmt::format("is damaged after frame {} ({}); get a whole copy or allow truncated files",
                                        delivered, soundError(sound.get())));
         return {};
     }
@@ -175,34 +202,28 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     state->file = std::move(*file);
     state->options = options;
     const auto data = audioDataSize(state->file.get());
+    const bool countsItsFrames = hasMp3FrameCount(state->file.get());
     seekStream(state->file.get(), 0, SEEK_SET);
 
     SF_VIRTUAL_IO io{streamLength, streamSeek, streamRead, nullptr, streamTell};
     SF_INFO& info = state->info;
     state->sound.reset(sf_open_virtual(&io, SFM_READ, &info, state->file.get()));
     if (!state->sound)
-    {
-        if (sf_error(nullptr) == SF_ERR_UNRECOGNISED_FORMAT)
-            return invalid("is not audio in a known format; convert it to WAV, AIFF, FLAC, Ogg or CAF");
-        if (data && data->present < data->promised)
-            return Error{ErrorCode::truncated, "",
-                         fmt::format("is cut off: {} bytes of audio are there, {} were promised; get a whole copy",
-                                     data->present, data->promised)};
-        return invalid("cannot be read as audio: " + soundError(nullptr));
-    }
+        return openingFailed(data);
     if (info.channels < 1 || info.channels > limits::channels)
         return invalid(
             fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
     if (info.samplerate < limits::lowestSampleRate || info.samplerate > limits::highestSampleRate)
         return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it", info.samplerate,
                                    limits::lowestSampleRate, limits::highestSampleRate));
-    if (data && data->present < data->promised && !options.allowTruncated)
-    {
-        const auto present = framesIn(data->present, *data, info);
-        const auto promised = framesIn(data->promised, *data, info);
-        if (present < promised)
-            return truncated(present, promised);
-    }
+    if (data && !options.allowTruncated)
+        if (auto broken = brokenPromise(*data, info))
+            return *broken;
+    const bool mp3 = (info.format & SF_FORMAT_TYPEMASK) == SF_FORMAT_MPEG;
+    if (info.frames < SF_COUNT_MAX && (!mp3 || countsItsFrames))
+        state->promisedFrames = static_cast<std::uint64_t>(std::max<sf_count_t>(info.frames, 0));
+    // Encoders disagree on whether the padding of the first and last of the 1152-frame blocks counts.
+    state->slackFrames = mp3 ? 2 * 1152 : 0;
     return AudioReader(std::move(state));
 }
 

@@ -36,7 +36,8 @@ class AudioReader
 {
 public:
     /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
-    /// channels outside 1-64, rate outside 8-384 kHz), truncated (the header promises more than is there).
+    /// channels outside 1-64, rate outside 8-384 kHz), truncated (the header promises more than is there; FLAC, Ogg and
+    /// MP3 show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;

@@ -107,7 +107,7 @@ struct AudioWriter::State
     Random random;
     SoundHandle sound;
     AudioWriteReport report;
-    std::optional<Error> broken; ///< why write() gave up
+    std::optional<Error> broken; ///< why writing was given up
 
     /// What the disk says, else what libsndfile says.
     Error failed(const std::string& message) const
@@ -138,6 +138,35 @@ struct AudioWriter::State
         std::array<int, partSamples> integers;
         std::transform(part.begin(), part.end(), integers.begin(), [this](float x) { return quantised(x); });
         return sf_write_int(sound.get(), integers.data(), count) == count;
+    }
+
+    Result<void> append(std::span<const float> interleaved)
+    {
+        const auto channels = static_cast<std::size_t>(params.channels);
+        assert(interleaved.size() % channels == 0);
+        const auto bad =
+            std::find_if_not(interleaved.begin(), interleaved.end(), [](float x) { return std::isfinite(x); });
+        if (bad != interleaved.end())
+        {
+            const auto index = static_cast<std::size_t>(bad - interleaved.begin());
+            return Error{ErrorCode::notFinite,
+                         fmt::format("frame {}, channel {}", report.frames + index / channels, index % channels),
+                         "is not a finite number (counted from 0); only numbers can be written"};
+        }
+        const auto frames = interleaved.size() / channels;
+        const auto frameBytes = channels * static_cast<std::size_t>(bits(params.encoding)) / 8;
+        if ((format & SF_FORMAT_TYPEMASK) == SF_FORMAT_WAV && report.frames + frames > largestWav / frameBytes)
+            return Error{ErrorCode::tooLarge, "",
+                         "a WAV file ends at 4 GB; announce the length first to get an RF64, or use FLAC"};
+        const auto partFrames = partSamples / channels;
+        for (std::size_t done = 0; done < frames; done += partFrames)
+        {
+            const auto count = std::min(partFrames, frames - done);
+            if (!writePart(interleaved.subspan(done * channels, count * channels)))
+                return failed(soundError(sound.get()));
+        }
+        report.frames += frames;
+        return {};
     }
 
     static constexpr std::size_t partSamples = 4096;
@@ -174,32 +203,11 @@ Result<AudioWriter> AudioWriter::create(const fs::path& path, const AudioWritePa
 
 Result<void> AudioWriter::write(std::span<const float> interleaved)
 {
-    State& s = *state;
-    const auto channels = static_cast<std::size_t>(s.params.channels);
-    assert(interleaved.size() % channels == 0);
-    const auto bad = std::find_if_not(interleaved.begin(), interleaved.end(), [](float x) { return std::isfinite(x); });
-    if (bad != interleaved.end())
-    {
-        const auto index = static_cast<std::size_t>(bad - interleaved.begin());
-        return Error{ErrorCode::notFinite,
-                     fmt::format("frame {}, channel {}", s.report.frames + index / channels, index % channels),
-                     "is not a finite number (counted from 0); only numbers can be written"};
-    }
-    const auto frames = interleaved.size() / channels;
-    const auto frameBytes = channels * static_cast<std::size_t>(bits(s.params.encoding)) / 8;
-    if ((s.format & SF_FORMAT_TYPEMASK) == SF_FORMAT_WAV && s.report.frames + frames > largestWav / frameBytes)
-        return Error{ErrorCode::tooLarge, "",
-                     "a WAV file ends at 4 GB; announce the length first to get an RF64, or use FLAC"};
-    const auto partFrames = State::partSamples / channels;
-    for (std::size_t done = 0; done < frames; done += partFrames)
-    {
-        const auto count = std::min(partFrames, frames - done);
-        if (s.writePart(interleaved.subspan(done * channels, count * channels)))
-            continue;
-        s.broken = s.failed(soundError(s.sound.get()));
-        return *s.broken;
-    }
-    s.report.frames += frames;
+    if (!state->broken)
+        if (auto appended = state->append(interleaved); !appended)
+            state->broken = appended.error();
+    if (state->broken)
+        return *state->broken;
     return {};
 }
 
@@ -207,6 +215,9 @@ Result<AudioWriteReport> AudioWriter::finish()
 {
     if (state->broken)
         return *state->broken;
+    // Without samples libsndfile would not even start a FLAC.
+    if (state->report.frames == 0)
+        sf_command(state->sound.get(), SFC_UPDATE_HEADER_NOW, nullptr, 0);
     state->sound.reset();
     const auto size = state->file.size();
     if (auto done = state->file.commit(); !done)

@@ -29,7 +29,7 @@ struct AudioWriteParams
 
     /// PCM only: adds triangular dither of +-1 step from this seed. Decorrelates the rounding error from the signal and
     /// keeps its power constant (Lipshitz, Wannamaker and Vanderkooy, "Quantization and dither", JAES 40, 1992).
-    std::optional<std::uint64_t> ditherSeed;
+    std::optional<std::uint64_t> ditherSeed = std::nullopt;
 
     /// As far as known, else 0. A WAV that would pass 4 GB becomes an RF64 (EBU Tech 3306).
     std::uint64_t expectedFrames = 0;
@@ -59,7 +59,8 @@ public:
 
     /// Appends whole frames of `interleaved` samples, full scale 1. PCM stores round(x * 2^(bits-1)), so k / 2^(bits-1)
     /// comes back exactly; exactly 1 is one step too large and stored as the largest value without counting as clipped.
-    /// Errors: notFinite (frame and channel counted from 0), io (disk full ...), tooLarge (a WAV passing 4 GB).
+    /// Errors: notFinite (frame and channel counted from 0), io (disk full ...), tooLarge (a WAV passing 4 GB). After
+    /// an Error nothing more is written and finish() returns it again.
     [[nodiscard]] Result<void> write(std::span<const float> interleaved);
 
     /// Completes the file and puts it in place. Errors: io; then nothing was changed. Call once.
