@@ -41,12 +41,16 @@ public:
     /// Whether what is still to come starts with `text` (shorter than a chunk).
     [[nodiscard]] bool startsWith(std::string_view text) { return !atEnd() && chunk.substr(next).starts_with(text); }
 
-    /// `line L, column C` of the character before `position`, counted from the start of the text.
+    /// `line L, column C` of the character before `position`, counted from the start of the text. A lexer looks one
+    /// character ahead, so that character may be the last of the block before.
     [[nodiscard]] std::string place(std::size_t position) const
     {
-        const auto inChunk = position <= chunkStart ? 0 : std::min(position - 1 - chunkStart, chunk.size());
-        auto at = chunkPlace;
-        at.pass(chunk.substr(0, inChunk));
+        auto at = lastPlace;
+        if (position > chunkStart)
+        {
+            at = chunkPlace;
+            at.pass(chunk.substr(0, position - 1 - chunkStart));
+        }
         return fmt::format("line {}, column {}", at.line, at.column);
     }
 
@@ -72,7 +76,12 @@ private:
     {
         if (input == nullptr || passedLimit)
             return false;
-        chunkPlace.pass(chunk);
+        if (!chunk.empty())
+        {
+            lastPlace = chunkPlace;
+            lastPlace.pass(chunk.substr(0, chunk.size() - 1));
+            chunkPlace.pass(chunk);
+        }
         chunkStart += chunk.size();
         next = 0;
         const auto got = input->sgetn(buffer.data(), static_cast<std::streamsize>(buffer.size()));
@@ -90,7 +99,8 @@ private:
     std::string_view chunk;
     std::size_t next = 0;
     std::size_t chunkStart = 0;
-    Place chunkPlace;
+    Place chunkPlace; ///< of the first character of the block
+    Place lastPlace;  ///< of the last character of the block before
     std::size_t limit;
     bool passedLimit = false;
 };

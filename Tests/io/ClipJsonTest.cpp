@@ -286,6 +286,14 @@ TEST_CASE("Places are right across the blocks of a stream", "[io][json]")
         CHECK(readClipJson(text).error().where == expected);
         std::istringstream stream(text);
         CHECK(readClipJson(stream).error().where == expected);
+
+        // A number ends only where the next character is seen, which may be in the next block or not there.
+        for (const char* ending : {"03", "03}", "\"a\"4,", "\xC3\xA4"})
+        {
+            const auto number = "{\"x\":\n" + std::string(padding, ' ') + ending;
+            std::istringstream numberStream(number);
+            CHECK(readClipJson(numberStream).error().text() == readClipJson(number).error().text());
+        }
     }
     CHECK(readClipJson("{\r\n  \"n\xC3\xA4me\": x").error().where == "line 2, column 11");
 }
