@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -174,6 +175,14 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
         return r;
     if (clip.source.channels < 0)
         return brokenRule("source.channels", "is negative");
+    std::set<std::string_view> names;
+    for (const auto& [name, value] : clip.encoder)
+    {
+        if (!names.insert(name).second)
+            return brokenRule("encoder", "has two parameters of the same name");
+        if (const auto* number = std::get_if<double>(&value); number != nullptr && !std::isfinite(*number))
+            return brokenRule("encoder", "has a parameter that is not a finite number", ErrorCode::notFinite);
+    }
     if (auto r = checkCurve(clip.envelope, "amplitude", clip.duration, 0.0, limits::amplitude, "envelope"); !r)
         return r;
     if (auto r = checkCurve(clip.centroid, "frequency", clip.duration, 0.0, limits::frequency, "centroid"); !r)

@@ -1,0 +1,82 @@
+#pragma once
+
+// Streams samples out of an audio file that may be damaged or hostile.
+
+#include <pacini/foundation/Result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// What a reader lets pass instead of reporting it.
+struct AudioReadOptions
+{
+    bool allowTruncated = false; ///< deliver what is there of a file that was cut off
+    bool allowNan = false;       ///< replace NaN and infinite samples by 0 and count them
+};
+
+/// The range of files that are read and written.
+namespace limits
+{
+inline constexpr int channels = 64;
+inline constexpr int lowestSampleRate = 8000;    ///< Hz
+inline constexpr int highestSampleRate = 384000; ///< Hz
+} // namespace limits
+
+/// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
+/// MP3. The content decides the format, not the name. Memory does not grow with what a header claims.
+class AudioReader
+{
+public:
+    /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
+    /// channels outside 1-64, rate outside 8-384 kHz), truncated (the header promises more than is there; FLAC, Ogg and
+    /// MP3 show this only at their end, in read()).
+    [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
+
+    AudioReader(AudioReader&&) noexcept;
+    AudioReader& operator=(AudioReader&&) noexcept;
+    ~AudioReader();
+
+    [[nodiscard]] int sampleRate() const noexcept; ///< Hz
+    [[nodiscard]] int channels() const noexcept;
+
+    /// Frames in the whole file as far as the header tells; empty when it does not. An estimate: never size memory by
+    /// it.
+    [[nodiscard]] std::optional<std::uint64_t> frames() const noexcept;
+
+    /// Fills `interleaved` (channels() samples per frame, full scale 1, float files may go beyond) with the next frames
+    /// and returns how many frames came; fewer than fit only at the end, then 0. Precondition: room for whole frames.
+    /// Errors: notFinite with the first bad frame and channel, both counted from 0; truncated; invalidData (damaged);
+    /// io. After an Error the content of `interleaved` is unspecified and reading on is not possible.
+    [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
+
+    /// Samples that allowNan has replaced so far.
+    [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
+
+private:
+    struct State;
+    explicit AudioReader(std::unique_ptr<State> opened) noexcept;
+    std::unique_ptr<State> state;
+};
+
+/// A whole audio file in memory.
+struct AudioData
+{
+    int sampleRate = 0; ///< Hz
+    int channels = 0;
+    std::vector<float> samples; ///< interleaved
+    std::uint64_t replacedSamples = 0;
+};
+
+/// Reads a whole file. Errors as in AudioReader, and tooLarge for more than `maximumFrames` (default: 24 h at 48 kHz).
+[[nodiscard]] Result<AudioData> readAudio(const std::filesystem::path& path, AudioReadOptions options = {},
+                                          std::uint64_t maximumFrames = 24ull * 3600 * 48000);
+
+} // namespace pacini

@@ -1,0 +1,242 @@
+#include "io/AudioWriter.h"
+
+#include "io/AtomicFile.h"
+#include "io/AudioReader.h"
+#include "io/SoundHandle.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace pacini
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+// libsndfile writes through these. AtomicFile remembers the first failure, which sf_close would lose.
+sf_count_t fileLength(void* user)
+{
+    return static_cast<AtomicFile*>(user)->size();
+}
+
+sf_count_t fileSeek(sf_count_t offset, int origin, void* user)
+{
+    auto* file = static_cast<AtomicFile*>(user);
+    return file->seek(offset, origin) ? file->tell() : -1;
+}
+
+sf_count_t fileRead(void*, sf_count_t, void*)
+{
+    return 0;
+}
+
+sf_count_t fileWrite(const void* bytes, sf_count_t count, void* user)
+{
+    const auto size = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
+    return static_cast<AtomicFile*>(user)->write({static_cast<const std::byte*>(bytes), size}) ? count : 0;
+}
+
+sf_count_t fileTell(void* user)
+{
+    return static_cast<AtomicFile*>(user)->tell();
+}
+
+// The container of a WAV counts in 32 bits; what stands before the samples is far below 4 kB.
+constexpr std::uint64_t largestWav = 0xFFFFFFFFull - 4096;
+
+int bits(SampleEncoding encoding)
+{
+    return encoding == SampleEncoding::float32 ? 32 : encoding == SampleEncoding::pcm24 ? 24 : 16;
+}
+
+int subformat(SampleEncoding encoding)
+{
+    return encoding == SampleEncoding::float32 ? SF_FORMAT_FLOAT
+           : encoding == SampleEncoding::pcm24 ? SF_FORMAT_PCM_24
+                                               : SF_FORMAT_PCM_16;
+}
+
+Error badArgument(std::string message)
+{
+    return {ErrorCode::invalidArgument, "", std::move(message)};
+}
+
+/// The libsndfile format for `path`, or what is wrong with the parameters.
+Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
+{
+    auto extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool flac = extension == ".flac";
+    if (!flac && extension != ".wav")
+        return badArgument("audio is written as .wav or .flac; choose one of these extensions");
+    const int mostChannels = flac ? 8 : limits::channels;
+    if (params.channels < 1 || params.channels > mostChannels)
+        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, mostChannels));
+    if (params.sampleRate < limits::lowestSampleRate || params.sampleRate > limits::highestSampleRate)
+        return badArgument(fmt::format("a sample rate of {} Hz cannot be written, {} to {} Hz can", params.sampleRate,
+                                       limits::lowestSampleRate, limits::highestSampleRate));
+    if (flac && params.encoding == SampleEncoding::float32)
+        return badArgument("FLAC holds no float samples; choose 16 or 24 bit, or write a .wav");
+    const auto frameBytes = static_cast<std::uint64_t>(params.channels * bits(params.encoding) / 8);
+    const bool large = params.expectedFrames > largestWav / frameBytes;
+    return (flac ? SF_FORMAT_FLAC : large ? SF_FORMAT_RF64 : SF_FORMAT_WAV) | subformat(params.encoding);
+}
+} // namespace
+
+struct AudioWriter::State
+{
+    State(AtomicFile opened, const AudioWriteParams& audioParams, int soundFormat)
+        : file(std::move(opened)), params(audioParams), format(soundFormat), random(audioParams.ditherSeed.value_or(0))
+    {
+    }
+
+    AtomicFile file; // outlives sound, which writes through it
+    AudioWriteParams params;
+    int format;
+    Random random;
+    SoundHandle sound;
+    AudioWriteReport report;
+    std::optional<Error> broken; ///< why writing was given up
+
+    /// What the disk says, else what libsndfile says.
+    Error failed(const std::string& message) const
+    {
+        return file.failure().value_or(Error{ErrorCode::io, "", "libsndfile cannot write this: " + message});
+    }
+
+    /// `x` as an integer of 32 bits whose upper bits hold the sample: libsndfile takes PCM of any width so.
+    int quantised(float x) noexcept
+    {
+        const int width = bits(params.encoding);
+        const double fullScale = std::ldexp(1.0, width - 1);
+        if (std::abs(x) > 1.0f)
+            ++report.clippedSamples;
+        double scaled = static_cast<double>(x) * fullScale;
+        if (params.ditherSeed)
+            scaled += random.uniform() - random.uniform();
+        const double held = std::clamp(std::nearbyint(scaled), -fullScale, fullScale - 1.0);
+        return static_cast<int>(held) * (1 << (32 - width));
+    }
+
+    /// Writes a part of whole frames; false when the disk refuses.
+    bool writePart(std::span<const float> part) noexcept
+    {
+        const auto count = static_cast<sf_count_t>(part.size());
+        if (params.encoding == SampleEncoding::float32)
+            return sf_write_float(sound.get(), part.data(), count) == count;
+        std::array<int, partSamples> integers;
+        std::transform(part.begin(), part.end(), integers.begin(), [this](float x) { return quantised(x); });
+        return sf_write_int(sound.get(), integers.data(), count) == count;
+    }
+
+    Result<void> append(std::span<const float> interleaved)
+    {
+        const auto channels = static_cast<std::size_t>(params.channels);
+        assert(interleaved.size() % channels == 0);
+        const auto bad =
+            std::find_if_not(interleaved.begin(), interleaved.end(), [](float x) { return std::isfinite(x); });
+        if (bad != interleaved.end())
+        {
+            const auto index = static_cast<std::size_t>(bad - interleaved.begin());
+            return Error{ErrorCode::notFinite,
+                         fmt::format("frame {}, channel {}", report.frames + index / channels, index % channels),
+                         "is not a finite number (counted from 0); only numbers can be written"};
+        }
+        const auto frames = interleaved.size() / channels;
+        const auto frameBytes = channels * static_cast<std::size_t>(bits(params.encoding)) / 8;
+        if ((format & SF_FORMAT_TYPEMASK) == SF_FORMAT_WAV && report.frames + frames > largestWav / frameBytes)
+            return Error{ErrorCode::tooLarge, "",
+                         "a WAV file ends at 4 GB; announce the length first to get an RF64, or use FLAC"};
+        const auto partFrames = partSamples / channels;
+        for (std::size_t done = 0; done < frames; done += partFrames)
+        {
+            const auto count = std::min(partFrames, frames - done);
+            if (!writePart(interleaved.subspan(done * channels, count * channels)))
+                return failed(soundError(sound.get()));
+        }
+        report.frames += frames;
+        return {};
+    }
+
+    static constexpr std::size_t partSamples = 4096;
+};
+
+AudioWriter::AudioWriter(std::unique_ptr<State> opened) noexcept : state(std::move(opened)) {}
+AudioWriter::AudioWriter(AudioWriter&&) noexcept = default;
+AudioWriter::~AudioWriter() = default;
+
+Result<AudioWriter> AudioWriter::create(const fs::path& path, const AudioWriteParams& params)
+{
+    const auto format = formatOf(path, params);
+    if (!format)
+        return format.error();
+    auto file = AtomicFile::create(path);
+    if (!file)
+        return file.error();
+    if (file->tell() < 0)
+        return Error{ErrorCode::io, "", "is a pipe, but audio needs a file that can be rewound; write to a file"};
+
+    auto state = std::make_unique<State>(std::move(*file), params, *format);
+    SF_INFO info{};
+    info.samplerate = params.sampleRate;
+    info.channels = params.channels;
+    info.format = *format;
+    SF_VIRTUAL_IO io{fileLength, fileSeek, fileRead, fileWrite, fileTell};
+    state->sound.reset(sf_open_virtual(&io, SFM_WRITE, &info, &state->file));
+    if (!state->sound)
+        return state->failed(soundError(nullptr));
+    // The peak chunk of float files holds the time of day: without it the same samples give the same bytes.
+    sf_command(state->sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
+    return AudioWriter(std::move(state));
+}
+
+Result<void> AudioWriter::write(std::span<const float> interleaved)
+{
+    if (!state->broken)
+        if (auto appended = state->append(interleaved); !appended)
+            state->broken = appended.error();
+    if (state->broken)
+        return *state->broken;
+    return {};
+}
+
+Result<AudioWriteReport> AudioWriter::finish()
+{
+    if (state->broken)
+        return *state->broken;
+    // Without samples libsndfile would not even start a FLAC.
+    if (state->report.frames == 0)
+        sf_command(state->sound.get(), SFC_UPDATE_HEADER_NOW, nullptr, 0);
+    state->sound.reset();
+    const auto size = state->file.size();
+    if (auto done = state->file.commit(); !done)
+        return done.error();
+    state->report.bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(size, 0));
+    return state->report;
+}
+
+Result<AudioWriteReport> writeAudio(const fs::path& path, std::span<const float> interleaved,
+                                    const AudioWriteParams& params)
+{
+    auto known = params;
+    known.expectedFrames = interleaved.size() / static_cast<std::size_t>(std::max(params.channels, 1));
+    auto writer = AudioWriter::create(path, known);
+    if (!writer)
+        return writer.error();
+    if (auto written = writer->write(interleaved); !written)
+        return written.error();
+    return writer->finish();
+}
+
+} // namespace pacini

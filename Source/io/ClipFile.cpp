@@ -1,0 +1,68 @@
+#include "io/ClipFile.h"
+
+#include "io/AtomicFile.h"
+#include "io/ClipJson.h"
+#include "io/InputFile.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr std::string_view packedMagic = "PACB";
+
+// The packed form plugs in here: unpackClip and packClip of <pacini/clip/PackedClip.h>.
+Error packedIsMissing()
+{
+    return {ErrorCode::invalidArgument, "", "packed clips are not built in"};
+}
+Result<Clip> unpack(std::span<const std::byte>)
+{
+    return packedIsMissing();
+}
+Result<std::string> pack(const Clip&)
+{
+    return packedIsMissing();
+}
+
+bool looksLikeJson(std::string_view bytes)
+{
+    if (bytes.starts_with("\xEF\xBB\xBF"))
+        bytes.remove_prefix(3);
+    const auto first = bytes.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && bytes[first] == '{';
+}
+} // namespace
+
+Result<Clip> readClip(const std::filesystem::path& path)
+{
+    const auto bytes = readWholeFile(path, largestClipText);
+    if (!bytes)
+        return bytes.error();
+    if (bytes->starts_with(packedMagic))
+        return unpack(std::as_bytes(std::span(*bytes)));
+    if (looksLikeJson(*bytes))
+        return readClipJson(*bytes);
+    if (bytes->empty())
+        return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
+    return Error{ErrorCode::invalidData, "", "is not a clip: neither JSON nor packed; encode audio to get a clip"};
+}
+
+Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format)
+{
+    if (auto valid = validate(clip); !valid)
+        return valid.error();
+    if (format == ClipFormat::json)
+        return writeFileAtomically(path, writeClipJson(clip));
+    const auto packed = pack(clip);
+    if (!packed)
+        return packed.error();
+    return writeFileAtomically(path, *packed);
+}
+
+} // namespace pacini

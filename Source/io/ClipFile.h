@@ -1,0 +1,27 @@
+#pragma once
+
+// Clips in files, as JSON or packed.
+
+#include <pacini/clip/Clip.h>
+
+#include <cstddef>
+#include <filesystem>
+
+namespace pacini
+{
+
+enum class ClipFormat
+{
+    json,   ///< text, see ClipJson.h
+    packed, ///< quantised and coded, starts with the bytes "PACB"
+};
+
+/// Reads a clip; the content decides the format, not the name. Errors: io as in readWholeFile, tooLarge beyond 512 MB,
+/// invalidData when it is neither format, and those of the format's reader.
+[[nodiscard]] Result<Clip> readClip(const std::filesystem::path& path);
+
+/// Writes a clip and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io as
+/// in AtomicFile.
+[[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format);
+
+} // namespace pacini

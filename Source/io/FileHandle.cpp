@@ -1,0 +1,83 @@
+#include "io/FileHandle.h"
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+namespace pacini
+{
+
+namespace
+{
+std::string reason(int errnoValue)
+{
+    switch (errnoValue)
+    {
+    case ENOENT:
+        return "does not exist; check the name and the folder";
+    case ENOTDIR:
+        return "a part of the path is not a folder; check the path";
+    case EISDIR:
+        return "is a folder; give the name of a file";
+    case EACCES:
+    case EPERM:
+        return "permission denied; check the rights of the file and its folder";
+    case EROFS:
+        return "the disk is read-only; choose another folder";
+    case ENOSPC:
+        return "the disk is full; free some space and try again";
+#if defined(EDQUOT)
+    case EDQUOT:
+        return "your disk quota is used up; free some space and try again";
+#endif
+    case EFBIG:
+        return "the file would be larger than the system allows; write a shorter file or raise the limit";
+    case ENAMETOOLONG:
+        return "the file name is too long; choose a shorter one";
+    case EMFILE:
+    case ENFILE:
+        return "too many files are open; close some and try again";
+    case EIO:
+        return "the disk reported a read or write error; check the disk";
+    case EPIPE:
+        return "the reader of the pipe has gone away";
+    default:
+        return "the system refused: " + std::generic_category().message(errnoValue);
+    }
+}
+} // namespace
+
+Error fileError(int errnoValue)
+{
+    return {ErrorCode::io, "", reason(errnoValue)};
+}
+
+FileHandle openStream(const std::filesystem::path& path, const char* mode)
+{
+#if defined(_WIN32)
+    const std::wstring wideMode(mode, mode + std::char_traits<char>::length(mode));
+    return FileHandle(_wfopen(path.c_str(), wideMode.c_str()));
+#else
+    return FileHandle(std::fopen(path.c_str(), mode));
+#endif
+}
+
+bool seekStream(std::FILE* file, std::int64_t offset, int origin) noexcept
+{
+#if defined(_WIN32)
+    return _fseeki64(file, offset, origin) == 0;
+#else
+    return fseeko(file, offset, origin) == 0;
+#endif
+}
+
+std::int64_t tellStream(std::FILE* file) noexcept
+{
+#if defined(_WIN32)
+    return _ftelli64(file);
+#else
+    return ftello(file);
+#endif
+}
+
+} // namespace pacini

@@ -1,0 +1,33 @@
+#pragma once
+
+// A C stream that closes itself, and what an errno means in plain words.
+
+#include <pacini/foundation/Result.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace pacini
+{
+
+struct FileCloser
+{
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+
+/// An open stream, closed at the end of its life. Who must know whether closing worked releases it and closes by hand.
+using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
+
+/// The Error (code io) behind an errno value: a plain sentence that says what to do.
+[[nodiscard]] Error fileError(int errnoValue);
+
+/// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen; "x" fails when the file exists.
+[[nodiscard]] FileHandle openStream(const std::filesystem::path& path, const char* mode);
+
+/// fseek and ftell with 64-bit offsets. seekStream returns whether it worked, tellStream -1 on failure.
+bool seekStream(std::FILE* file, std::int64_t offset, int origin) noexcept;
+[[nodiscard]] std::int64_t tellStream(std::FILE* file) noexcept;
+
+} // namespace pacini

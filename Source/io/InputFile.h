@@ -1,0 +1,20 @@
+#pragma once
+
+// Opens and reads files that may be missing, hostile or endless.
+
+#include "io/FileHandle.h"
+
+#include <cstddef>
+#include <string>
+
+namespace pacini
+{
+
+/// Opens `path` to read bytes. Missing, unreadable and folders are an Error (code io).
+[[nodiscard]] Result<FileHandle> openForReading(const std::filesystem::path& path);
+
+/// All bytes of `path`. More than `maximumBytes` is an Error (tooLarge), found before that much memory is used, so
+/// endless devices and pipes are safe too. Errors of opening as in openForReading.
+[[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path, std::size_t maximumBytes);
+
+} // namespace pacini

@@ -1,0 +1,67 @@
+#include "io/ClipFile.h"
+
+#include "io/ClipJson.h"
+#include "support/Catch.h"
+#include "support/RandomClip.h"
+#include "support/TempFolder.h"
+
+#include <limits>
+#include <string>
+
+using namespace pacini;
+using namespace pacini::test;
+
+TEST_CASE("A clip file is recognised by its content, not by its name", "[io]")
+{
+    const TempFolder folder;
+    const auto clip = randomClip(3);
+    const auto size = writeClip(folder / "clip.wav", clip, ClipFormat::json);
+    REQUIRE(size.ok());
+    CHECK(*size == std::filesystem::file_size(folder / "clip.wav"));
+    CHECK(bytesOf(folder / "clip.wav") == writeClipJson(clip));
+    CHECK(*readClip(folder / "clip.wav") == clip);
+    put(folder / "spaces.pacb", " \r\n\t" + writeClipJson(clip));
+    CHECK(*readClip(folder / "spaces.pacb") == clip);
+    CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("Files that hold no clip are refused with one clear line", "[io]")
+{
+    const TempFolder folder;
+    const auto failure = [&](const std::string& bytes)
+    {
+        const auto clip = readClip(put(folder / "x", bytes));
+        REQUIRE_FALSE(clip.ok());
+        return clip.error();
+    };
+    const auto noClip = "is not a clip: neither JSON nor packed; encode audio to get a clip";
+    CHECK(failure("RIFF....WAVEfmt ").message == noClip);
+    CHECK(failure("PAC").message == noClip);
+    CHECK(failure("[]").message == noClip);
+    CHECK(failure(" \n ").message == noClip);
+    CHECK(failure("").message == "is empty; it has no clip");
+    CHECK(failure("\xEF\xBB\xBF{}").message == "starts with a byte order mark; save it as UTF-8 without");
+    CHECK(failure("{").where == "line 1, column 2");
+    CHECK_FALSE(failure("PACB").message.empty());
+    CHECK(readClip(folder / "missing").error().message == "does not exist; check the name and the folder");
+    CHECK(readClip(folder.path()).error().code == ErrorCode::io);
+}
+
+TEST_CASE("A clip that breaks a rule is not written", "[io]")
+{
+    const TempFolder folder;
+    put(folder / "clip.json", "old");
+    auto clip = randomClip(4);
+    clip.envelope = {{0.0, std::numeric_limits<double>::quiet_NaN()}};
+    const auto notFinite = writeClip(folder / "clip.json", clip, ClipFormat::json);
+    REQUIRE_FALSE(notFinite.ok());
+    CHECK(notFinite.error().where == "envelope[0].amplitude");
+
+    clip = randomClip(4);
+    clip.encoder = {{"bands", 6.0}, {"bands", 7.0}};
+    CHECK(writeClip(folder / "clip.json", clip, ClipFormat::json).error().where == "encoder");
+    clip.encoder = {{"bands", std::numeric_limits<double>::infinity()}};
+    CHECK(writeClip(folder / "clip.json", clip, ClipFormat::json).error().code == ErrorCode::notFinite);
+    CHECK(bytesOf(folder / "clip.json") == "old");
+    CHECK(folder.entries() == 1);
+}

@@ -1,0 +1,222 @@
+// What only a POSIX system can show: full disks, limits, devices, kills.
+#if !defined(_WIN32)
+
+#include "io/AtomicFile.h"
+#include "io/AudioFile.h"
+#include "io/ClipFile.h"
+#include "io/InputFile.h"
+#include "support/Catch.h"
+#include "support/TempFolder.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace pacini;
+using test::bytesOf;
+using test::put;
+using test::TempFolder;
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// Runs `work` in a child process and returns what it returned. The child ends without the tests' clean-up.
+int inChild(const std::function<int()>& work)
+{
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(work());
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Lets this process write files of at most `bytes`; more is refused as on a full disk.
+void limitFileSize(rlim_t bytes)
+{
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+enum Outcome
+{
+    failedCleanly = 10,
+    succeeded = 11,
+    wrongError = 12,
+};
+
+template <typename T>
+int outcome(const Result<T>& result)
+{
+    if (result.ok())
+        return succeeded;
+    return result.error().code == ErrorCode::io && !result.error().message.empty() ? failedCleanly : wrongError;
+}
+} // namespace
+
+TEST_CASE("A disk that fills up leaves the old file and no temporary", "[io]")
+{
+    const TempFolder folder;
+    for (const char* name : {"text", "sound.wav", "sound.flac"})
+        put(folder / name, "old");
+    // Noise: FLAC must not make it small.
+    std::vector<float> samples(200000);
+    std::uint32_t state = 1;
+    for (float& x : samples)
+    {
+        state = state * 1664525u + 1013904223u;
+        x = static_cast<float>(state >> 8) / 8388608.0f - 1.0f;
+    }
+    AudioWriteParams params;
+    CHECK(inChild(
+              [&]
+              {
+                  limitFileSize(50000);
+                  return outcome(writeFileAtomically(folder / "text", std::string(100000, 'x')));
+              }) == failedCleanly);
+    CHECK(inChild(
+              [&]
+              {
+                  limitFileSize(50000);
+                  return outcome(writeAudio(folder / "sound.wav", samples, params));
+              }) == failedCleanly);
+    params.encoding = SampleEncoding::pcm16;
+    CHECK(inChild(
+              [&]
+              {
+                  limitFileSize(50000);
+                  return outcome(writeAudio(folder / "sound.flac", samples, params));
+              }) == failedCleanly);
+    // The last bytes leave the buffer only when the file is closed: that failure must be seen too.
+    CHECK(inChild(
+              [&]
+              {
+                  limitFileSize(100);
+                  return outcome(writeFileAtomically(folder / "text", std::string(200, 'x')));
+              }) == failedCleanly);
+    CHECK(inChild(
+              [&]
+              {
+                  limitFileSize(100);
+                  return outcome(writeAudio(folder / "sound.wav", std::span(samples).first(300), {}));
+              }) == failedCleanly);
+    for (const char* name : {"text", "sound.wav", "sound.flac"})
+        CHECK(bytesOf(folder / name) == "old");
+    CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("Devices are written directly: a full one is reported, none is replaced", "[io]")
+{
+    if (!fs::is_character_file("/dev/full"))
+    {
+        WARN("no /dev/full here");
+        return;
+    }
+    const auto full = writeFileAtomically("/dev/full", std::string_view("x"));
+    REQUIRE_FALSE(full.ok());
+    CHECK(full.error().message == "the disk is full; free some space and try again");
+    CHECK(fs::is_character_file("/dev/full"));
+
+    const auto clip = writeClip("/dev/full", Clip{}, ClipFormat::json);
+    REQUIRE_FALSE(clip.ok());
+    CHECK(clip.error().code == ErrorCode::io);
+
+    CHECK(writeFileAtomically("/dev/null", std::string(100000, 'x')).ok());
+    CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("Endless devices and pipes are refused instead of read for ever", "[io]")
+{
+    const auto endless = readWholeFile("/dev/zero", 1000000);
+    REQUIRE_FALSE(endless.ok());
+    CHECK(endless.error().code == ErrorCode::tooLarge);
+
+    const auto device = AudioReader::open("/dev/zero");
+    REQUIRE_FALSE(device.ok());
+    CHECK(device.error().code == ErrorCode::io);
+
+    const TempFolder folder;
+    const auto pipe = (folder / "pipe.wav").string();
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    // Somebody must hold the other end, or opening would wait.
+    const int status = inChild(
+        [&]
+        {
+            const FileHandle otherEnd(std::fopen(pipe.c_str(), "r+b"));
+            const auto reader = AudioReader::open(pipe);
+            const auto writer = AudioWriter::create(pipe, {});
+            return outcome(reader) == failedCleanly && outcome(writer) == failedCleanly ? failedCleanly : wrongError;
+        });
+    CHECK(status == failedCleanly);
+    CHECK(fs::is_fifo(pipe));
+}
+
+TEST_CASE("A folder without the right to write is reported", "[io]")
+{
+    // The system's own folder cannot be written even by the administrator.
+    const auto system = writeFileAtomically("/proc/pacini-test", std::string_view("x"));
+    if (fs::exists("/proc"))
+    {
+        REQUIRE_FALSE(system.ok());
+        CHECK(system.error().code == ErrorCode::io);
+    }
+    if (geteuid() == 0)
+        return;
+    const TempFolder folder;
+    fs::permissions(folder.path(), fs::perms(0555));
+    const auto closed = writeFileAtomically(folder / "x", std::string_view("x"));
+    REQUIRE_FALSE(closed.ok());
+    CHECK(closed.error().message == "permission denied; check the rights of the file and its folder");
+    put(TempFolder() / "y", "y");
+}
+
+TEST_CASE("A program killed while it writes leaves the old file whole", "[io]")
+{
+    const TempFolder folder;
+    put(folder / "sound.wav", "old");
+    int ready[2] = {-1, -1};
+    REQUIRE(pipe(ready) == 0);
+    const pid_t child = fork();
+    if (child == 0)
+    {
+        auto writer = AudioWriter::create(folder / "sound.wav", {});
+        const std::vector<float> block(48000, 0.5f);
+        for (int second = 0; writer.ok() && second < 20; ++second)
+            if (!writer->write(block).ok())
+                _exit(1);
+        const char done = 'x';
+        if (write(ready[1], &done, 1) != 1)
+            _exit(1);
+        pause();
+        _exit(0);
+    }
+    char done = 0;
+    REQUIRE(read(ready[0], &done, 1) == 1);
+    REQUIRE(kill(child, SIGKILL) == 0);
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));
+    close(ready[0]);
+    close(ready[1]);
+
+    CHECK(bytesOf(folder / "sound.wav") == "old");
+    REQUIRE(folder.entries() == 2);
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+    {
+        const auto name = entry.path().filename().string();
+        CHECK((name == "sound.wav" || (name.starts_with(".sound.wav.pacini-") && name.ends_with(".tmp"))));
+    }
+    // The next run works beside the stale temporary.
+    REQUIRE(writeAudio(folder / "sound.wav", std::vector<float>(10, 0.25f), {}).ok());
+    CHECK(readAudio(folder / "sound.wav")->samples == std::vector<float>(10, 0.25f));
+}
+
+#endif
