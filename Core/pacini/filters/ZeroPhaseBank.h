@@ -114,14 +114,15 @@ inline BandSignals splitForwardBackward(std::span<const float> signal, double fs
     return bands;
 }
 
-/// How long the bank's impulse responses are taken to be, to either side: eight times the reciprocal of the narrowest
-/// transition between two centres, within 0.25 to 2 s. What lies beyond is below -80 dB of the main lobe.
+/// How long the bank's impulse responses are taken to be, to either side: sixteen times the reciprocal of the narrowest
+/// transition between two centres, within 0.25 to 4 s. What lies beyond changes no band by more than -80 dB, and only
+/// next to the ends of a segment.
 inline std::size_t raisedCosineGuard(const BandLayout& layout, double fs) noexcept
 {
-    double narrowest = 32.0;
+    double narrowest = 64.0;
     for (std::size_t k = 0; k + 1 < layout.bands(); ++k)
         narrowest = std::min(narrowest, layout.centres[k + 1].value - layout.centres[k].value);
-    return static_cast<std::size_t>(std::ceil(fs * std::clamp(8.0 / narrowest, 0.25, 2.0)));
+    return static_cast<std::size_t>(std::ceil(fs * std::clamp(16.0 / narrowest, 0.25, 4.0)));
 }
 
 inline BandSignals splitRaisedCosine(std::span<const float> signal, double fs, const BandLayout& layout)
