@@ -68,11 +68,14 @@ TEST_CASE("A perfect model leaves no residual noise, and nothing has none", "[an
     for (const auto& band : residualNoise(x, x, 8000.0))
         for (const auto& point : band.amplitude)
             CHECK(point.value == 0.0);
-    for (const auto& band : residualNoise({}, {}, 384000.0))
-        CHECK(band.amplitude.empty());
-    for (const auto& band : residualNoise(std::vector<float>(1, 1.0f), std::vector<float>(1, 0.5f), 8000.0))
+    for (const double fs : {8000.0, 384000.0})
     {
-        REQUIRE(band.amplitude.size() == 1);
-        CHECK(std::isfinite(band.amplitude[0].value));
+        for (const auto& band : residualNoise({}, {}, fs))
+            CHECK(band.amplitude.empty());
+        for (const auto& band : residualNoise(std::vector<float>(1, 1.0f), std::vector<float>(1, 0.5f), fs))
+        {
+            REQUIRE(band.amplitude.size() == 1);
+            CHECK(std::isfinite(band.amplitude[0].value));
+        }
     }
 }

@@ -21,14 +21,15 @@ TransientDetectorParams paramsOf(const nlohmann::json& p)
         return Seconds(p.value(name, 0.0) / 1000.0);
     };
     TransientDetectorParams params;
-    params.score = p.value("relative", false) ? TransientScore::relative : TransientScore::absolute;
+    params.score.reading =
+        p.value("relative", false) ? TransientScoreReading::relative : TransientScoreReading::absolute;
     params.threshold = p["threshold"];
-    params.floor = p.value("eps", params.floor);
-    params.fastAttack = ms("attack_fast_ms");
-    params.slowAttack = ms("attack_slow_ms");
-    params.hold = ms("hold_ms");
-    params.release = ms("release_ms");
-    params.decay = p["kind"] == "99" ? DecayDefinition::percent99 : DecayDefinition::percent63;
+    params.score.floor = p.value("eps", params.score.floor);
+    params.score.fastAttack = ms("attack_fast_ms");
+    params.score.slowAttack = ms("attack_slow_ms");
+    params.score.hold = ms("hold_ms");
+    params.score.release = ms("release_ms");
+    params.score.decay = p["kind"] == "99" ? DecayDefinition::percent99 : DecayDefinition::percent63;
     params.minimumWindow = ms("min_win_ms");
     params.minimumDistance = ms("min_dist_ms");
     params.minimumAmplitude = p["min_amp"];
@@ -97,16 +98,20 @@ TEST_CASE("The transient score and its windows equal the reference", "[analysis]
     for (const auto& entry : data["cases"])
     {
         const auto params = paramsOf(entry["params"]);
-        const auto score = transientScore(inputOf(data, entry), data["fs"], params);
+        const auto score = transientScore(inputOf(data, entry), data["fs"], params.score);
         CHECK(*std::max_element(score.begin(), score.end()) ==
               Approx(entry["score_max"].get<double>()).epsilon(1e-6).margin(1e-9));
         std::vector<std::vector<std::size_t>> windows;
         for (std::size_t i = 0; i < score.size(); ++i)
         {
-            const bool above = score[i] >= params.threshold;
-            if (above && (i == 0 || score[i - 1] < params.threshold))
+            const auto isAbove = [&](std::size_t n)
+            {
+                return static_cast<double>(score[n]) >= params.threshold;
+            };
+            const bool above = isAbove(i);
+            if (above && (i == 0 || !isAbove(i - 1)))
                 windows.push_back({i, score.size()});
-            if (!above && i > 0 && score[i - 1] >= params.threshold)
+            if (!above && i > 0 && isAbove(i - 1))
                 windows.back()[1] = i;
         }
         CHECK(windows == entry["windows"].get<std::vector<std::vector<std::size_t>>>());
@@ -210,11 +215,25 @@ TEST_CASE("Transients of nothing are none, and hostile input does no harm", "[an
     open.threshold = 0.0;
     CHECK(detectTransients(noise(5000, 1), 8000.0, open).size() == 1);
     TransientDetectorParams flicker = relativeTransientParams();
-    flicker.hold = flicker.release = flicker.fastAttack = 0_s;
+    flicker.score.hold = flicker.score.release = flicker.score.fastAttack = 0_s;
     flicker.threshold = 1e-3;
     flicker.minimumWindow = 1_s;
     flicker.minimumDistance = 0_s;
     CHECK(!detectTransients(noise(20000, 1), 8000.0, flicker).empty());
+}
+
+TEST_CASE("TransientScore keeps the contract of blocks", "[analysis][contract]")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto relative = relativeTransientParams().score;
+    auto bad = relative;
+    bad.floor = nan;
+    bad.hold = bad.slowAttack = Seconds(nan);
+    checkBlockContract<TransientScore>({}, {.bound = 1.0});
+    checkBlockContract<TransientScore>(relative, {.bound = 34.0});
+    checkBlockContract<TransientScore>(bad, {.bound = 1e9});
+    checkModulation<TransientScore>({TransientScoreParams{}, relative, bad}, 1e9);
+    checkSilenceIsCheap<TransientScore>(relative);
 }
 
 TEST_CASE("The transient detector makes no heap traffic", "[analysis][contract]")

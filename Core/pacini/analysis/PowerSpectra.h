@@ -78,7 +78,8 @@ void forEachPowerSpectrum(std::span<const float> signal, const FrameGrid& grid, 
     const std::size_t count = grid.count(signal.size());
     for (std::size_t m = 0; m < count; ++m)
     {
-        const auto part = signal.subspan(m * grid.hop, std::min(grid.window, signal.size() - m * grid.hop));
+        const std::size_t start = std::min(m * grid.hop, signal.size()); // a hop beyond the window may pass the end
+        const auto part = signal.subspan(start, std::min(grid.window, signal.size() - start));
         std::fill(frame.begin(), frame.end(), 0.0);
         for (std::size_t i = 0; i < part.size(); ++i)
             frame[i] = finiteOrZero(part[i]) * window[i];

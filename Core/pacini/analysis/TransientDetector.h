@@ -3,8 +3,7 @@
 // The thesis's transient detector: where a fast envelope runs ahead of a slow one.
 
 #include <pacini/analysis/DecayTime.h>
-#include <pacini/analysis/EnvelopeFollower.h>
-#include <pacini/foundation/Clamp.h>
+#include <pacini/analysis/TransientScore.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
 #include <pacini/foundation/Units.h>
@@ -20,24 +19,12 @@
 namespace pacini
 {
 
-enum class TransientScore
-{
-    absolute, ///< |fast - slow|: the thesis's; depends on the level of the sound
-    relative, ///< (fast - slow) / (slow + floor)
-};
-
-/// The defaults give the thesis's rate of about two transients per second on peak-normalised recordings; its own
-/// settings are lost. Times are clamped like those of EnvelopeFollowerParams.
+/// The defaults give 2.9 transients per second on 30 peak-normalised recordings (the thesis assumes 2; its own settings
+/// are lost).
 struct TransientDetectorParams
 {
-    TransientScore score = TransientScore::absolute;
-    double threshold = 0.3; ///< of the score, reached or exceeded
-    double floor = 0.03;    ///< of the relative score, linear amplitude, 1e-9 and above
-    Seconds fastAttack{0.001};
-    Seconds slowAttack{0.030};
-    Seconds hold{0.016};    ///< of both followers
-    Seconds release{0.100}; ///< of both followers
-    DecayDefinition decay = DecayDefinition::percent99;
+    TransientScoreParams score;
+    double threshold = 0.3;         ///< of the score, reached or exceeded
     Seconds minimumWindow{0.0};     ///< the peak is looked for at least this long
     Seconds minimumDistance{0.010}; ///< of two events; the larger one stays
     double minimumAmplitude = 0.05; ///< linear
@@ -48,12 +35,12 @@ struct TransientDetectorParams
 [[nodiscard]] inline TransientDetectorParams relativeTransientParams() noexcept
 {
     TransientDetectorParams params;
-    params.score = TransientScore::relative;
+    params.score.reading = TransientScoreReading::relative;
+    params.score.fastAttack = Seconds(0.0005);
+    params.score.slowAttack = Seconds(0.020);
+    params.score.hold = Seconds(0.005);
+    params.score.release = Seconds(0.010);
     params.threshold = 2.0;
-    params.fastAttack = Seconds(0.0005);
-    params.slowAttack = Seconds(0.020);
-    params.hold = Seconds(0.005);
-    params.release = Seconds(0.010);
     params.minimumWindow = Seconds(0.002);
     params.minimumDistance = Seconds(0.008);
     return params;
@@ -65,55 +52,6 @@ struct DetectedTransient
     std::size_t frame = 0;
     double amplitude = 0.0;
     bool operator==(const DetectedTransient&) const = default;
-};
-
-/// The transient score sample by sample (Weber 2020, Algorithm 4.2, lines 3 to 5).
-class TransientScorer
-{
-public:
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fast.prepare(spec);
-        slow.prepare(spec);
-    }
-    void setParams(const TransientDetectorParams& params) noexcept
-    {
-        score = params.score;
-        floor = clampTo(params.floor, 1e-9, 1e9);
-        EnvelopeFollowerParams follower{.attack = params.fastAttack,
-                                        .hold = params.hold,
-                                        .release = params.release,
-                                        .decay = params.decay,
-                                        .slope = RisingSlope::level};
-        fast.setParams(follower);
-        follower.attack = params.slowAttack;
-        slow.setParams(follower);
-    }
-    void reset() noexcept
-    {
-        fast.reset();
-        slow.reset();
-    }
-
-    /// The score after one more sample (finite).
-    double tick(double x) noexcept
-    {
-        const double ahead = fast.tick(x);
-        const double behind = slow.tick(x);
-        return score == TransientScore::absolute ? std::abs(ahead - behind) : (ahead - behind) / (behind + floor);
-    }
-
-    void flush() noexcept
-    {
-        fast.flush();
-        slow.flush();
-    }
-
-private:
-    TransientScore score = TransientScore::absolute;
-    double floor = 0.03;
-    EnvelopeFollower fast;
-    EnvelopeFollower slow;
 };
 
 /// Transient detector (Weber 2020, section 4.3.1, Algorithm 4.2): while the score is at or above the threshold a window
@@ -129,20 +67,20 @@ public:
     void prepare(const ProcessSpec& spec) noexcept
     {
         fs = spec.sampleRate;
-        scorer.prepare(spec);
+        score.prepare(spec);
         setParams(current);
         reset();
     }
     void setParams(const Params& params) noexcept
     {
         current = params;
-        scorer.setParams(params);
+        score.setParams(params.score);
         windowFrames = roundedFrames(params.minimumWindow, fs);
         distanceFrames = roundedFrames(params.minimumDistance, fs);
     }
     void reset() noexcept
     {
-        scorer.reset();
+        score.reset();
         open.clear();
         pending.reset();
         active = false;
@@ -159,7 +97,7 @@ public:
             tick(finiteOrZero(sample), sink);
             ++now;
         }
-        scorer.flush();
+        score.flush();
     }
 
     /// The end of the signal: open windows close, and the last event leaves. Then reset() before the next signal.
@@ -186,7 +124,7 @@ private:
     template <typename Sink>
     void tick(double x, Sink& sink)
     {
-        const bool above = scorer.tick(x) >= current.threshold;
+        const bool above = score.tick(x) >= current.threshold;
         if (above && !active && open.size() < open.capacity())
             open.pushBack({now, true, {now, -1.0}});
         else if (!above && active && !open.empty())
@@ -233,7 +171,7 @@ private:
 
     double fs = ProcessSpec{}.sampleRate;
     Params current;
-    TransientScorer scorer;
+    TransientScore score;
     std::size_t windowFrames = 0;
     std::size_t distanceFrames = 0;
     FixedVector<Window, 32> open; ///< in order of their begin
@@ -242,22 +180,9 @@ private:
     std::size_t now = 0;
 };
 
-/// The score of a whole signal, one value per sample; fs in Hz.
-[[nodiscard]] inline std::vector<double> transientScore(std::span<const float> signal, double fs,
-                                                        const TransientDetectorParams& params)
-{
-    TransientScorer scorer;
-    scorer.prepare({fs, signal.size()});
-    scorer.setParams(params);
-    std::vector<double> score(signal.size());
-    std::transform(signal.begin(), signal.end(), score.begin(),
-                   [&scorer](float x) { return scorer.tick(finiteOrZero(x)); });
-    return score;
-}
-
 /// The events of a whole signal in order of time; fs in Hz. Empty for an empty or silent signal.
 [[nodiscard]] inline std::vector<DetectedTransient> detectTransients(std::span<const float> signal, double fs,
-                                                                     const TransientDetectorParams& params)
+                                                                     const TransientDetectorParams& params = {})
 {
     TransientDetector detector;
     detector.setParams(params);
