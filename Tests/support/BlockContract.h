@@ -8,6 +8,8 @@
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Random.h>
 
+#include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -15,11 +17,20 @@
 namespace pacini::test
 {
 
+/// How a block's delay shows in its response to a single 1.
+enum class MeasuredDelay
+{
+    notMeasured,
+    firstFrame,   ///< the first frame that is not 0 (recursive filters, pure delays)
+    largestFrame, ///< the frame of the largest magnitude (linear phase)
+};
+
 struct ContractOptions
 {
     bool linear = true; ///< silence in gives silence out
     double bound = 1e6; ///< no output sample of unit noise is larger
     std::size_t frames = 6000;
+    MeasuredDelay delay = MeasuredDelay::notMeasured;
 };
 
 inline std::vector<float> noise(std::size_t frames, std::uint64_t seed)
@@ -52,7 +63,7 @@ inline bool allFinite(const std::vector<float>& x)
 }
 
 /// Checks block B with `params`: finite on any input, reset = fresh, independent of the block size, in place = out of
-/// place, no heap traffic in process, silence to silence, and all of it from 8 to 768 kHz.
+/// place, no heap traffic in process, silence to silence, the reported delay, and all of it from 8 to 768 kHz.
 template <DspBlock B>
 void checkBlockContract(const typename B::Params& params, ContractOptions options = {})
 {
@@ -89,6 +100,12 @@ void checkBlockContract(const typename B::Params& params, ContractOptions option
 
         {
             auto block = fresh();
+            block.process(std::span<const float>(), std::span<float>());
+            REQUIRE(runInBlocks(block, x, 512) == expected);
+        }
+
+        {
+            auto block = fresh();
             auto inPlace = x;
             for (std::size_t i = 0; i < x.size(); i += 512)
             {
@@ -120,13 +137,123 @@ void checkBlockContract(const typename B::Params& params, ContractOptions option
             REQUIRE(allFinite(runInBlocks(block, bad, 512)));
         }
 
+        {
+            // One bad sample is gone, it does not live on in a feedback loop.
+            auto block = fresh();
+            auto silenced = fresh();
+            auto bad = x;
+            bad[100] = std::numeric_limits<float>::quiet_NaN();
+            bad[101] = std::numeric_limits<float>::infinity();
+            auto zero = x;
+            zero[100] = zero[101] = 0.0f;
+            REQUIRE(runInBlocks(block, bad, 512) == runInBlocks(silenced, zero, 512));
+        }
+
         if (options.linear)
         {
             auto block = fresh();
             for (float v : runInBlocks(block, std::vector<float>(2000, 0.0f), 512))
                 REQUIRE(v == 0.0f);
         }
+
+        if (options.delay != MeasuredDelay::notMeasured)
+        {
+            auto block = fresh();
+            std::vector<float> impulse(options.frames, 0.0f);
+            impulse[0] = 1.0f;
+            const auto response = runInBlocks(block, impulse, 512);
+            const auto found = options.delay == MeasuredDelay::firstFrame
+                                   ? std::find_if(response.begin(), response.end(), [](float v) { return v != 0.0f; })
+                                   : std::max_element(response.begin(), response.end(),
+                                                      [](float a, float b) { return std::abs(a) < std::abs(b); });
+            REQUIRE(static_cast<std::size_t>(found - response.begin()) == block.latencyFrames());
+        }
     }
 }
+
+/// Checks that block B stays finite and below `bound` on unit noise while its parameters jump between all of `params`,
+/// in random order, with every sample.
+template <DspBlock B>
+void checkModulation(const std::vector<typename B::Params>& params, double bound, std::size_t frames = 20000)
+{
+    for (double fs : {8000.0, 48000.0, 768000.0})
+    {
+        CAPTURE(fs);
+        B block;
+        block.prepare({fs, 1});
+        Random random(11);
+        const auto x = noise(frames, 5);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < frames; ++i)
+        {
+            block.setParams(params[random.next() % params.size()]);
+            float y = 0.0f;
+            block.process(std::span(x).subspan(i, 1), std::span(&y, 1));
+            REQUIRE(std::isfinite(y));
+            largest = std::max(largest, std::abs(static_cast<double>(y)));
+        }
+        CHECK(largest <= bound);
+        CHECK(largest > 0.0);
+    }
+}
+
+/// Checks that a minute after a sound block B no longer computes with denormal numbers, which are slow.
+template <DspBlock B>
+void checkSilenceIsCheap(const typename B::Params& params)
+{
+    const double fs = 8000.0;
+    B block;
+    block.setParams(params);
+    block.prepare({fs, 512});
+    auto x = noise(512, 3);
+    block.process(x, x);
+    std::vector<float> silence(512, 0.0f);
+    for (int i = 0; i < static_cast<int>(60.0 * fs / 512.0); ++i)
+        block.process(std::vector<float>(512, 0.0f), silence);
+    std::feclearexcept(FE_UNDERFLOW);
+    block.process(std::vector<float>(512, 0.0f), silence);
+    CHECK(std::fetestexcept(FE_UNDERFLOW) == 0);
+    CHECK(silence == std::vector<float>(512, 0.0f));
+}
+
+/// One output of a DspBank as a block, so that the contract of blocks can be checked on banks too.
+template <DspBank Bank>
+class OutputOf
+{
+public:
+    struct Params
+    {
+        typename Bank::Params bank;
+        std::size_t output = 0;
+    };
+
+    void prepare(const ProcessSpec& spec)
+    {
+        bank.prepare(spec);
+        memory.assign(bank.bands(), std::vector<float>(spec.maxBlockFrames));
+        views.resize(bank.bands());
+    }
+    void setParams(const Params& params) noexcept
+    {
+        bank.setParams(params.bank);
+        output = params.output;
+    }
+    void reset() noexcept { bank.reset(); }
+
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        for (std::size_t k = 0; k < views.size(); ++k)
+            views[k] = k == output ? out : std::span(memory[k]).first(in.size());
+        bank.process(in, views);
+    }
+
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return bank.latencyFrames(); }
+
+private:
+    Bank bank;
+    std::size_t output = 0;
+    std::vector<std::vector<float>> memory;
+    std::vector<std::span<float>> views;
+};
 
 } // namespace pacini::test

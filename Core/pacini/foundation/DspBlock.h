@@ -2,8 +2,10 @@
 
 // The contract that every streaming block keeps (checked in Tests/support/BlockContract.h).
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace pacini
@@ -20,6 +22,8 @@ struct ProcessSpec
 /// A streaming mono block: prepare() alone may allocate; everything else is real-time safe.
 /// After reset() a block equals a freshly prepared one; process() may run in place (in and out the same memory);
 /// the output does not depend on how the input is cut into calls.
+/// A sample that is NaN or infinite counts as 0 where it enters a block, so that one bad sample never stays in a
+/// feedback loop; what leaves a block is finite and never denormal.
 template <typename B>
 concept DspBlock = requires(B block, ProcessSpec spec, typename B::Params params, std::span<const float> in,
                             std::span<float> out)
@@ -42,5 +46,68 @@ concept DspBlock = requires(B block, ProcessSpec spec, typename B::Params params
     }
     noexcept->std::convertible_to<std::size_t>;
 };
+
+/// A streaming block with one input and bands() outputs, under the same contract; outs[k] has as many frames as `in`,
+/// and one of the outputs may be the memory of the input.
+template <typename B>
+concept DspBank = requires(B bank, ProcessSpec spec, typename B::Params params, std::span<const float> in,
+                           std::span<const std::span<float>> outs)
+{
+    bank.prepare(spec);
+    {
+        bank.setParams(params)
+    }
+    noexcept;
+    {
+        bank.reset()
+    }
+    noexcept;
+    {
+        bank.process(in, outs)
+    }
+    noexcept;
+    {
+        bank.bands()
+    }
+    noexcept->std::convertible_to<std::size_t>;
+    {
+        bank.latencyFrames()
+    }
+    noexcept->std::convertible_to<std::size_t>;
+};
+
+/// A sample on its way into a block: NaN and infinities become 0.
+[[nodiscard]] inline double finiteOrZero(float sample) noexcept
+{
+    const auto x = static_cast<double>(sample);
+    return std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max()) ? x : 0.0;
+}
+
+/// A sample on its way out of a block: limited to the finite floats; below -600 dB (far under every converter, far over
+/// the denormals, which slow down whatever follows) it is 0.
+[[nodiscard]] inline float toSample(double y) noexcept
+{
+    constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
+    if (!(std::abs(y) >= 1e-30))
+        return 0.0f;
+    return static_cast<float>(y > largest ? largest : (y < -largest ? -largest : y));
+}
+
+/// Sets a state variable that has decayed below anything audible to 0, at the end of each process() call: in silence a
+/// feedback loop would otherwise end in denormal numbers, which cost a hundred times as much. The limit lies so far
+/// under that of toSample() that no output depends on where the calls end.
+inline void flushTiny(double& state) noexcept
+{
+    if (std::abs(state) < 1e-100)
+        state = 0.0;
+}
+
+/// out[i] = tick(in[i]) for every frame, with the guards of the contract at the input and the output.
+template <typename Tick>
+void forEachSample(std::span<const float> in, std::span<float> out, Tick&& tick) noexcept
+{
+    for (std::size_t i = 0; i < in.size(); ++i)
+        out[i] = toSample(tick(finiteOrZero(in[i])));
+}
 
 } // namespace pacini

@@ -1,0 +1,100 @@
+#pragma once
+
+// Sections one after the other, without allocation.
+
+#include <pacini/filters/Biquad.h>
+#include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/FixedVector.h>
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <span>
+
+namespace pacini
+{
+
+inline constexpr std::size_t maxBiquadSections = 32;
+
+/// Sections in series; none of them passes everything unchanged.
+struct BiquadCascadeCoefficients
+{
+    FixedVector<BiquadCoefficients, maxBiquadSections> sections;
+    bool operator==(const BiquadCascadeCoefficients&) const = default;
+
+    /// The complex gain of the whole series at f for the sample rate fs (Hz).
+    [[nodiscard]] std::complex<double> response(Hertz f, double fs) const noexcept
+    {
+        std::complex<double> product = 1.0;
+        for (const BiquadCoefficients& section : sections)
+            product *= section.response(f, fs);
+        return product;
+    }
+};
+
+/// A streaming filter whose sections the pure function `Design`(params, fs) -> BiquadCascadeCoefficients makes: one
+/// state machine for every filter that is a series of sections. Parameters may change between calls; sections that
+/// remain keep their state, new ones start from silence.
+template <typename P, auto Design>
+class DesignedCascade
+{
+public:
+    using Params = P;
+
+    void prepare(const ProcessSpec& spec) noexcept
+    {
+        fs = spec.sampleRate;
+        setParams(current);
+        reset();
+    }
+    void setParams(const Params& params) noexcept
+    {
+        current = params;
+        cascade = Design(params, fs);
+        for (std::size_t i = cascade.sections.size(); i < states.size(); ++i)
+            states[i] = {};
+    }
+    void reset() noexcept { states = {}; }
+
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        const std::size_t count = cascade.sections.size();
+        forEachSample(in, out,
+                      [this, count](double x)
+                      {
+                          for (std::size_t i = 0; i < count; ++i)
+                              x = states[i].tick(cascade.sections[i], x);
+                          return x;
+                      });
+        for (std::size_t i = 0; i < count; ++i)
+            states[i].flush();
+    }
+
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
+    [[nodiscard]] const BiquadCascadeCoefficients& coefficients() const noexcept { return cascade; }
+
+private:
+    double fs = ProcessSpec{}.sampleRate;
+    Params current;
+    BiquadCascadeCoefficients cascade = Design(Params{}, ProcessSpec{}.sampleRate);
+    std::array<BiquadState, maxBiquadSections> states{};
+};
+
+using BiquadCascadeParams = FixedVector<BiquadParams, maxBiquadSections>;
+
+/// One cookbook section (see designBiquad) for each element.
+[[nodiscard]] inline BiquadCascadeCoefficients designBiquadCascade(const BiquadCascadeParams& params,
+                                                                   double fs) noexcept
+{
+    BiquadCascadeCoefficients cascade;
+    for (const BiquadParams& section : params)
+        cascade.sections.pushBack(designBiquad(section, fs));
+    return cascade;
+}
+
+/// Cookbook sections in series, such as an equalizer's.
+using BiquadCascade = DesignedCascade<BiquadCascadeParams, designBiquadCascade>;
+
+static_assert(DspBlock<BiquadCascade>);
+
+} // namespace pacini

@@ -1,0 +1,253 @@
+#include "support/BlockContract.h"
+#include "support/Catch.h"
+#include "support/Golden.h"
+#include "support/Measure.h"
+
+#include <pacini/analysis/TransientDetector.h>
+
+#include <limits>
+#include <string>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+
+TransientDetectorParams paramsOf(const nlohmann::json& p)
+{
+    const auto ms = [&p](const char* name)
+    {
+        return Seconds(p.value(name, 0.0) / 1000.0);
+    };
+    TransientDetectorParams params;
+    params.score.reading =
+        p.value("relative", false) ? TransientScoreReading::relative : TransientScoreReading::absolute;
+    params.threshold = p["threshold"];
+    params.score.floor = p.value("eps", params.score.floor);
+    params.score.fastAttack = ms("attack_fast_ms");
+    params.score.slowAttack = ms("attack_slow_ms");
+    params.score.hold = ms("hold_ms");
+    params.score.release = ms("release_ms");
+    params.score.decay = p["kind"] == "99" ? DecayDefinition::percent99 : DecayDefinition::percent63;
+    params.minimumWindow = ms("min_win_ms");
+    params.minimumDistance = ms("min_dist_ms");
+    params.minimumAmplitude = p["min_amp"];
+    return params;
+}
+
+std::vector<float> inputOf(const nlohmann::json& data, const nlohmann::json& entry)
+{
+    return data["inputs"][entry["signal"].get<std::string>()].get<std::vector<float>>();
+}
+
+void checkEvents(const std::vector<DetectedTransient>& found, const nlohmann::json& expected, double tolerance)
+{
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+        CHECK(found[i].frame == expected[i][0].get<std::size_t>());
+        CHECK(std::abs(found[i].amplitude - expected[i][1].get<double>()) <= tolerance);
+    }
+}
+
+/// Clicks of decaying amplitude, `rate` per second.
+std::vector<float> clicks(std::size_t frames, double fs, double rate)
+{
+    std::vector<float> x(frames, 0.0f);
+    const auto period = static_cast<std::size_t>(fs / rate);
+    for (std::size_t start = period / 2; start < frames; start += period)
+        for (std::size_t i = 0; i < period && start + i < frames; ++i)
+        {
+            const double t = static_cast<double>(i) / fs;
+            x[start + i] =
+                static_cast<float>(0.9 * std::exp(-t / 0.002) * std::cos(2.0 * std::numbers::pi * 300.0 * t));
+        }
+    return x;
+}
+
+} // namespace
+
+TEST_CASE("Detected transients equal the reference exactly", "[analysis][golden]")
+{
+    const auto data = golden("transients");
+    for (const auto& entry : data["cases"])
+    {
+        CAPTURE(entry["signal"].get<std::string>(), entry["params"].dump());
+        const auto params = paramsOf(entry["params"]);
+        checkEvents(detectTransients(inputOf(data, entry), data["fs"], params), entry["events"], data["tol"]);
+    }
+}
+
+TEST_CASE("Without the masks the detector gives every candidate of the reference", "[analysis][golden]")
+{
+    const auto data = golden("transients");
+    for (const auto& entry : data["cases"])
+    {
+        CAPTURE(entry["signal"].get<std::string>(), entry["params"].dump());
+        auto params = paramsOf(entry["params"]);
+        params.minimumAmplitude = 0.0;
+        params.minimumDistance = 0_s;
+        checkEvents(detectTransients(inputOf(data, entry), data["fs"], params), entry["candidates"], data["tol"]);
+    }
+}
+
+TEST_CASE("The transient score and its windows equal the reference", "[analysis][golden]")
+{
+    const auto data = golden("transients");
+    for (const auto& entry : data["cases"])
+    {
+        const auto params = paramsOf(entry["params"]);
+        const auto score = transientScore(inputOf(data, entry), data["fs"], params.score);
+        CHECK(*std::max_element(score.begin(), score.end()) ==
+              Approx(entry["score_max"].get<double>()).epsilon(1e-6).margin(1e-9));
+        std::vector<std::vector<std::size_t>> windows;
+        for (std::size_t i = 0; i < score.size(); ++i)
+        {
+            const auto isAbove = [&](std::size_t n)
+            {
+                return static_cast<double>(score[n]) >= params.threshold;
+            };
+            const bool above = isAbove(i);
+            if (above && (i == 0 || !isAbove(i - 1)))
+                windows.push_back({i, score.size()});
+            if (!above && i > 0 && isAbove(i - 1))
+                windows.back()[1] = i;
+        }
+        CHECK(windows == entry["windows"].get<std::vector<std::vector<std::size_t>>>());
+    }
+}
+
+TEST_CASE("Chunks of any size give the same transients, and each one soon", "[analysis]")
+{
+    const auto data = golden("transients");
+    for (const auto& entry : data["cases"])
+        for (const std::size_t chunk : {1u, 7u, 64u, 511u})
+        {
+            const auto params = paramsOf(entry["params"]);
+            const double fs = data["fs"];
+            const auto x = inputOf(data, entry);
+            TransientDetector detector;
+            detector.setParams(params);
+            detector.prepare({fs, chunk});
+            std::vector<DetectedTransient> events;
+            const auto keep = [&events](const DetectedTransient& event)
+            {
+                events.push_back(event);
+            };
+            for (int pass = 0; pass < 2; ++pass)
+            {
+                events.clear();
+                for (std::size_t i = 0; i < x.size(); i += chunk)
+                    detector.process(std::span(x).subspan(i, std::min(chunk, x.size() - i)), keep);
+                detector.finish(keep);
+                detector.reset();
+                CHECK(events == detectTransients(x, fs, params));
+            }
+        }
+}
+
+TEST_CASE("A transient leaves the detector once its window and the minimum distance have passed", "[analysis]")
+{
+    const double fs = 8000.0;
+    auto x = clicks(8000, fs, 1.0); // one click at 0.5 s
+    TransientDetector detector;
+    detector.setParams(relativeTransientParams());
+    detector.prepare({fs, 1});
+    std::size_t left = 0;
+    std::size_t frame = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        detector.process(std::span(x).subspan(i, 1),
+                         [&](const DetectedTransient& event)
+                         {
+                             left = i;
+                             frame = event.frame;
+                         });
+    CHECK(frame == 4000);
+    CHECK(left > frame);
+    CHECK(left - frame < static_cast<std::size_t>(0.030 * fs));
+}
+
+TEST_CASE("The relative score follows fast trains that the absolute one is blind to", "[analysis]")
+{
+    const double fs = 8000.0;
+    for (const double rate : {5.0, 20.0, 50.0, 80.0})
+    {
+        const auto x = clicks(16000, fs, rate);
+        const auto relative = detectTransients(x, fs, relativeTransientParams());
+        CAPTURE(rate);
+        CHECK(std::abs(static_cast<double>(relative.size()) - 2.0 * rate) <= 1.0);
+    }
+    CHECK(detectTransients(clicks(16000, fs, 80.0), fs, {}).size() < 80);
+}
+
+TEST_CASE("Louder copies change the events of the absolute score, not those of the relative one", "[analysis]")
+{
+    const double fs = 8000.0;
+    const auto x = clicks(16000, fs, 4.0);
+    auto quiet = x;
+    for (float& v : quiet)
+        v *= 0.25f;
+    auto params = relativeTransientParams();
+    CHECK(detectTransients(x, fs, params).size() == detectTransients(quiet, fs, params).size());
+    CHECK(detectTransients(x, fs, {}).size() > detectTransients(quiet, fs, {}).size());
+}
+
+TEST_CASE("Transients of nothing are none, and hostile input does no harm", "[analysis]")
+{
+    for (const double fs : {8000.0, 44100.0, 384000.0, 768000.0})
+        for (const auto& params : {TransientDetectorParams{}, relativeTransientParams()})
+        {
+            CHECK(detectTransients({}, fs, params).empty());
+            CHECK(detectTransients(std::vector<float>(2000, 0.0f), fs, params).empty());
+            CHECK(detectTransients(std::vector<float>(1, 0.0f), fs, params).empty());
+            CHECK(detectTransients(std::vector<float>(1, 1.0f), fs, params).size() <= 1);
+            auto bad = noise(4000, 2);
+            bad[5] = std::numeric_limits<float>::quiet_NaN();
+            bad[6] = std::numeric_limits<float>::infinity();
+            bad[7] = std::numeric_limits<float>::max();
+            for (const auto& event : detectTransients(bad, fs, params))
+                CHECK(std::isfinite(event.amplitude));
+        }
+
+    // A threshold of 0 keeps a window open to the end; one that flickers opens many.
+    TransientDetectorParams open;
+    open.threshold = 0.0;
+    CHECK(detectTransients(noise(5000, 1), 8000.0, open).size() == 1);
+    TransientDetectorParams flicker = relativeTransientParams();
+    flicker.score.hold = flicker.score.release = flicker.score.fastAttack = 0_s;
+    flicker.threshold = 1e-3;
+    flicker.minimumWindow = 1_s;
+    flicker.minimumDistance = 0_s;
+    CHECK(!detectTransients(noise(20000, 1), 8000.0, flicker).empty());
+}
+
+TEST_CASE("TransientScore keeps the contract of blocks", "[analysis][contract]")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto relative = relativeTransientParams().score;
+    auto bad = relative;
+    bad.floor = nan;
+    bad.hold = bad.slowAttack = Seconds(nan);
+    checkBlockContract<TransientScore>({}, {.bound = 1.0});
+    checkBlockContract<TransientScore>(relative, {.bound = 34.0});
+    checkBlockContract<TransientScore>(bad, {.bound = 1e9});
+    checkModulation<TransientScore>({TransientScoreParams{}, relative, bad}, 1e9);
+    checkSilenceIsCheap<TransientScore>(relative);
+}
+
+TEST_CASE("The transient detector makes no heap traffic", "[analysis][contract]")
+{
+    const auto x = clicks(8000, 8000.0, 50.0);
+    TransientDetector detector;
+    detector.setParams(relativeTransientParams());
+    detector.prepare({8000.0, 8000});
+    std::size_t count = 0;
+    const HeapGuard guard;
+    detector.process(x, [&count](const DetectedTransient&) noexcept { ++count; });
+    detector.finish([&count](const DetectedTransient&) noexcept { ++count; });
+    detector.setParams({});
+    detector.reset();
+    CHECK(guard.traffic() == 0);
+    CHECK(count > 30);
+}
