@@ -4,6 +4,8 @@
 #include "io/ClipJson.h"
 #include "io/InputFile.h"
 
+#include <pacini/clip/PackedClip.h>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,20 +17,6 @@ namespace pacini
 namespace
 {
 constexpr std::string_view packedMagic = "PACB";
-
-// The packed form plugs in here: unpackClip and packClip of <pacini/clip/PackedClip.h>.
-Error packedIsMissing()
-{
-    return {ErrorCode::invalidArgument, "", "packed clips are not built in"};
-}
-Result<Clip> unpack(std::span<const std::byte>)
-{
-    return packedIsMissing();
-}
-Result<std::string> pack(const Clip&)
-{
-    return packedIsMissing();
-}
 
 bool looksLikeJson(std::string_view bytes)
 {
@@ -45,7 +33,7 @@ Result<Clip> readClip(const std::filesystem::path& path)
     if (!bytes)
         return bytes.error();
     if (bytes->starts_with(packedMagic))
-        return unpack(std::as_bytes(std::span(*bytes)));
+        return unpackClip(std::as_bytes(std::span(*bytes)));
     if (looksLikeJson(*bytes))
         return readClipJson(*bytes);
     if (bytes->empty())
@@ -59,10 +47,7 @@ Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& cli
         return valid.error();
     if (format == ClipFormat::json)
         return writeFileAtomically(path, writeClipJson(clip));
-    const auto packed = pack(clip);
-    if (!packed)
-        return packed.error();
-    return writeFileAtomically(path, *packed);
+    return writeFileAtomically(path, packClip(clip, packParamsFor(clip)));
 }
 
 } // namespace pacini

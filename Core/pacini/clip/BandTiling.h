@@ -2,6 +2,8 @@
 
 // Where the bands of a clip lie.
 
+#include <pacini/foundation/BandSpacing.h>
+
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -9,12 +11,6 @@
 
 namespace pacini
 {
-
-enum class BandSpacing
-{
-    logarithmic,
-    linear
-};
 
 /// One band's frequencies in Hz.
 struct BandEdges
@@ -32,8 +28,7 @@ struct BandEdges
     assert(count > 0 && low > 0.0 && high > low);
     const auto at = [&](double position)
     {
-        const double u = position / static_cast<double>(count);
-        const double f = spacing == BandSpacing::logarithmic ? low * std::pow(high / low, u) : low + (high - low) * u;
+        const double f = onScale(spacing, low, high, position / static_cast<double>(count));
         return std::round(100.0 * f) / 100.0;
     };
     std::vector<BandEdges> bands(count);

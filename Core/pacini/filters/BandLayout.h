@@ -2,6 +2,7 @@
 
 // Where the bands of a filter bank lie.
 
+#include <pacini/foundation/BandSpacing.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/FixedVector.h>
 #include <pacini/foundation/Units.h>
@@ -14,12 +15,6 @@ namespace pacini
 {
 
 inline constexpr std::size_t maxBands = 32;
-
-enum class BandSpacing
-{
-    logarithmic,
-    linear,
-};
 
 /// What stands at the two ends of the range. The thesis (Weber 2020, section 4.3.1) can be read in all three ways.
 enum class BandLayoutKind
@@ -76,19 +71,6 @@ private:
     }
 };
 
-namespace detail
-{
-
-/// The point at `position` (0 = low, 1 = high, also beyond) on the layout's scale.
-inline Hertz onScale(BandSpacing spacing, double low, double high, double position) noexcept
-{
-    if (spacing == BandSpacing::logarithmic)
-        return Hertz(low * std::pow(high / low, position));
-    return Hertz(low + (high - low) * position);
-}
-
-} // namespace detail
-
 /// Centres and crossovers for `params`. On the linear scale with cutoffsAtEnds the first centre would often lie below
 /// 0 Hz; it is then put at half the first crossover.
 [[nodiscard]] inline BandLayout designBandLayout(const BandLayoutParams& params) noexcept
@@ -100,7 +82,7 @@ inline Hertz onScale(BandSpacing spacing, double low, double high, double positi
     layout.spacing = params.spacing;
     const auto at = [&](double position)
     {
-        return detail::onScale(params.spacing, low, high, position);
+        return Hertz(onScale(params.spacing, low, high, position));
     };
     const auto count = static_cast<double>(n);
     if (n == 1)
