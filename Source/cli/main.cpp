@@ -1,4 +1,6 @@
-int main()
+#include "cli/Command.h"
+
+int main(int argc, char** argv)
 {
-    return 0;
+    return pacini::cli::runCommandLine(argc, argv);
 }

@@ -41,6 +41,16 @@ Result<Clip> readClip(const std::filesystem::path& path)
     return Error{ErrorCode::invalidData, "", "is not a clip: neither JSON nor packed; encode audio to get a clip"};
 }
 
+bool isClipFile(const std::filesystem::path& path)
+{
+    const auto file = openForReading(path);
+    if (!file)
+        return false;
+    std::string start(64, '\0');
+    start.resize(std::fread(start.data(), 1, start.size(), file->get()));
+    return start.starts_with(packedMagic) || looksLikeJson(start);
+}
+
 Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format)
 {
     if (auto valid = validate(clip); !valid)

@@ -20,6 +20,9 @@ enum class ClipFormat
 /// invalidData when it is neither format, and those of the format's reader.
 [[nodiscard]] Result<Clip> readClip(const std::filesystem::path& path);
 
+/// Whether the file's content starts as a clip does; false also when it cannot be read.
+[[nodiscard]] bool isClipFile(const std::filesystem::path& path);
+
 /// Writes a clip and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io as
 /// in AtomicFile.
 [[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format);

@@ -51,6 +51,25 @@ struct EncoderParams
     return {};
 }
 
+/// The parameters as a clip keeps them; the gain, which depends on the sound, comes on top.
+[[nodiscard]] inline std::vector<EncoderParameter> encoderRecord(const EncoderParams& params)
+{
+    std::vector<EncoderParameter> record = {{"method", std::string("a2vt")},
+                                            {"bands", static_cast<double>(params.bands)},
+                                            {"breakpoints", params.breakpoints},
+                                            {"quantise", static_cast<double>(params.quantise)}};
+    const EncoderParams usual;
+    if (params.lowFrequency != usual.lowFrequency)
+        record.push_back({"low", params.lowFrequency});
+    if (params.highFrequency != usual.highFrequency)
+        record.push_back({"high", params.highFrequency});
+    if (params.spacing != usual.spacing)
+        record.push_back({"spacing", std::string("linear")});
+    if (params.normalise != usual.normalise)
+        record.push_back({"normalise", params.normalise});
+    return record;
+}
+
 /// Encodes one sound after another; keeps its transforms and filters between them. Use: start, push any number of
 /// times, finish. Memory grows with the clip, not with the sound. One thread at a time, never the audio thread.
 class Encoder
@@ -129,11 +148,8 @@ private:
         clip.source.sampleRate = fs;
         clip.source.channels = static_cast<int>(channelCount);
         const double gain = settings.normalise && found.peak > silence ? 1.0 / found.peak : 1.0;
-        clip.encoder = {{"method", std::string("a2vt")},
-                        {"bands", static_cast<double>(settings.bands)},
-                        {"breakpoints", settings.breakpoints},
-                        {"quantise", static_cast<double>(settings.quantise)},
-                        {"gain", roundedTo3Digits(gain)}};
+        clip.encoder = encoderRecord(settings);
+        clip.encoder.push_back({"gain", roundedTo3Digits(gain)});
         for (const BandEdges& edge : edges)
             clip.bands.push_back({edge.low, edge.centre, edge.high, 0, {}, {}});
         if (found.peak <= silence)

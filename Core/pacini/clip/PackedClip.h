@@ -555,6 +555,18 @@ void codePackParams(Coder& coder, PackParams& params)
     return params;
 }
 
+/// Sets the bits that packParamsFor() finds.
+inline void setQuantise(Clip& clip, int bits)
+{
+    for (EncoderParameter& parameter : clip.encoder)
+        if (parameter.name == "quantise")
+        {
+            parameter.value = static_cast<double>(bits);
+            return;
+        }
+    clip.encoder.push_back({"quantise", static_cast<double>(bits)});
+}
+
 /// The packed form of a valid clip: "PACB", a version, a checksum, and a range-coded rest. Amplitudes, frequencies and
 /// times are rounded to the grids of `params` (bits outside 4-16 are clamped); what is on the grids already is kept
 /// exactly.

@@ -46,6 +46,17 @@ struct DecoderParams
     bool operator==(const DecoderParams&) const = default;
 };
 
+/// What a decoder plays, and what it leaves out because it would not be heard.
+struct DecoderReport
+{
+    double innerRate = 0.0; ///< Hz at which the sinusoids are summed
+    std::size_t carriers = 0;
+    std::size_t silentBands = 0; ///< left out
+    bool levelled = false;
+    std::size_t pulses = 0;
+    std::size_t maskedTransients = 0; ///< left out: the bands reach their level
+};
+
 /// The readings of the thesis: fixed centres, one square cycle at the actuator's resonance on top, no levelling.
 [[nodiscard]] inline DecoderParams thesisDecoderParams(double sampleRate, double resonance = 67.0)
 {
@@ -79,6 +90,7 @@ public:
                     ? 1
                     : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
         innerRate = fs / static_cast<double>(ratio);
+        plan.innerRate = innerRate;
         carriers = CarrierBank(makeCarriers(varied, transposition));
         if (params.followEnvelope && !varied.envelope.empty())
         {
@@ -99,6 +111,8 @@ public:
 
     /// Length of the clip with its delay and stretch.
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
+
+    [[nodiscard]] const DecoderReport& report() const noexcept { return plan; }
 
     /// Back to the start.
     void reset() noexcept
@@ -188,7 +202,7 @@ private:
         return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
     }
 
-    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip, double transposition) const
+    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip, double transposition)
     {
         std::vector<Carrier> result;
         const double reference = referenceFrequency(clip);
@@ -211,9 +225,15 @@ private:
                     addFrequency(point.time, point.value * band.centreFrequency / reference);
             if (carrier.frequency.empty())
                 addFrequency(0.0, band.centreFrequency);
-            if (!carrier.amplitude.empty())
+            const bool silent = std::all_of(carrier.amplitude.begin(), carrier.amplitude.end(),
+                                            [](const Breakpoint& p) { return p.value == 0.0; });
+            if (silent)
+                ++plan.silentBands;
+            else
                 result.push_back(std::move(carrier));
         }
+        plan.carriers = result.size();
+        plan.levelled = params.followEnvelope && !clip.envelope.empty();
         return result;
     }
 
@@ -236,11 +256,15 @@ private:
                 level = std::sqrt(std::max(level * level - reached * reached, 0.0));
             }
             if (level <= 0.0)
+            {
+                ++plan.maskedTransients;
                 continue;
+            }
             const auto start =
                 delayFrames + static_cast<std::int64_t>(std::floor(transient.time * params.stretch * fs + 0.5));
             events.push_back(
                 {start, level * params.gain, makePulse(params.pulses, transient.sharpness, gap, fs, transposition)});
+            ++plan.pulses;
             longestPulse = std::max(longestPulse, static_cast<std::int64_t>(events.back().pulse.frames));
         }
     }
@@ -298,6 +322,7 @@ private:
     Curve envelope; // time in inner frames
     std::array<CurveReader, EnvelopeLeveller::passCount> envelopeReaders;
     std::vector<Event> events;
+    DecoderReport plan;
     std::int64_t longestPulse = 0;
 
     std::vector<double> re, im, wantedEnvelope;

@@ -1,0 +1,110 @@
+#pragma once
+
+// What is known of an actuator.
+
+#include <pacini/filters/BiquadCascade.h>
+#include <pacini/filters/Butterworth.h>
+#include <pacini/foundation/Result.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+enum class EqualizerType
+{
+    peak,
+    lowShelf,
+    highShelf,
+    highpass ///< Butterworth of any order
+};
+
+/// One section of an equalizer; gain and q count for peak and shelves, order for the high-pass.
+struct EqualizerSection
+{
+    EqualizerType type = EqualizerType::peak;
+    double frequency = 100.0; ///< Hz
+    double gain = 0.0;        ///< dB
+    double q = 0.7071067811865476;
+    int order = 2;
+    bool operator==(const EqualizerSection&) const = default;
+};
+
+/// An actuator: where it resonates and what flattens it.
+struct Profile
+{
+    std::string name;
+    double resonance = 67.0; ///< Hz
+    std::vector<EqualizerSection> equalizer;
+    bool operator==(const Profile&) const = default;
+};
+
+/// Checks the ranges of a profile: frequencies 1-20000 Hz, gains within +-40 dB, q 0.01-100, order 1-8, at most 16
+/// sections.
+[[nodiscard]] inline Result<void> validate(const Profile& profile)
+{
+    const auto wrong = [](std::string where, const char* message) -> Result<void>
+    {
+        return Error{ErrorCode::invalidData, std::move(where), message};
+    };
+    const auto within = [](double value, double low, double high)
+    {
+        return value >= low && value <= high;
+    };
+    if (!within(profile.resonance, 1.0, 20000.0))
+        return wrong("resonance.frequency", "must be 1 to 20000 Hz");
+    if (profile.equalizer.size() > 16)
+        return wrong("equalizer", "has more than 16 sections");
+    for (std::size_t i = 0; i < profile.equalizer.size(); ++i)
+    {
+        const EqualizerSection& section = profile.equalizer[i];
+        const auto where = "equalizer[" + std::to_string(i) + "]";
+        if (!within(section.frequency, 1.0, 20000.0))
+            return wrong(where + ".frequency", "must be 1 to 20000 Hz");
+        if (!within(section.gain, -40.0, 40.0))
+            return wrong(where + ".gain", "must be -40 to 40 dB");
+        if (!within(section.q, 0.01, 100.0))
+            return wrong(where + ".q", "must be 0.01 to 100");
+        if (section.order < 1 || section.order > 8)
+            return wrong(where + ".order", "must be 1 to 8");
+    }
+    return {};
+}
+
+/// The equalizer of a valid profile as a filter at `fs` Hz; sections at or above 0.49 fs are left out, since they would
+/// not do there what they say. Cookbook sections (see Biquad.h) and Butterworth high-passes.
+[[nodiscard]] inline BiquadCascadeCoefficients designEqualizer(const std::vector<EqualizerSection>& sections,
+                                                               double fs) noexcept
+{
+    BiquadCascadeCoefficients cascade;
+    for (const EqualizerSection& section : sections)
+    {
+        if (section.frequency >= 0.49 * fs)
+            continue;
+        if (section.type == EqualizerType::highpass)
+        {
+            const auto highpass =
+                designButterworth({ButterworthType::highpass, section.order, Hertz(section.frequency), Hertz(0.0)}, fs);
+            for (const BiquadCoefficients& part : highpass.sections)
+                cascade.sections.pushBack(part);
+            continue;
+        }
+        BiquadParams params;
+        params.type = section.type == EqualizerType::peak       ? BiquadType::peak
+                      : section.type == EqualizerType::lowShelf ? BiquadType::lowShelf
+                                                                : BiquadType::highShelf;
+        params.frequency = Hertz(section.frequency);
+        params.gain = Decibels(section.gain);
+        params.q = section.q;
+        cascade.sections.pushBack(designBiquad(params, fs));
+    }
+    return cascade;
+}
+
+/// A profile's equalizer as a streaming filter.
+using Equalizer = DesignedCascade<std::vector<EqualizerSection>, designEqualizer>;
+
+} // namespace pacini

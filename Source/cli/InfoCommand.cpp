@@ -1,0 +1,138 @@
+#include "cli/InfoCommand.h"
+
+#include "io/AudioReader.h"
+#include "io/ClipFile.h"
+#include "io/ClipJson.h"
+
+#include <pacini/clip/ClipSize.h>
+#include <pacini/clip/PackedClip.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json describe(const Clip& clip)
+{
+    Json encoder = Json::object();
+    for (const EncoderParameter& parameter : clip.encoder)
+        std::visit([&](const auto& value) { encoder[parameter.name] = value; }, parameter.value);
+    const auto packed = packClip(clip, packParamsFor(clip)).size();
+    return {{"kind", "clip"},
+            {"name", clip.name},
+            {"duration", clip.duration},
+            {"source",
+             {{"file", clip.source.file}, {"sampleRate", clip.source.sampleRate}, {"channels", clip.source.channels}}},
+            {"encoder", encoder},
+            {"bands", clip.bands.size()},
+            {"breakpoints", breakpointCount(clip)},
+            {"transients", clip.transients.size()},
+            {"markers", clip.markers.size()},
+            {"bytes",
+             {{"json", writeClipJson(clip).size()},
+              {"packed", packed},
+              {"thesisBits", thesisBits(clip, packParamsFor(clip).bits)}}},
+            {"bytesPerSecond", clip.duration > 0.0 ? static_cast<double>(packed) / clip.duration : 0.0}};
+}
+
+std::string text(const std::string& file, const Clip& clip)
+{
+    const Json j = describe(clip);
+    std::string lines = fmt::format("{}: haptic clip \"{}\", {}\n", file, clip.name, durationText(clip.duration));
+    if (!clip.source.file.empty())
+        lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", clip.source.file, clip.source.sampleRate,
+                             clip.source.channels, clip.source.channels == 1 ? "" : "s");
+    if (!clip.encoder.empty())
+        lines += "  encoder       " + j["encoder"].dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (!clip.bands.empty())
+        lines += fmt::format("  bands         {} from {:.0f} to {:.0f} Hz\n", clip.bands.size(),
+                             clip.bands.front().lowFrequency, clip.bands.back().highFrequency);
+    lines += fmt::format("  breakpoints   {}\n  transients    {}\n", breakpointCount(clip), clip.transients.size());
+    lines += fmt::format("  size          {} packed ({:.0f} B/s), {} as JSON, {} bits by the thesis' count",
+                         bytesText(j["bytes"]["packed"].get<double>()), j["bytesPerSecond"].get<double>(),
+                         bytesText(j["bytes"]["json"].get<double>()), j["bytes"]["thesisBits"].get<std::size_t>());
+    return lines;
+}
+
+/// Reads the whole sound, since only that finds out whether it is sound.
+Result<Json> describeAudio(const std::string& file)
+{
+    auto reader = AudioReader::open(file);
+    if (!reader)
+        return reader.error();
+    std::vector<float> buffer(static_cast<std::size_t>(reader->channels()) * 4096);
+    std::uint64_t frames = 0;
+    double peak = 0.0;
+    for (;;)
+    {
+        const auto got = reader->read(buffer);
+        if (!got)
+            return got.error();
+        if (*got == 0)
+            break;
+        frames += *got;
+        for (std::size_t i = 0; i < *got * static_cast<std::size_t>(reader->channels()); ++i)
+            peak = std::max(peak, std::abs(static_cast<double>(buffer[i])));
+    }
+    return Json{{"kind", "audio"},
+                {"duration", static_cast<double>(frames) / reader->sampleRate()},
+                {"sampleRate", reader->sampleRate()},
+                {"channels", reader->channels()},
+                {"frames", frames},
+                {"peak", peak}};
+}
+} // namespace
+
+CLI::App* InfoCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("info", "Say what a clip or a sound file holds");
+    command->add_option("inputs", inputs, "Clips or audio files")->required()->type_name("FILE");
+    command->add_flag("--json", json, "Print one JSON object (a list of them for several files)");
+    return command;
+}
+
+Exit InfoCommand::run(Console& console)
+{
+    Json reports = Json::array();
+    bool failed = false;
+    for (const std::string& file : inputs)
+    {
+        const auto clip = readClip(file);
+        if (clip)
+        {
+            if (json)
+                reports.push_back(describe(*clip));
+            else
+                console.print(text(file, *clip));
+            continue;
+        }
+        // A file that is no clip may be a sound; a broken clip should be reported as a clip.
+        const auto audio = describeAudio(file);
+        if (!audio)
+        {
+            console.error(file, isClipFile(file) ? clip.error() : audio.error());
+            failed = true;
+            continue;
+        }
+        if (json)
+            reports.push_back(*audio);
+        else
+            console.print(fmt::format("{}: sound, {}, {} Hz, {} channels, peak {:.3f}", file,
+                                      durationText((*audio)["duration"].get<double>()),
+                                      (*audio)["sampleRate"].get<int>(), (*audio)["channels"].get<int>(),
+                                      (*audio)["peak"].get<double>()));
+    }
+    if (json && !reports.empty())
+        console.print(
+            (inputs.size() == 1 ? reports.front() : reports).dump(2, ' ', false, Json::error_handler_t::replace));
+    return failed ? Exit::failed : Exit::ok;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "cli/Command.h"
+
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// `pacini info`: what a clip or a sound file holds.
+class InfoCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::vector<std::string> inputs;
+    bool json = false;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,113 @@
+#include "cli/InputFiles.h"
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+bool isHidden(const fs::path& path)
+{
+    const auto name = path.filename().string();
+    return !name.empty() && name.front() == '.';
+}
+
+void addFolder(const fs::path& folder, const std::vector<std::string>& extensions, InputFiles& found)
+{
+    std::error_code error;
+    std::vector<fs::path> paths;
+    fs::recursive_directory_iterator entry(folder, error);
+    while (!error && entry != fs::recursive_directory_iterator())
+    {
+        const fs::path path = entry->path();
+        std::error_code ignored;
+        if (isHidden(path) && entry->is_directory(ignored))
+            entry.disable_recursion_pending();
+        else if (!isHidden(path) && entry->is_regular_file(ignored) &&
+                 std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())
+            paths.push_back(path);
+        entry.increment(error);
+    }
+    if (error)
+        found.failures.push_back(
+            {folder, {ErrorCode::io, "", "cannot be listed: " + error.message() + "; check its permissions"}});
+    std::sort(paths.begin(), paths.end());
+    for (const auto& path : paths)
+        found.files.push_back({path, fs::relative(path, folder, error)});
+    if (paths.empty() && !error)
+        found.failures.push_back({folder, {ErrorCode::invalidData, "", "holds no files that this command reads"}});
+}
+} // namespace
+
+InputFiles findInputs(const std::vector<std::string>& named, const std::vector<std::string>& extensions)
+{
+    InputFiles found;
+    found.several = named.size() > 1;
+    for (const auto& name : named)
+    {
+        const fs::path path(name);
+        std::error_code error;
+        const auto status = fs::status(path, error);
+        if (fs::is_directory(status))
+        {
+            found.several = true;
+            addFolder(path, extensions, found);
+        }
+        else
+            found.files.push_back({path, path.filename()}); // what is wrong with it, its reader says
+    }
+    return found;
+}
+
+const std::vector<std::string>& audioExtensions()
+{
+    static const std::vector<std::string> extensions = {".wav",  ".wave", ".aif",  ".aiff", ".aifc", ".flac",
+                                                        ".ogg",  ".oga",  ".opus", ".mp3",  ".caf",  ".w64",
+                                                        ".rf64", ".bwf",  ".au",   ".snd"};
+    return extensions;
+}
+
+const std::vector<std::string>& clipExtensions()
+{
+    static const std::vector<std::string> extensions = {".json", ".pacb"};
+    return extensions;
+}
+
+Result<fs::path> outputFor(const InputFile& input, const std::string& output, bool several,
+                           const std::string& extension)
+{
+    fs::path path;
+    std::error_code error;
+    if (output.empty())
+    {
+        path = input.path;
+        path.replace_extension(extension);
+        return path;
+    }
+    const bool folder = several || output.back() == '/' || output.back() == fs::path::preferred_separator ||
+                        fs::is_directory(output, error);
+    if (!folder)
+        return fs::path(output);
+    path = fs::path(output) / input.relative;
+    path.replace_extension(extension);
+    fs::create_directories(path.parent_path(), error);
+    if (error)
+        return Error{ErrorCode::io, "",
+                     "cannot make the folder " + path.parent_path().string() + ": " + error.message()};
+    return path;
+}
+
+std::string lowerExtension(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+} // namespace pacini::cli

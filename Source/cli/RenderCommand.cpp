@@ -1,0 +1,230 @@
+#include "cli/RenderCommand.h"
+
+#include "cli/InputFiles.h"
+#include "cli/ProgramFolder.h"
+#include "cli/RenderJob.h"
+#include "cli/Task.h"
+#include "cli/TaskRunner.h"
+#include "io/ProfileFile.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using RenderTask = Task<RenderResult>;
+
+nlohmann::ordered_json toJson(const RenderTask& task)
+{
+    const RenderResult& r = *task.result;
+    return {{"input", task.input.string()},
+            {"output", task.output.string()},
+            {"bytes", r.bytes},
+            {"duration", r.duration},
+            {"seconds", r.seconds},
+            {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
+            {"peak", r.peak},
+            {"clippedSamples", r.clippedSamples},
+            {"plan",
+             {{"innerRate", r.report.innerRate},
+              {"carriers", r.report.carriers},
+              {"silentBands", r.report.silentBands},
+              {"levelled", r.report.levelled},
+              {"pulses", r.report.pulses},
+              {"maskedTransients", r.report.maskedTransients}}}};
+}
+
+std::string explanation(const RenderTask& task)
+{
+    const DecoderReport& plan = task.result->report;
+    return fmt::format("{}:\n"
+                       "  {} sinusoids at an inner rate of {:.0f} Hz{}\n"
+                       "  left out: {} silent bands, {} events that the bands reach by themselves\n"
+                       "  {} pulses",
+                       task.input.string(), plan.carriers, plan.innerRate,
+                       plan.levelled ? ", levelled to the envelope" : "", plan.silentBands, plan.maskedTransients,
+                       plan.pulses);
+}
+
+std::string summary(const std::vector<RenderTask>& tasks)
+{
+    std::size_t done = 0;
+    double duration = 0.0, seconds = 0.0;
+    for (const RenderTask& task : tasks)
+        if (task.result)
+        {
+            ++done;
+            duration += task.result->duration;
+            seconds += task.result->seconds;
+        }
+    std::string text = fmt::format("{} rendered", done);
+    if (done < tasks.size())
+        text += fmt::format(", {} failed", tasks.size() - done);
+    if (seconds > 0.0)
+        text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
+    return text;
+}
+
+/// The option's value where it is not "auto".
+template <typename T>
+std::optional<T> chosen(const std::string& name, const std::map<std::string, T>& values)
+{
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional<T>(found->second);
+}
+} // namespace
+
+CLI::App* RenderCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("render", "Turn clips into drive signals (WAV)");
+    command->add_option("inputs", inputs, "Clips (JSON or packed), or folders of them")->required()->type_name("CLIP");
+    command
+        ->add_option("-o,--output", output,
+                     "Sound file (.wav or .flac), or folder for several clips [beside each clip]")
+        ->type_name("OUT|DIR");
+    command
+        ->add_option("--profile", profile,
+                     "Actuator profile: a file, or a shipped one such as l5-wristband; applies its equaliser")
+        ->type_name("P");
+    command->add_option("--rate", rate, "Sample rate of the output, Hz")
+        ->capture_default_str()
+        ->check(CLI::Range(2000.0, 192000.0));
+    command->add_option("--encoding", encoding, "Samples as float32, pcm24 or pcm16")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"float32", "pcm24", "pcm16"}));
+    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(CLI::Range(-120.0, 60.0));
+    command->add_option("--transpose", transpose, "Semitones up or down; time stays")
+        ->capture_default_str()
+        ->check(CLI::Range(-96.0, 96.0))
+        ->type_name("ST");
+    command->add_option("--stretch", stretch, "Length factor; pitch stays")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0))
+        ->type_name("R");
+    command->add_option("--delay", delay, "Silence before the clip, s")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 3600.0));
+    command->add_option("--variation", variation, "Random variation of the bands, 0 to 1")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("V");
+    command->add_option("--variation-per", variationPer, "One random factor per breakpoint or per band")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"breakpoint", "band"}));
+    command->add_option("--seed", seed, "Seed of the variation")->capture_default_str();
+    command
+        ->add_option("--carriers", carriers,
+                     "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "fixed", "pitch", "centroid"}));
+    command->add_option("--envelope", envelope, "Level the sum of the bands to the total envelope")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "on", "off"}));
+    command->add_option("--pulse", pulse, "Waveform of events")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "adaptive", "square", "sine"}));
+    command
+        ->add_option("--pulse-frequency", pulseFrequency,
+                     "Frequency of square and sine pulses, Hz [the actuator's resonance]")
+        ->check(CLI::Range(1.0, 2000.0));
+    command->add_option("--pulse-cycles", pulseCycles, "Periods of square and sine pulses")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 100.0));
+    command->add_flag("--explain", explain, "Say what is played and what is left out");
+    command->add_option("-j,--jobs", jobs, "Clips to work on at a time [number of processors]")
+        ->check(CLI::Range(1u, 256u))
+        ->type_name("N");
+    command->add_flag("--json", json, "Print a report as one JSON object");
+    command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
+                    "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
+                    "  pacini render step.json -o step3.wav --variation 0.3 --seed 3");
+    return command;
+}
+
+Exit RenderCommand::run(Console& console)
+{
+    RenderSettings settings;
+    settings.decoder.sampleRate = std::round(rate);
+    settings.decoder.transposition = transpose;
+    settings.decoder.stretch = stretch;
+    settings.decoder.gain = Decibels(gain).gain();
+    settings.decoder.delay = delay;
+    settings.decoder.variation = {variation, variationPer == "band" ? VariationScope::band : VariationScope::breakpoint,
+                                  seed};
+    settings.carriers = chosen<CarrierMode>(
+        carriers, {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
+    settings.followEnvelope = chosen<bool>(envelope, {{"on", true}, {"off", false}});
+    settings.pulseShape = chosen<PulseShape>(
+        pulse, {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
+    if (pulseFrequency > 0.0)
+        settings.pulseFrequency = pulseFrequency;
+    settings.pulseCycles = pulseCycles;
+    settings.encoding = encoding == "pcm16"   ? SampleEncoding::pcm16
+                        : encoding == "pcm24" ? SampleEncoding::pcm24
+                                              : SampleEncoding::float32;
+    if (!profile.empty())
+    {
+        const auto path = findProfile(profile, programFolder());
+        if (!path)
+        {
+            console.error(profile, path.error());
+            return Exit::failed;
+        }
+        const auto read = readProfile(*path);
+        if (!read)
+        {
+            console.error(path->string(), read.error());
+            return Exit::failed;
+        }
+        settings.profile = *read;
+    }
+
+    const InputFiles found = findInputs(inputs, clipExtensions());
+    auto tasks = makeTasks<RenderResult>(found, output, ".wav");
+    const auto nameOf = [&](std::size_t i)
+    {
+        return tasks[i].input.filename().string();
+    };
+    runTasks(console, tasks.size(), jobs, nameOf,
+             [&]
+             {
+                 return [&](std::size_t i, const std::function<void(double)>& progress)
+                 {
+                     RenderTask& task = tasks[i];
+                     if (!task.error)
+                     {
+                         auto result = render(task.input, task.output, settings, progress);
+                         if (result)
+                             task.result = *result;
+                         else
+                             task.error = result.error();
+                     }
+                     if (task.error)
+                         console.error(task.input.string(), *task.error);
+                     else if (task.result->clippedSamples > 0)
+                         console.warning(task.input.string(),
+                                         fmt::format("{} samples were clipped; --gain {:.1f} avoids it",
+                                                     task.result->clippedSamples,
+                                                     gain - std::ceil(200.0 * std::log10(task.result->peak)) / 10.0));
+                 };
+             });
+
+    if (json)
+        console.print(jsonReport(tasks, toJson));
+    else
+    {
+        for (const RenderTask& task : tasks)
+            if (explain && task.result)
+                console.print(explanation(task));
+        console.print(summary(tasks));
+    }
+    return anyFailed(tasks) ? Exit::failed : Exit::ok;
+}
+
+} // namespace pacini::cli

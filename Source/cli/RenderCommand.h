@@ -1,0 +1,44 @@
+#pragma once
+
+#include "cli/Command.h"
+
+#include <pacini/synthesis/Decoder.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// `pacini render`: clips become drive signals.
+class RenderCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::vector<std::string> inputs;
+    std::string output;
+    std::string profile;
+    double rate = 48000.0;
+    std::string encoding = "float32";
+    std::string carriers = "auto";
+    std::string envelope = "auto";
+    std::string pulse = "auto";
+    double pulseFrequency = 0.0;
+    double pulseCycles = 1.0;
+    std::uint64_t seed = 0;
+    double variation = 0.0;
+    std::string variationPer = "breakpoint";
+    double transpose = 0.0;
+    double stretch = 1.0;
+    double gain = 0.0;
+    double delay = 0.0;
+    unsigned jobs = 0;
+    bool explain = false;
+    bool json = false;
+};
+
+} // namespace pacini::cli

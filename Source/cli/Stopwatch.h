@@ -1,0 +1,28 @@
+#pragma once
+
+// Adds up the time that some pieces of work take.
+
+#include <chrono>
+
+namespace pacini::cli
+{
+
+class Stopwatch
+{
+public:
+    /// Runs `work` and counts its time.
+    template <typename Work>
+    void run(Work&& work)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        total += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    [[nodiscard]] double seconds() const { return total; }
+
+private:
+    double total = 0.0;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+// Works through a list on several threads, with progress.
+
+#include "cli/Console.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// Calls work(i, progress) for i = 0..count-1 on `threads` threads (0: as many as there are processors); makeWorker()
+/// makes each thread's own `work`. `nameOf(i)` is shown on the progress line.
+template <typename MakeWorker>
+void runTasks(Console& console, std::size_t count, unsigned threads,
+              const std::function<std::string(std::size_t)>& nameOf, MakeWorker&& makeWorker)
+{
+    std::atomic<std::size_t> next = 0;
+    std::atomic<std::size_t> finished = 0;
+    const auto loop = [&]
+    {
+        auto work = makeWorker();
+        for (std::size_t i = next++; i < count; i = next++)
+        {
+            const auto progress = [&](double share)
+            {
+                const auto done = finished.load();
+                console.progress((static_cast<double>(done) + share) / static_cast<double>(count),
+                                 fmt::format("{} of {}  {}", std::min(done + 1, count), count, nameOf(i)));
+            };
+            progress(0.0);
+            work(i, progress);
+            ++finished;
+        }
+    };
+    const std::size_t wanted = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::thread> others;
+    for (std::size_t t = 1; t < std::min(wanted, count); ++t)
+        others.emplace_back(loop);
+    loop();
+    for (auto& thread : others)
+        thread.join();
+    console.endProgress();
+}
+
+} // namespace pacini::cli
