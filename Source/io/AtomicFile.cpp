@@ -95,7 +95,8 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
 
 bool AtomicFile::write(std::span<const std::byte> bytes) noexcept
 {
-    if (firstErrno == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+    // An empty span may be a null pointer, which fwrite must not get.
+    if (firstErrno == 0 && !bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
         firstErrno = errno;
     return firstErrno == 0;
 }

@@ -189,12 +189,13 @@ AudioReader::~AudioReader() = default;
 
 Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions options)
 {
+    // Asked before opening, which would wait for the other end of a pipe.
+    std::error_code ignored;
+    if (fs::is_other(path, ignored))
+        return Error{ErrorCode::io, "", "is a pipe or a device, not a file; save the audio to a file first"};
     auto file = openForReading(path);
     if (!file)
         return file.error();
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored))
-        return Error{ErrorCode::io, "", "is a pipe or a device, not a file; save the audio to a file first"};
     if (fs::file_size(path, ignored) == 0)
         return invalid("is empty; it has no audio");
 

@@ -50,8 +50,6 @@ public:
         const Level& top = levels.back();
         if (top.isList)
         {
-            if (++objects > limits::points)
-                return stop(ErrorCode::tooLarge, "is beyond the 50 million points and events that a clip may have");
             if (top.rules == &band && draft.clip.bands.size() == limits::bands)
                 return stop(ErrorCode::tooLarge, "is beyond the 256 bands that a clip may have");
             top.rules->begin(draft);
@@ -162,7 +160,6 @@ private:
     std::vector<Level> levels;
     Pending pending;
     std::size_t ignored = 0; ///< open objects and lists of unknown keys
-    std::size_t objects = 0; ///< in all lists together
     std::unordered_set<std::string> encoderNames;
 
     bool enter(const ObjectRules& rules)

@@ -129,7 +129,7 @@ private:
     void newLine()
     {
         text += '\n';
-        text.append(static_cast<std::size_t>(2 * depth), ' ');
+        text.append(2 * static_cast<std::size_t>(depth), ' ');
     }
 };
 

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] bool tooLong() const noexcept { return passedLimit; }
     /// The last character passed is a NUL, which nlohmann's lexer takes for the end.
     [[nodiscard]] bool endedByNul() const noexcept { return next > 0 && chunk[next - 1] == '\0'; }
-    /// Whether what is still to come starts with `text` (shorter than a chunk).
+    /// Whether what is still to come starts with `text`; sees no further than the current block.
     [[nodiscard]] bool startsWith(std::string_view text) { return !atEnd() && chunk.substr(next).starts_with(text); }
 
     /// `line L, column C` of the character before `position`, counted from the start of the text. A lexer looks one

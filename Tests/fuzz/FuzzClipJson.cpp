@@ -3,6 +3,7 @@
 #include "FuzzCheck.h"
 #include "io/ClipJson.h"
 
+#include <algorithm>
 #include <istream>
 #include <streambuf>
 #include <string_view>
@@ -11,16 +12,25 @@ using namespace pacini;
 
 namespace
 {
-/// The text as a stream, without a copy.
-class TextBuffer : public std::streambuf
+/// The text as a stream that comes in pieces of a few bytes, so that every place is once at the edge of a block.
+class TextInPieces : public std::streambuf
 {
 public:
-    explicit TextBuffer(std::string_view text)
+    explicit TextInPieces(std::string_view wholeText) : text(wholeText) {}
+
+protected:
+    std::streamsize xsgetn(char* target, std::streamsize room) override
     {
-        // setg wants char*, but nothing is put back.
-        auto* start = const_cast<char*>(text.data());
-        setg(start, start, start + text.size());
+        // The first piece has room for any byte order mark.
+        const std::size_t piece = taken == 0 ? 8 : 1 + taken % 5;
+        const auto count = text.copy(target, std::min(piece, static_cast<std::size_t>(room)), taken);
+        taken += count;
+        return static_cast<std::streamsize>(count);
     }
+
+private:
+    std::string_view text;
+    std::size_t taken = 0;
 };
 } // namespace
 
@@ -29,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto clip = readClipJson(text);
 
-    TextBuffer buffer(text);
+    TextInPieces buffer(text);
     std::istream stream(&buffer);
     const auto streamed = readClipJson(stream);
     FUZZ_CHECK(streamed.ok() == clip.ok());

@@ -146,14 +146,15 @@ TEST_CASE("Endless devices and pipes are refused instead of read for ever", "[io
     const TempFolder folder;
     const auto pipe = (folder / "pipe.wav").string();
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-    // Somebody must hold the other end, or opening would wait.
+    const auto reader = AudioReader::open(pipe);
+    REQUIRE_FALSE(reader.ok());
+    CHECK(reader.error().message == device.error().message);
     const int status = inChild(
         [&]
         {
+            // Somebody must hold the other end, or opening to write would wait.
             const FileHandle otherEnd(std::fopen(pipe.c_str(), "r+b"));
-            const auto reader = AudioReader::open(pipe);
-            const auto writer = AudioWriter::create(pipe, {});
-            return outcome(reader) == failedCleanly && outcome(writer) == failedCleanly ? failedCleanly : wrongError;
+            return outcome(AudioWriter::create(pipe, {}));
         });
     CHECK(status == failedCleanly);
     CHECK(fs::is_fifo(pipe));
@@ -175,7 +176,6 @@ TEST_CASE("A folder without the right to write is reported", "[io]")
     const auto closed = writeFileAtomically(folder / "x", std::string_view("x"));
     REQUIRE_FALSE(closed.ok());
     CHECK(closed.error().message == "permission denied; check the rights of the file and its folder");
-    put(TempFolder() / "y", "y");
 }
 
 TEST_CASE("A program killed while it writes leaves the old file whole", "[io]")
