@@ -36,10 +36,10 @@ std::string summary(const std::vector<EncodeTask>& tasks)
     double bytes = 0.0, duration = 0.0, seconds = 0.0, worked = 0.0;
     for (const EncodeTask& task : tasks)
     {
-        failed += task.error ? 1 : 0;
+        failed += task.error ? 1u : 0u;
         if (!task.result)
             continue;
-        (task.result->upToDate ? fresh : done) += 1;
+        (task.result->upToDate ? fresh : done) += 1u;
         bytes += static_cast<double>(task.result->bytes);
         duration += task.result->duration;
         seconds += task.result->seconds;

@@ -149,7 +149,7 @@ private:
         clip.source.channels = static_cast<int>(channelCount);
         const double gain = settings.normalise && found.peak > silence ? 1.0 / found.peak : 1.0;
         clip.encoder = encoderRecord(settings);
-        clip.encoder.push_back({"gain", roundedTo3Digits(gain)});
+        clip.encoder.push_back({"gain", roundedToDigits(gain, 3)});
         for (const BandEdges& edge : edges)
             clip.bands.push_back({edge.low, edge.centre, edge.high, 0, {}, {}});
         if (found.peak <= silence)
@@ -215,12 +215,6 @@ private:
         for (float e : found.envelope)
             active += gain * static_cast<double>(e) > 1.778e-4 ? 1 : 0;
         return static_cast<double>(active) * BandAnalysisResult::envelopeStep;
-    }
-
-    [[nodiscard]] static double roundedTo3Digits(double value)
-    {
-        const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-        return std::round(value / unit) * unit;
     }
 
     static constexpr double silence = 1e-6;        // -120 dB: dither and rounding noise

@@ -10,6 +10,15 @@
 namespace pacini
 {
 
+/// `value` rounded to that many significant decimal digits: short numbers for people to read.
+[[nodiscard]] inline double roundedToDigits(double value, int digits) noexcept
+{
+    if (value == 0.0)
+        return 0.0;
+    const double scale = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+    return std::round(value * scale) / scale;
+}
+
 /// Uniform grid of 2^bits values over [low, high] (Weber 2020, section 4.3.2): code = floor((v - low) / (high - low) *
 /// (2^bits - 1) + 0.5), clipped. The reading of the thesis.
 class UniformQuantiser
@@ -49,7 +58,11 @@ public:
 
     /// `bits` in 4-16.
     constexpr explicit LevelQuantiser(int bits) noexcept
-        : top((std::int64_t{1} << bits) - 1), step(range / static_cast<double>(top - 1))
+        : top((std::int64_t{1} << bits) - 1),
+          step(range / static_cast<double>(top - 1)),
+          digits(bits <= 8    ? 4
+                 : bits <= 12 ? 6
+                              : 8)
     {
     }
 
@@ -63,12 +76,16 @@ public:
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return code <= 0 ? 0.0 : std::min(highest, std::pow(10.0, static_cast<double>(code - top) * step / 20.0));
+        return code <= 0
+                   ? 0.0
+                   : std::min(highest,
+                              roundedToDigits(std::pow(10.0, static_cast<double>(code - top) * step / 20.0), digits));
     }
 
 private:
     std::int64_t top;
     double step;
+    int digits; // enough that a value returns to its code
 };
 
 /// Frequencies in equal steps of pitch: 3 * 2^(bits - 2) steps per octave, code 0 at 1 Hz; at 6 bits 48 per octave (1.5
@@ -80,7 +97,10 @@ public:
     static constexpr double highest = 4e5; ///< Hz
 
     constexpr explicit PitchQuantiser(int bits) noexcept
-        : stepsPerOctave(3.0 * static_cast<double>(std::int64_t{1} << bits) / 4.0)
+        : stepsPerOctave(3.0 * static_cast<double>(std::int64_t{1} << bits) / 4.0),
+          digits(bits <= 8    ? 5
+                 : bits <= 12 ? 6
+                              : 8)
     {
     }
 
@@ -91,11 +111,13 @@ public:
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return std::clamp(std::exp2(static_cast<double>(code) / stepsPerOctave), lowest, highest);
+        return std::clamp(roundedToDigits(std::exp2(static_cast<double>(code) / stepsPerOctave), digits), lowest,
+                          highest);
     }
 
 private:
     double stepsPerOctave;
+    int digits;
 };
 
 } // namespace pacini
