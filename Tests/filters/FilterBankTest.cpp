@@ -114,6 +114,7 @@ TEST_CASE("The causal bank works on up to 32 bands at 8 to 768 kHz", "[filters][
                                          .delay = n < 32 ? MeasuredDelay::firstFrame : MeasuredDelay::notMeasured});
     checkSilenceIsCheap<OutputOf<FilterBank>>({withBands(6), 0});
     checkSilenceIsCheap<OutputOf<FilterBank>>({withBands(6), 3});
+    checkSilenceIsCheap<OutputOf<FilterBank>>({withBands(6), 0}, 480000);
 }
 
 TEST_CASE("The causal bank stays bounded while its layout jumps", "[filters][contract]")

@@ -64,4 +64,5 @@ TEST_CASE("OnePole keeps the contract of blocks and stays bounded while its freq
                               {OnePoleType::lowpass, 1e9_Hz}},
                              100.0); // a pole next to z = -1 remembers many samples
     checkSilenceIsCheap<OnePole>({OnePoleType::highpass, 5_Hz});
+    checkSilenceIsCheap<OnePole>({OnePoleType::highpass, 5_Hz}, 480000);
 }

@@ -110,12 +110,10 @@ public:
             band[crossovers] = rest;
             for (std::size_t k = 0; k <= crossovers; ++k)
                 outs[k][i] = toSample(band[k]);
+            if ((i + 1) % flushInterval == 0)
+                flush();
         }
-        for (std::size_t j = 0; j < crossovers; ++j)
-        {
-            splits[j].flush();
-            allpasses[j].flush(j);
-        }
+        flush();
     }
 
     [[nodiscard]] std::size_t bands() const noexcept { return bank.bands(); }
@@ -173,6 +171,15 @@ private:
             std::for_each_n(s2.begin(), count, flushTiny);
         }
     };
+
+    void flush() noexcept
+    {
+        for (std::size_t j = 0; j < bank.crossovers.size(); ++j)
+        {
+            splits[j].flush();
+            allpasses[j].flush(j);
+        }
+    }
 
     double fs = ProcessSpec{}.sampleRate;
     Params current;

@@ -73,15 +73,14 @@ public:
     {
         const double high = filter.type == OnePoleType::highpass ? 1.0 : 0.0;
         const double sign = 1.0 - 2.0 * high;
-        forEachSample(in, out,
-                      [this, high, sign](double x)
-                      {
-                          const double v = (x - state) * step;
-                          const double low = v + state;
-                          state = low + v;
-                          return high * x + sign * low;
-                      });
-        flushTiny(state);
+        const auto tick = [this, high, sign](double x)
+        {
+            const double v = (x - state) * step;
+            const double low = v + state;
+            state = low + v;
+            return high * x + sign * low;
+        };
+        forEachSample(in, out, tick, [this] { flushTiny(state); });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
