@@ -43,8 +43,8 @@ struct OnePoleCoefficients
     }
 };
 
-/// Trapezoidal integrator in a loop without delay: V. Zavalishin, "The Art of VA Filter Design", rev. 2.1.2 (2018),
-/// section 3.10. Its state is the integrator's, so that a moving frequency neither clicks nor makes it unstable.
+/// Trapezoidal integrator in a loop without delay: V. Zavalishin, "The Art of VA Filter Design", rev. 2.1.2 (2018).
+/// Its state is the integrator's, so that a moving frequency neither clicks nor makes it unstable.
 [[nodiscard]] inline OnePoleCoefficients designOnePole(const OnePoleParams& params, double fs) noexcept
 {
     return {params.type, std::tan(std::numbers::pi * clampedFrequency(params.frequency, fs) / fs)};
