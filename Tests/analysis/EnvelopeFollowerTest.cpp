@@ -183,5 +183,6 @@ TEST_CASE("EnvelopeFollower keeps the contract of blocks", "[analysis][contract]
     endless.crestMemory = Seconds(nan);
     checkBlockContract<EnvelopeFollower>(endless, {.bound = 1.0});
     checkSilenceIsCheap<EnvelopeFollower>({});
+    checkSilenceIsCheap<EnvelopeFollower>({}, 480000);
     checkSilenceIsCheap<EnvelopeFollower>(adaptive);
 }

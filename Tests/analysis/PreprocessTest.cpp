@@ -97,6 +97,7 @@ TEST_CASE("Active time counts whole blocks or single samples above the threshold
         samples.threshold = Decibels(-12.041199826559248); // half the tone's peak: a sine is above it 2/3 of the time
         CHECK(activeTime(x, fs, samples).value == Approx(0.2).margin(0.005));
     }
+    CHECK(activeTime(std::vector<float>(80, 1.0f), 8000.0, {Decibels(0.0), 10_ms}).value == 0.0); // not above 1
     CHECK(activeTime({}, 8000.0).value == 0.0);
     CHECK(activeTime(std::vector<float>(1, 1.0f), 8000.0).value == Approx(1.0 / 8000.0));
     CHECK(activeTime(std::vector<float>(81, 1.0f), 8000.0).value == Approx(81.0 / 8000.0));

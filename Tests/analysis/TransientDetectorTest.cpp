@@ -193,6 +193,34 @@ TEST_CASE("Louder copies change the events of the absolute score, not those of t
     CHECK(detectTransients(x, fs, {}).size() > detectTransients(quiet, fs, {}).size());
 }
 
+TEST_CASE("The minimum window and distance count frames exactly", "[analysis]")
+{
+    const double fs = 1000.0;
+    TransientDetectorParams params; // with instant followers every click is a window of one frame
+    params.score.fastAttack = params.score.hold = params.score.release = 0_s;
+    params.score.slowAttack = 10_s;
+    params.minimumDistance = 0_s;
+    const auto clicksAt = [](std::size_t second, float level)
+    {
+        std::vector<float> x(200, 0.0f);
+        x[100] = 0.5f;
+        x[second] = level;
+        return x;
+    };
+    const DetectedTransient first{100, 0.5};
+
+    params.minimumWindow = 5_ms;
+    const DetectedTransient larger{104, 0.75};
+    CHECK(detectTransients(clicksAt(104, 0.75f), fs, params) == std::vector{larger, larger});
+    CHECK(detectTransients(clicksAt(105, 0.75f), fs, params) == std::vector{first, DetectedTransient{105, 0.75}});
+
+    params.minimumWindow = 0_s;
+    params.minimumDistance = 5_ms;
+    CHECK(detectTransients(clicksAt(104, 0.4f), fs, params) == std::vector{first});
+    CHECK(detectTransients(clicksAt(104, 0.75f), fs, params) == std::vector{larger});
+    CHECK(detectTransients(clicksAt(105, 0.75f), fs, params) == std::vector{first, DetectedTransient{105, 0.75}});
+}
+
 TEST_CASE("Transients of nothing are none, and hostile input does no harm", "[analysis]")
 {
     for (const double fs : {8000.0, 44100.0, 384000.0, 768000.0})

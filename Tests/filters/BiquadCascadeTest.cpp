@@ -100,4 +100,5 @@ TEST_CASE("BiquadCascade keeps the contract of blocks", "[filters][contract]")
         full.pushBack({BiquadType::peak, Hertz(20.0 * static_cast<double>(i + 1)), 3.0, 40_dB});
     checkBlockContract<BiquadCascade>(full, {.bound = 3.5e38});
     checkSilenceIsCheap<BiquadCascade>(tablePeaks());
+    checkSilenceIsCheap<BiquadCascade>({{BiquadType::peak, 30_Hz, 1.5, 16_dB}}, 480000);
 }

@@ -183,5 +183,6 @@ TEST_CASE("Biquad keeps the contract of blocks", "[filters][contract]")
     checkBlockContract<Biquad>({BiquadType::lowpass, 0.001_Hz, 1e4});
     checkBlockContract<Biquad>({BiquadType::bandpass, 3900_Hz, 1e4});
     checkSilenceIsCheap<Biquad>({BiquadType::highpass, 5_Hz, 0.7});
+    checkSilenceIsCheap<Biquad>({BiquadType::highpass, 5_Hz, 0.7}, 480000);
     checkSilenceIsCheap<Biquad>({BiquadType::lowpass, 3900_Hz, 0.7});
 }

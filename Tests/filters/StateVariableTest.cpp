@@ -117,5 +117,6 @@ TEST_CASE("StateVariable keeps the contract of blocks and stays bounded while it
                 extremes.push_back({entry.first, Hertz(f), q, 12_dB});
         checkModulation<StateVariable>(extremes, 1e6);
         checkSilenceIsCheap<StateVariable>({entry.first, 5_Hz, 0.7, 6_dB});
+        checkSilenceIsCheap<StateVariable>({entry.first, 5_Hz, 0.7, 6_dB}, 480000);
     }
 }

@@ -6,6 +6,7 @@
 #include <pacini/filters/ZeroPhaseBank.h>
 
 #include <algorithm>
+#include <cfenv>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -154,6 +155,17 @@ TEST_CASE("A long signal in segments has the bands of one transform", "[filters]
     for (std::size_t k = 0; k < 6; ++k)
         for (std::size_t i = 50000; i < 250000; ++i)
             REQUIRE(std::abs(static_cast<double>(whole[k][begin + i] - part[k][i])) < 1e-4);
+}
+
+TEST_CASE("A minute of silence after a sound does not make the forward-backward bank compute with denormals",
+          "[filters]")
+{
+    auto x = noise(480000, 2);
+    std::fill(x.begin() + 500, x.end(), 0.0f);
+    std::feclearexcept(FE_UNDERFLOW);
+    const auto bands = splitZeroPhase(x, 8000.0, withBands(6, ZeroPhaseMethod::forwardBackward));
+    CHECK(std::fetestexcept(FE_UNDERFLOW) == 0);
+    CHECK(bands[0].back() == 0.0f);
 }
 
 TEST_CASE("Silence stays silent and bad samples count as 0 in zero-phase banks", "[filters]")

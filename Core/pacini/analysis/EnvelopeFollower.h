@@ -113,8 +113,8 @@ public:
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
-        forEachSample(in, out, [this](double x) { return tick(x); });
-        flush();
+        forEachSample(
+            in, out, [this](double x) { return tick(x); }, [this] { flush(); });
     }
 
     /// For callers of tick(): to be called now and then, as process() does (see flushTiny).

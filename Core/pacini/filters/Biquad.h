@@ -159,8 +159,8 @@ public:
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
-        forEachSample(in, out, [this](double x) { return state.tick(section, x); });
-        state.flush();
+        forEachSample(
+            in, out, [this](double x) { return state.tick(section, x); }, [this] { state.flush(); });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }

@@ -59,15 +59,18 @@ public:
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
         const std::size_t count = cascade.sections.size();
-        forEachSample(in, out,
-                      [this, count](double x)
-                      {
-                          for (std::size_t i = 0; i < count; ++i)
-                              x = states[i].tick(cascade.sections[i], x);
-                          return x;
-                      });
-        for (std::size_t i = 0; i < count; ++i)
-            states[i].flush();
+        const auto tick = [this, count](double x)
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                x = states[i].tick(cascade.sections[i], x);
+            return x;
+        };
+        const auto flush = [this, count]
+        {
+            for (std::size_t i = 0; i < count; ++i)
+                states[i].flush();
+        };
+        forEachSample(in, out, tick, flush);
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }

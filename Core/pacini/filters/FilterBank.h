@@ -49,12 +49,12 @@ struct FilterBankCoefficients
     }
 };
 
-/// Linkwitz-Riley crossovers of fourth order in a tree: S. H. Linkwitz, "Active crossover networks for noncoincident
-/// drivers", JAES 24 (1976), each split off the rest above the one before; the bands below pass the all-pass of every
-/// later crossover, so that all bands sum to an all-pass (R. Bristow-Johnson's and others' compensated tree). This is
-/// the thesis's bank of second-order sections with -6 dB crossings (Weber 2020, section 4.3.1), whose parallel
-/// band-passes sum to flat within +0.07/-0.03 dB only at its own band count; the tree does so at any.
-/// Crossovers are clamped to the range of the filters (see DesignLimits.h).
+/// Linkwitz-Riley crossovers of fourth order (S. H. Linkwitz, "Active crossover networks for noncoincident drivers",
+/// JAES 24 (1976)), each splitting what the one before left above it; the bands below pass the all-pass of every later
+/// crossover, so that all bands sum to an all-pass (J. A. D'Appolito, "Active realization of multiway all-pass
+/// crossover systems", JAES 35 (1987)). These are the second-order sections and -6 dB crossings of the thesis (Weber
+/// 2020, section 4.3.1); its parallel band-passes are flat within +0.07/-0.03 dB for the six bands that it shows, this
+/// tree is flat for any number. Crossovers are clamped to the range of the filters (see DesignLimits.h).
 [[nodiscard]] inline FilterBankCoefficients designFilterBank(const BandLayoutParams& params, double fs) noexcept
 {
     FilterBankCoefficients bank;
@@ -110,12 +110,10 @@ public:
             band[crossovers] = rest;
             for (std::size_t k = 0; k <= crossovers; ++k)
                 outs[k][i] = toSample(band[k]);
+            if ((i + 1) % flushInterval == 0)
+                flush();
         }
-        for (std::size_t j = 0; j < crossovers; ++j)
-        {
-            splits[j].flush();
-            allpasses[j].flush(j);
-        }
+        flush();
     }
 
     [[nodiscard]] std::size_t bands() const noexcept { return bank.bands(); }
@@ -173,6 +171,15 @@ private:
             std::for_each_n(s2.begin(), count, flushTiny);
         }
     };
+
+    void flush() noexcept
+    {
+        for (std::size_t j = 0; j < bank.crossovers.size(); ++j)
+        {
+            splits[j].flush();
+            allpasses[j].flush(j);
+        }
+    }
 
     double fs = ProcessSpec{}.sampleRate;
     Params current;

@@ -43,8 +43,8 @@ struct OnePoleCoefficients
     }
 };
 
-/// Trapezoidal integrator in a loop without delay: V. Zavalishin, "The Art of VA Filter Design", rev. 2.1.2 (2018),
-/// section 3.10. Its state is the integrator's, so that a moving frequency neither clicks nor makes it unstable.
+/// Trapezoidal integrator in a loop without delay: V. Zavalishin, "The Art of VA Filter Design", rev. 2.1.2 (2018).
+/// Its state is the integrator's, so that a moving frequency neither clicks nor makes it unstable.
 [[nodiscard]] inline OnePoleCoefficients designOnePole(const OnePoleParams& params, double fs) noexcept
 {
     return {params.type, std::tan(std::numbers::pi * clampedFrequency(params.frequency, fs) / fs)};
@@ -73,15 +73,14 @@ public:
     {
         const double high = filter.type == OnePoleType::highpass ? 1.0 : 0.0;
         const double sign = 1.0 - 2.0 * high;
-        forEachSample(in, out,
-                      [this, high, sign](double x)
-                      {
-                          const double v = (x - state) * step;
-                          const double low = v + state;
-                          state = low + v;
-                          return high * x + sign * low;
-                      });
-        flushTiny(state);
+        const auto tick = [this, high, sign](double x)
+        {
+            const double v = (x - state) * step;
+            const double low = v + state;
+            state = low + v;
+            return high * x + sign * low;
+        };
+        forEachSample(in, out, tick, [this] { flushTiny(state); });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }

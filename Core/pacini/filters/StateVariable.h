@@ -147,13 +147,12 @@ public:
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
-        forEachSample(in, out,
-                      [this](double x)
-                      {
-                          const auto v = state.tick(filter.loop, x);
-                          return filter.m0 * x + filter.m1 * v.band + filter.m2 * v.low;
-                      });
-        state.flush();
+        const auto tick = [this](double x)
+        {
+            const auto v = state.tick(filter.loop, x);
+            return filter.m0 * x + filter.m1 * v.band + filter.m2 * v.low;
+        };
+        forEachSample(in, out, tick, [this] { state.flush(); });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }

@@ -74,12 +74,18 @@ namespace detail
 /// Low-passes x in both directions; x begins and ends with enough zeros for the filter to come to rest.
 inline void lowpassBothWays(std::vector<double>& x, const StateVariableLoop& loop) noexcept
 {
-    StateVariableState forward;
-    for (double& v : x)
-        v = forward.tick(loop, v).low;
-    StateVariableState backward;
-    for (auto v = x.rbegin(); v != x.rend(); ++v)
-        *v = backward.tick(loop, *v).low;
+    const auto run = [&loop](auto first, auto last)
+    {
+        StateVariableState state;
+        for (std::size_t n = 1; first != last; ++first, ++n)
+        {
+            *first = state.tick(loop, *first).low;
+            if (n % flushInterval == 0)
+                state.flush();
+        }
+    };
+    run(x.begin(), x.end());
+    run(x.rbegin(), x.rend());
 }
 
 inline BandSignals splitForwardBackward(std::span<const float> signal, double fs, const BandLayout& layout)

@@ -2,6 +2,7 @@
 
 // The contract that every streaming block keeps (checked in Tests/support/BlockContract.h).
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -93,21 +94,29 @@ concept DspBank = requires(B bank, ProcessSpec spec, typename B::Params params, 
     return static_cast<float>(y > largest ? largest : (y < -largest ? -largest : y));
 }
 
-/// Sets a state variable that has decayed below anything audible to 0, at the end of each process() call: in silence a
-/// feedback loop would otherwise end in denormal numbers, which cost a hundred times as much. The limit lies so far
-/// under that of toSample() that no output depends on where the calls end.
+/// Sets a state variable that has decayed below anything audible to 0, at the end of each process() call and every
+/// `flushInterval` frames: in silence a feedback loop would otherwise end in denormal numbers, which cost a hundred
+/// times as much. The limit lies so far under that of toSample() that no output depends on where this happens.
 inline void flushTiny(double& state) noexcept
 {
     if (std::abs(state) < 1e-100)
         state = 0.0;
 }
 
-/// out[i] = tick(in[i]) for every frame, with the guards of the contract at the input and the output.
-template <typename Tick>
-void forEachSample(std::span<const float> in, std::span<float> out, Tick&& tick) noexcept
+inline constexpr std::size_t flushInterval = 256;
+
+/// out[i] = tick(in[i]) for every frame, with the guards of the contract at the input and the output; flush() calls
+/// flushTiny on the state.
+template <typename Tick, typename Flush>
+void forEachSample(std::span<const float> in, std::span<float> out, Tick&& tick, Flush&& flush) noexcept
 {
-    for (std::size_t i = 0; i < in.size(); ++i)
-        out[i] = toSample(tick(finiteOrZero(in[i])));
+    for (std::size_t begin = 0; begin < in.size(); begin += flushInterval)
+    {
+        const std::size_t end = std::min(in.size(), begin + flushInterval);
+        for (std::size_t i = begin; i < end; ++i)
+            out[i] = toSample(tick(finiteOrZero(in[i])));
+        flush();
+    }
 }
 
 } // namespace pacini
