@@ -136,11 +136,16 @@ Result<Profile> readProfileJson(std::string_view text)
         else
             for (std::size_t i = 0; i < equalizer->size() && !error; ++i)
             {
+                if (i == profile.equalizer.capacity())
+                {
+                    members.fail("equalizer", "has more than 16 sections");
+                    break;
+                }
                 const auto where = "equalizer[" + std::to_string(i) + "]";
                 if (!(*equalizer)[i].is_object())
                     members.fail(where.c_str(), "must be an object");
                 else
-                    profile.equalizer.push_back(readSection((*equalizer)[i], where, error));
+                    profile.equalizer.pushBack(readSection((*equalizer)[i], where, error));
             }
     }
     if (error)

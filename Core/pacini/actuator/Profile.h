@@ -9,7 +9,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace pacini
 {
@@ -33,12 +32,15 @@ struct EqualizerSection
     bool operator==(const EqualizerSection&) const = default;
 };
 
+/// An equalizer's sections in series.
+using EqualizerSections = FixedVector<EqualizerSection, 16>;
+
 /// An actuator: where it resonates and what flattens it.
 struct Profile
 {
     std::string name;
     double resonance = 67.0; ///< Hz
-    std::vector<EqualizerSection> equalizer;
+    EqualizerSections equalizer;
     bool operator==(const Profile&) const = default;
 };
 
@@ -56,8 +58,7 @@ struct Profile
     };
     if (!within(profile.resonance, 1.0, 20000.0))
         return wrong("resonance.frequency", "must be 1 to 20000 Hz");
-    if (profile.equalizer.size() > 16)
-        return wrong("equalizer", "has more than 16 sections");
+    std::size_t biquads = 0;
     for (std::size_t i = 0; i < profile.equalizer.size(); ++i)
     {
         const EqualizerSection& section = profile.equalizer[i];
@@ -70,6 +71,9 @@ struct Profile
             return wrong(where + ".q", "must be 0.01 to 100");
         if (section.order < 1 || section.order > 8)
             return wrong(where + ".order", "must be 1 to 8");
+        biquads += section.type == EqualizerType::highpass ? static_cast<std::size_t>(section.order + 1) / 2 : 1;
+        if (biquads > maxBiquadSections)
+            return wrong(where, "is too much: high-passes count half their order, all together must stay within 32");
     }
     return {};
 }
@@ -105,6 +109,8 @@ struct Profile
 }
 
 /// A profile's equalizer as a streaming filter.
-using Equalizer = DesignedCascade<std::vector<EqualizerSection>, designEqualizer>;
+using Equalizer = DesignedCascade<EqualizerSections, designEqualizer>;
+
+static_assert(DspBlock<Equalizer>);
 
 } // namespace pacini
