@@ -80,8 +80,7 @@ struct Profile
 
 /// The equalizer of a valid profile as a filter at `fs` Hz; sections at or above 0.49 fs are left out, since they would
 /// not do there what they say. Cookbook sections (see Biquad.h) and Butterworth high-passes.
-[[nodiscard]] inline BiquadCascadeCoefficients designEqualizer(const std::vector<EqualizerSection>& sections,
-                                                               double fs) noexcept
+[[nodiscard]] inline BiquadCascadeCoefficients designEqualizer(const EqualizerSections& sections, double fs) noexcept
 {
     BiquadCascadeCoefficients cascade;
     for (const EqualizerSection& section : sections)
