@@ -181,32 +181,58 @@ private:
         for (const auto& track : found.tracks)
             for (std::size_t i = 0; i < n; ++i)
                 total[i] += static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
-        std::vector<double> weighted(n, 0.0);
-        std::vector<double> pitch(n), importance(n), level(n);
+        std::vector<double> level(n);
         for (std::size_t i = 0; i < n; ++i)
             level[i] = std::max(0.0, 1.0 - 10.0 * std::log10(total[i] * gain * gain) / floorDecibels);
+        PitchTrack centroid(n);
         for (std::size_t k = 0; k < clip.bands.size(); ++k)
         {
             const auto& track = found.tracks[k];
             Band& band = clip.bands[k];
             band.amplitude =
                 fitter.fitAmplitude(track.amplitude, BandAnalysisResult::bandStep, gain, floor, bandPrice * price);
+            PitchTrack pitch(n);
             for (std::size_t i = 0; i < n; ++i)
             {
                 const double power = static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
-                pitch[i] = track.frequency[i] > 0.0f ? static_cast<double>(track.frequency[i]) : band.centreFrequency;
-                pitch[i] = std::clamp(pitch[i], 0.8 * band.lowFrequency, 1.25 * band.highFrequency);
-                importance[i] = std::sqrt(power / total[i]) * level[i];
-                weighted[i] += power * pitch[i];
+                const double share = power / total[i];
+                const double f =
+                    track.frequency[i] > 0.0f ? static_cast<double>(track.frequency[i]) : band.centreFrequency;
+                pitch.add(i, std::clamp(f, 0.8 * band.lowFrequency, 1.25 * band.highFrequency),
+                          std::sqrt(share) * level[i]);
+                centroid.add(i, f, share * level[i]);
             }
-            band.pitch = band.amplitude.empty()
-                             ? Curve{}
-                             : fitter.fitPitch(pitch, importance, BandAnalysisResult::bandStep, pitchPrice * price);
+            band.pitch = band.amplitude.empty() ? Curve{} : pitch.fit(fitter, band.centreFrequency, pitchPrice * price);
         }
-        for (std::size_t i = 0; i < n; ++i)
-            weighted[i] = std::max(weighted[i] / total[i], 1.0);
-        clip.centroid = fitter.fitPitch(weighted, level, BandAnalysisResult::bandStep, centroidPrice * price);
+        clip.centroid =
+            centroid.fit(fitter, 0.5 * (settings.lowFrequency + settings.highFrequency), centroidPrice * price);
     }
+
+    /// Frequencies averaged over three frames of the analysis by their importance (60 ms: pitch on the skin is slower
+    /// than level), before they are fitted.
+    class PitchTrack
+    {
+    public:
+        explicit PitchTrack(std::size_t frames) : sums((frames + 2) / 3, 0.0), importance(sums.size(), 0.0) {}
+
+        void add(std::size_t frame, double frequency, double weight)
+        {
+            const std::size_t i = std::min((frame + 1) / 3, sums.size() - 1);
+            sums[i] += weight * frequency;
+            importance[i] += weight;
+        }
+
+        Curve fit(CurveFitter& fitter, double otherwise, double price)
+        {
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] = importance[i] > 1e-9 ? sums[i] / importance[i] : i > 0 ? sums[i - 1] : otherwise;
+            return fitter.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
+        }
+
+    private:
+        std::vector<double> sums;
+        std::vector<double> importance;
+    };
 
     /// Time in which the envelope is above -75 dB of full drive (Weber 2020, section 4.3).
     [[nodiscard]] static double activeSeconds(const BandAnalysisResult& found, double gain)
