@@ -152,14 +152,7 @@ TEST_CASE("Nonsense behind a valid checksum never gives an invalid clip", "[clip
         std::vector<std::byte> payload(static_cast<std::size_t>(random.uniform(0.0, 60.0)));
         for (auto& b : payload)
             b = static_cast<std::byte>(random.next() & 0xFF);
-        const auto crc = detail::crc16(payload);
-        std::vector<std::byte> bytes;
-        for (char c : detail::packedMagic)
-            bytes.push_back(static_cast<std::byte>(c));
-        bytes.push_back(std::byte{1});
-        bytes.push_back(static_cast<std::byte>(crc >> 8));
-        bytes.push_back(static_cast<std::byte>(crc & 0xFF));
-        bytes.insert(bytes.end(), payload.begin(), payload.end());
+        const auto bytes = detail::withHeader(payload);
         const auto result = unpackClip(bytes);
         if (result.ok())
         {

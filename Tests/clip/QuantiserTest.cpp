@@ -54,3 +54,14 @@ TEST_CASE("Levels outside the range saturate instead of wrapping", "[clip]")
     CHECK(levels.code(1e300) > levels.topCode());
     CHECK(levels.value(levels.code(4.0)) == Approx(4.0).epsilon(0.07));
 }
+
+TEST_CASE("Codes far outside the range come back as the limits", "[clip]")
+{
+    const LevelQuantiser levels(4);
+    const PitchQuantiser pitches(4);
+    const std::int64_t huge = std::int64_t{1} << 40;
+    CHECK(levels.value(huge) == LevelQuantiser::highest);
+    CHECK(levels.value(-huge) == 0.0);
+    CHECK(pitches.value(huge) == PitchQuantiser::highest);
+    CHECK(pitches.value(-huge) == PitchQuantiser::lowest);
+}

@@ -526,6 +526,21 @@ inline constexpr std::array<char, 4> packedMagic = {'P', 'A', 'C', 'B'};
 inline constexpr std::uint8_t packedVersion = 1;
 inline constexpr std::size_t packedHeaderBytes = 7; // magic, version, checksum of what follows
 
+/// A payload behind its magic, version and checksum.
+inline std::vector<std::byte> withHeader(std::span<const std::byte> payload)
+{
+    std::vector<std::byte> bytes;
+    bytes.reserve(packedHeaderBytes + payload.size());
+    for (char c : packedMagic)
+        bytes.push_back(static_cast<std::byte>(c));
+    bytes.push_back(static_cast<std::byte>(packedVersion));
+    const std::uint16_t crc = crc16(payload);
+    bytes.push_back(static_cast<std::byte>(crc >> 8));
+    bytes.push_back(static_cast<std::byte>(crc & 0xFF));
+    bytes.insert(bytes.end(), payload.begin(), payload.end());
+    return bytes;
+}
+
 template <typename Coder>
 void codePackParams(Coder& coder, PackParams& params)
 {
@@ -580,15 +595,7 @@ inline void setQuantise(Clip& clip, int bits)
     detail::ClipCoder<RangeWriter>(writer, params).code(copy);
     const std::vector<std::byte> payload = writer.finish();
 
-    std::vector<std::byte> bytes;
-    for (char c : detail::packedMagic)
-        bytes.push_back(static_cast<std::byte>(c));
-    bytes.push_back(static_cast<std::byte>(detail::packedVersion));
-    const std::uint16_t crc = detail::crc16(payload);
-    bytes.push_back(static_cast<std::byte>(crc >> 8));
-    bytes.push_back(static_cast<std::byte>(crc & 0xFF));
-    bytes.insert(bytes.end(), payload.begin(), payload.end());
-    return bytes;
+    return detail::withHeader(payload);
 }
 
 /// Reads a packed clip. Errors: invalidData (not a packed clip, or damaged), truncated, unsupportedVersion, tooLarge.

@@ -10,7 +10,8 @@
 namespace pacini
 {
 
-/// `value` rounded to that many significant decimal digits: short numbers for people to read.
+/// `value` rounded to that many significant decimal digits: short numbers for people to read. `value` must be 0 or have
+/// a magnitude in 1e-200-1e200.
 [[nodiscard]] inline double roundedToDigits(double value, int digits) noexcept
 {
     if (value == 0.0)
@@ -54,7 +55,7 @@ class LevelQuantiser
 {
 public:
     static constexpr double range = 72.0;     ///< dB below full drive
-    static constexpr double highest = 1000.0; ///< values above come back as this
+    static constexpr double highest = 1000.0; ///< values of codes above come back as this
 
     /// `bits` in 4-16.
     constexpr explicit LevelQuantiser(int bits) noexcept
@@ -76,10 +77,11 @@ public:
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return code <= 0
-                   ? 0.0
-                   : std::min(highest,
-                              roundedToDigits(std::pow(10.0, static_cast<double>(code - top) * step / 20.0), digits));
+        if (code <= 0)
+            return 0.0;
+        // Limited before it is rounded: a damaged file can hold any code.
+        return roundedToDigits(std::min(highest, std::pow(10.0, static_cast<double>(code - top) * step / 20.0)),
+                               digits);
     }
 
 private:
@@ -111,8 +113,8 @@ public:
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {
-        return std::clamp(roundedToDigits(std::exp2(static_cast<double>(code) / stepsPerOctave), digits), lowest,
-                          highest);
+        return roundedToDigits(std::clamp(std::exp2(static_cast<double>(code) / stepsPerOctave), lowest, highest),
+                               digits);
     }
 
 private:
