@@ -10,27 +10,28 @@ using namespace pacini;
 
 namespace
 {
-/// Vertical errors of a choice in long double, by reading the lines at each point.
-struct LongErrors
+struct Errors
 {
-    long double max = 0.0L;
-    long double squared = 0.0L;
+    double max = 0.0;
+    double squared = 0.0;
 };
 
-LongErrors longErrors(const Curve& dense, const KeptPoints& kept)
+/// Vertical errors of a choice, in long double by reading the lines at each point.
+Errors errorsOf(const Curve& dense, const KeptPoints& kept)
 {
-    LongErrors errors;
+    using test::wide;
+    long double max = 0.0L;
+    long double squared = 0.0L;
     for (std::size_t k = 1; k < kept.size(); ++k)
         for (std::size_t m = kept[k - 1] + 1; m < kept[k]; ++m)
         {
-            const auto &a = dense[kept[k - 1]], &b = dense[kept[k]];
-            const long double part =
-                (static_cast<long double>(dense[m].time) - a.time) / (static_cast<long double>(b.time) - a.time);
-            const long double error = a.value + part * (static_cast<long double>(b.value) - a.value) - dense[m].value;
-            errors.max = std::max(errors.max, std::abs(error));
-            errors.squared += error * error;
+            const auto &a = dense[kept[k - 1]], &b = dense[kept[k]], &p = dense[m];
+            const long double part = (wide(p.time) - wide(a.time)) / (wide(b.time) - wide(a.time));
+            const long double error = wide(a.value) + part * (wide(b.value) - wide(a.value)) - wide(p.value);
+            max = std::max(max, std::abs(error));
+            squared += error * error;
         }
-    return errors;
+    return {static_cast<double>(max), static_cast<double>(squared)};
 }
 
 Curve smallCurve(std::uint64_t seed, bool even)
@@ -53,11 +54,11 @@ TEST_CASE("Optimal simplification equals a search of all choices", "[simplify]")
     {
         const Curve dense = smallCurve(seed, seed % 2 == 0);
         CAPTURE(seed);
-        std::vector<LongErrors> best(dense.size() + 1, {1e9L, 1e9L});
+        std::vector<Errors> best(dense.size() + 1, {1e9, 1e9});
         test::forEachChoice(dense.size(),
                             [&](const KeptPoints& kept)
                             {
-                                const auto errors = longErrors(dense, kept);
+                                const auto errors = errorsOf(dense, kept);
                                 for (std::size_t count = kept.size(); count <= dense.size(); ++count)
                                 {
                                     best[count].max = std::min(best[count].max, errors.max);
@@ -70,12 +71,10 @@ TEST_CASE("Optimal simplification equals a search of all choices", "[simplify]")
             CAPTURE(count);
             const auto least = optimalToCount(dense, count);
             CHECK(least.size() <= count);
-            CHECK(static_cast<double>(longErrors(dense, least).max) ==
-                  Approx(static_cast<double>(best[count].max)).epsilon(1e-9).margin(1e-14));
+            CHECK(errorsOf(dense, least).max == Approx(best[count].max).epsilon(1e-9).margin(1e-14));
             const auto squares = optimalSquared(columns.samples(), count);
             CHECK(squares.size() <= count);
-            CHECK(static_cast<double>(longErrors(dense, squares).squared) ==
-                  Approx(static_cast<double>(best[count].squared)).epsilon(1e-9).margin(1e-14));
+            CHECK(errorsOf(dense, squares).squared == Approx(best[count].squared).epsilon(1e-9).margin(1e-14));
         }
         for (double bound : {0.0, 0.1, 0.5, 1.0})
         {
@@ -85,15 +84,15 @@ TEST_CASE("Optimal simplification equals a search of all choices", "[simplify]")
             test::forEachChoice(dense.size(),
                                 [&](const KeptPoints& kept)
                                 {
-                                    const auto errors = longErrors(dense, kept);
-                                    if (errors.max <= bound + 1e-12L)
+                                    const auto errors = errorsOf(dense, kept);
+                                    if (errors.max <= bound + 1e-12)
                                         fewest = std::min(fewest, kept.size());
-                                    if (errors.squared <= bound + 1e-12L)
+                                    if (errors.squared <= bound + 1e-12)
                                         fewestSquared = std::min(fewestSquared, kept.size());
                                 });
             const auto within = optimalToBound(dense, bound);
             CHECK(within.size() == fewest);
-            CHECK(longErrors(dense, within).max <= bound + 1e-12L);
+            CHECK(errorsOf(dense, within).max <= bound + 1e-12);
             CHECK(optimalSquared(columns.samples(), dense.size(), bound + 1e-12).size() == fewestSquared);
         }
     }

@@ -16,6 +16,12 @@
 namespace pacini::test
 {
 
+/// For references in long double.
+inline long double wide(double x)
+{
+    return static_cast<long double>(x);
+}
+
 /// Evenly spaced curve of `values`, `step` seconds apart.
 inline Curve curveOfValues(const std::vector<double>& values, double step = 1e-3)
 {

@@ -30,9 +30,11 @@ struct BudgetShares
 ///
 /// Every curve is simplified at the same price per point (Everett, "Generalized Lagrange multiplier method", 1963: at
 /// one price no point can be moved to where it helps more). The price that meets the budget is found on the lower
-/// convex hull of error over points: of two prices on either side of the budget, the next one tried is the slope
-/// between their results (Shoham and Gersho, "Efficient bit allocation for an arbitrary set of quantizers", 1988),
-/// XX
+/// convex hull of error over points: close to the budget, of two prices on either side of it, the next one tried is the
+/// slope between their results (Shoham and Gersho, "Efficient bit allocation for an arbitrary set of quantizers",
+/// 1988), which ends when the hull has no corner in between. From the corner below, points are added where they help
+/// most; from the corner above, removed where they harm least; the better of the two is taken. Where there are only a
+/// few points per curve, equal shares are tried as well.
 ///
 /// An object is a workspace and can be used again.
 class BudgetSpread
@@ -42,9 +44,9 @@ public:
     /// stretches: choose it several times longer than the mean segment.
     explicit BudgetSpread(std::size_t maxSegmentLength = 256) : segmenter(maxSegmentLength) {}
 
-    /// The kept points of each curve, at most `budget` in all: fewer only where no point more would lower the error.
-    /// `firstPointCost` above 0 starts the search. invalidArgument: a weight that is not above 0, or a budget below the
-    /// sum of the minima.
+    /// The kept points of each curve, at most `budget` in all: fewer only where no single point more would lower the
+    /// error. `firstPointCost` above 0 starts the search. invalidArgument: a weight that is not above 0, or a budget
+    /// below the sum of the minima.
     Result<BudgetShares> spread(std::span<const BudgetCurve> curves, std::size_t budget, double firstPointCost = 0.0)
     {
         std::size_t least = 0;

@@ -46,8 +46,8 @@ public:
     /// After this, solve() does not allocate for up to `samples` samples, if `kept` has room for as many points.
     void reserve(std::size_t samples) { from.resize(std::max(from.size(), samples)); }
 
-    /// Fills `kept` with the optimum for `pointCost` > 0 (in squared value units; 1e-300 and 1e100 are the sane ends)
-    /// and returns its number of points. Fewer than 3 samples are all kept. At most 2^32 - 1 samples, all finite. O(n).
+    /// Fills `kept` with the optimum for `pointCost` (above 0, in squared value units) and returns its number of
+    /// points. Fewer than 3 samples are all kept. At most 2^32 - 1 samples, all finite. O(n).
     std::size_t solve(const DenseSamples& samples, double pointCost, KeptPoints& kept)
     {
         assert(samples.size() < std::numeric_limits<std::uint32_t>::max());

@@ -5,9 +5,7 @@
 #include <pacini/simplify/DenseSamples.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace pacini
@@ -29,7 +27,6 @@ class SegmentCost
 {
 public:
     static constexpr std::size_t block = 8;
-    using Block = std::array<double, block>;
     static constexpr double unreachable = 1e300; ///< cost of a start that does not exist
 
     /// Allocates for segments of at least `longest` samples (1 or more).
@@ -87,9 +84,8 @@ public:
     /// Segments of up to this many samples can be asked for.
     [[nodiscard]] std::size_t span() const noexcept { return window; }
 
-    /// to[k] = cost of start + error(start, newest) for the starts first + k; `first` counts back from the newest:
-    /// start = newest - lag + k, block <= lag <= span() + block. Starts before the curve's first sample give
-    /// `unreachable`.
+    /// to[k] = cost of start + error(start, newest) for the `block` starts from newest - lag on, start = newest - lag +
+    /// k, block < lag <= span() + block. `to` has `block` elements. Starts before the first sample give `unreachable`.
     void costsVia(std::size_t lag, double* __restrict to) const noexcept
     {
         const std::size_t first = local - lag;
