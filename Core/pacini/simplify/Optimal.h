@@ -1,0 +1,156 @@
+#pragma once
+
+// Exact simplification: the yardstick of the other methods, and the method of choice for short curves.
+
+#include <pacini/simplify/DenseSamples.h>
+#include <pacini/simplify/Deviation.h>
+#include <pacini/simplify/GrowingSegment.h>
+#include <pacini/simplify/KeptPoints.h>
+#include <pacini/simplify/SlopeCone.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// The fewest points with a maximum vertical error of at most `maxError` (0 or more, to within the rounding of the
+/// values); among those the ones with the least squared error. Shortest path over the segments that hold the bound,
+/// which a cone of slopes per start finds: Imai and Iri, "Computational-geometric methods for polygonal approximations
+/// of a curve", 1986. O(n s), s the mean length over which a line can hold the bound; O(n^2) for a straight curve.
+[[nodiscard]] inline KeptPoints optimalToBound(std::span<const Breakpoint> dense, double maxError)
+{
+    const std::size_t n = dense.size();
+    if (n < 3)
+        return allPoints(n);
+    const DenseColumns columns(dense);
+    const DenseSamples samples = columns.samples();
+    double largest = 0.0;
+    for (const Breakpoint& p : dense)
+        largest = std::max(largest, std::abs(p.value));
+    const double tolerance = maxError + 4.0 * std::numeric_limits<double>::epsilon() * largest;
+
+    struct Reach
+    {
+        std::size_t points = std::numeric_limits<std::size_t>::max();
+        double squared = 0.0;
+    };
+    std::vector<Reach> reach(n);
+    std::vector<std::uint32_t> from(n, 0);
+    reach[0] = {1, 0.0};
+    for (std::size_t i = 0; i + 1 < n; ++i)
+    {
+        SlopeCone cone(dense[i], tolerance, -std::numeric_limits<double>::infinity());
+        GrowingSegment segment(samples, i);
+        for (std::size_t j = i + 1; j < n; ++j)
+        {
+            if (cone.contains(dense[j]))
+            {
+                const std::size_t points = reach[i].points + 1;
+                const double squared = reach[i].squared + segment.errorTo(j);
+                if (points < reach[j].points || (points == reach[j].points && squared < reach[j].squared))
+                {
+                    reach[j] = {points, squared};
+                    from[j] = static_cast<std::uint32_t>(i);
+                }
+            }
+            if (!cone.include(dense[j]))
+                break;
+            segment.include(j);
+        }
+    }
+    KeptPoints kept;
+    followBack(from, kept);
+    return kept;
+}
+
+/// At most `count` points (2 at least) with the least possible maximum vertical error, to 1e-12 of it: bisection of the
+/// bound, which ends on an error that really occurs. Some 50 times the cost of optimalToBound.
+[[nodiscard]] inline KeptPoints optimalToCount(std::span<const Breakpoint> dense, std::size_t count)
+{
+    const std::size_t n = dense.size();
+    count = std::max<std::size_t>(count, 2);
+    if (n <= count)
+        return allPoints(n);
+    KeptPoints best = optimalToBound(dense, 0.0);
+    if (best.size() <= count)
+        return best;
+    best = {0, n - 1};
+    double low = 0.0;
+    double high = maxDeviation(dense, 0, n - 1).value;
+    while (high - low > 1e-12 * high)
+    {
+        const double middle = 0.5 * (low + high);
+        KeptPoints kept = optimalToBound(dense, middle);
+        if (kept.size() > count)
+        {
+            low = middle;
+            continue;
+        }
+        double error = 0.0;
+        for (std::size_t k = 1; k < kept.size(); ++k)
+            error = std::max(error, maxDeviation(dense, kept[k - 1], kept[k]).value);
+        high = std::min(middle, error);
+        best = std::move(kept);
+    }
+    return best;
+}
+
+/// The points with the least weighted squared vertical error among all choices of at most `count` (2 at least); fewer
+/// where that many already bring it down to `squaredErrorBound`. Bellman's dynamic programming, one row per number of
+/// points: O(count n^2) time, O(count n) memory: for some thousand samples.
+[[nodiscard]] inline KeptPoints optimalSquared(const DenseSamples& samples, std::size_t count,
+                                               double squaredErrorBound = 0.0)
+{
+    const std::size_t n = samples.size();
+    count = std::max<std::size_t>(count, 2);
+    if (n < 3)
+        return allPoints(n);
+    constexpr double unreachable = std::numeric_limits<double>::infinity();
+    std::vector<double> costs(n, unreachable);
+    costs[0] = 0.0;
+    std::vector<std::vector<std::uint32_t>> from;
+    std::vector<double> next;
+    std::size_t bestRow = 0;
+    double best = unreachable;
+    do
+    {
+        next.assign(n, unreachable);
+        auto& back = from.emplace_back(n, 0u);
+        for (std::size_t i = 0; i + 1 < n; ++i)
+        {
+            if (costs[i] == unreachable)
+                continue;
+            GrowingSegment segment(samples, i);
+            for (std::size_t j = i + 1; j < n; ++j)
+            {
+                const double cost = costs[i] + segment.errorTo(j);
+                if (cost < next[j])
+                {
+                    next[j] = cost;
+                    back[j] = static_cast<std::uint32_t>(i);
+                }
+                segment.include(j);
+            }
+        }
+        costs.swap(next);
+        // One more point can be worse than one less where lines must pass through samples.
+        if (costs[n - 1] < best)
+        {
+            best = costs[n - 1];
+            bestRow = from.size();
+        }
+    } while (best > squaredErrorBound && from.size() + 1 < std::min(count, n));
+
+    KeptPoints kept(bestRow + 1, n - 1);
+    for (std::size_t k = bestRow; k > 0; --k)
+        kept[k - 1] = from[k - 1][kept[k]];
+    return kept;
+}
+
+} // namespace pacini
