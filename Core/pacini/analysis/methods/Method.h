@@ -1,0 +1,153 @@
+#pragma once
+
+// The translation methods that Pacini can compare, by name.
+
+#include <pacini/analysis/methods/CentroidFlatness.h>
+#include <pacini/analysis/methods/EnvelopeCentroid.h>
+#include <pacini/analysis/methods/EnvelopeSine.h>
+#include <pacini/analysis/methods/PitchShift.h>
+#include <pacini/analysis/methods/ThesisMethod.h>
+#include <pacini/analysis/methods/ThirdOctaveVocoder.h>
+#include <pacini/analysis/methods/ZeroPhaseLowpass.h>
+#include <pacini/clip/Clip.h>
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+enum class Method
+{
+    a2vt,
+    thesis,
+    envelopeSine,
+    envelopeCentroid,
+    vocoder16,
+    centroidFlatness,
+    lowpass,
+    pitchShift,
+};
+
+enum class MethodOutput
+{
+    clip,   ///< few breakpoints, to be decoded
+    signal, ///< a drive signal as it is
+};
+
+struct MethodInfo
+{
+    Method method;
+    std::string_view name; ///< on the command line and in a clip's record of its encoder
+    MethodOutput output;
+    std::string_view description; ///< one line
+};
+
+/// All methods, in the order of Method.
+inline constexpr std::array<MethodInfo, 8> methodTable{{
+    {Method::a2vt, "a2vt", MethodOutput::clip, "Pacini's own: band envelopes and pitches at the best price per point"},
+    {Method::thesis, "thesis", MethodOutput::clip, "Weber 2020, literally: six bands on fixed sines, and transients"},
+    {Method::envelopeSine, "envelope-sine", MethodOutput::clip, "the envelope of the sound on a sine of 80 Hz"},
+    {Method::envelopeCentroid, "envelope-centroid", MethodOutput::clip,
+     "the envelope of the sound on a sine that follows the spectral centroid"},
+    {Method::vocoder16, "vocoder16", MethodOutput::clip,
+     "the envelopes of sixteen third octaves from 200 Hz up, all on 100 Hz"},
+    {Method::centroidFlatness, "centroid-flatness", MethodOutput::clip,
+     "the centroid as a pitch of 40 to 400 Hz, tonality as a fade from sine to square wave"},
+    {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, as it is"},
+    {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, as long as it was"},
+}};
+
+/// The entry of a method.
+[[nodiscard]] constexpr const MethodInfo& methodInfo(Method method) noexcept
+{
+    return methodTable[static_cast<std::size_t>(method)];
+}
+
+/// The method of this exact name, if there is one.
+[[nodiscard]] constexpr std::optional<Method> methodNamed(std::string_view name) noexcept
+{
+    for (const MethodInfo& info : methodTable)
+        if (info.name == name)
+            return info.method;
+    return std::nullopt;
+}
+
+/// Choices that methods share; what is left out is the method's own. Values are clamped as the methods say.
+struct MethodChoices
+{
+    std::optional<double> breakpoints;   ///< per second of active time and curve: all methods that make a clip
+    std::optional<std::size_t> bands;    ///< thesis
+    std::optional<double> lowFrequency;  ///< Hz, of the first band: thesis
+    std::optional<double> highFrequency; ///< Hz, of the last band: thesis
+    std::optional<int> quantise;         ///< bits: thesis
+    bool operator==(const MethodChoices&) const = default;
+};
+
+/// The clip that a method makes of a mono sound of any length at 8000 to 384000 Hz: valid, of the sound's duration,
+/// with `name` and `source` left to the caller. Only for methods whose output is a clip, and not for a2vt, which takes
+/// several channels as a stream (see Encoder): others are the caller's error (asserted) and give an empty clip.
+[[nodiscard]] inline Clip translateToClip(Method method, std::span<const float> mono, double fs,
+                                          const MethodChoices& choices = {})
+{
+    const auto withBreakpoints = [&choices](auto params)
+    {
+        params.curves.breakpoints = choices.breakpoints.value_or(params.curves.breakpoints);
+        return params;
+    };
+    switch (method)
+    {
+    case Method::thesis:
+    {
+        auto params = withBreakpoints(ThesisMethodParams{});
+        params.layout.bands = choices.bands.value_or(params.layout.bands);
+        params.layout.low = Hertz(choices.lowFrequency.value_or(params.layout.low.value));
+        params.layout.high = Hertz(choices.highFrequency.value_or(params.layout.high.value));
+        params.quantise = choices.quantise.value_or(params.quantise);
+        return thesisClip(mono, fs, params);
+    }
+    case Method::envelopeSine:
+        return envelopeSineClip(mono, fs, withBreakpoints(EnvelopeSineParams{}));
+    case Method::envelopeCentroid:
+        return envelopeCentroidClip(mono, fs, withBreakpoints(EnvelopeCentroidParams{}));
+    case Method::vocoder16:
+        return thirdOctaveVocoderClip(mono, fs, withBreakpoints(ThirdOctaveVocoderParams{}));
+    case Method::centroidFlatness:
+        return centroidFlatnessClip(mono, fs, withBreakpoints(CentroidFlatnessParams{}));
+    case Method::a2vt:
+    case Method::lowpass:
+    case Method::pitchShift:
+        break;
+    }
+    assert(false && "no clip is made here by this method");
+    return {};
+}
+
+/// The drive signal that a method makes of a mono sound, as long as the sound and at its rate. Only for methods whose
+/// output is a signal: others are the caller's error (asserted) and give silence.
+[[nodiscard]] inline std::vector<float> translateToSignal(Method method, std::span<const float> mono, double fs)
+{
+    switch (method)
+    {
+    case Method::lowpass:
+        return zeroPhaseLowpass(mono, fs);
+    case Method::pitchShift:
+        return pitchShift(mono, fs);
+    case Method::a2vt:
+    case Method::thesis:
+    case Method::envelopeSine:
+    case Method::envelopeCentroid:
+    case Method::vocoder16:
+    case Method::centroidFlatness:
+        break;
+    }
+    assert(false && "no signal is made by this method");
+    return std::vector<float>(mono.size());
+}
+
+} // namespace pacini
