@@ -1,0 +1,63 @@
+#pragma once
+
+// Smoothing of envelopes by a Hann kernel, at any rate, with silence outside the signal.
+
+#include <pacini/foundation/DotProduct.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// A symmetric, unit-sum Hann kernel whose zeros lie `halfWidth` samples from its centre (halfWidth > 0, not
+/// necessarily whole): the same smoothing can so be done at different rates.
+class HannKernel
+{
+public:
+    explicit HannKernel(double halfWidth)
+        : reach(static_cast<std::size_t>(std::ceil(halfWidth)) - 1), taps(2 * reach + 1)
+    {
+        const auto value = [&](std::size_t i)
+        {
+            const double distance = static_cast<double>(i) - static_cast<double>(reach);
+            return 0.5 + 0.5 * std::cos(std::numbers::pi * distance / halfWidth);
+        };
+        double sum = 0.0;
+        for (std::size_t i = 0; i < taps.size(); ++i)
+            sum += value(i);
+        for (std::size_t i = 0; i < taps.size(); ++i)
+            taps[i] = static_cast<float>(value(i) / sum);
+    }
+
+    /// Samples on each side of the centre that the kernel needs.
+    [[nodiscard]] std::size_t reachFrames() const noexcept { return reach; }
+
+    /// The smoothed value of x at index `centre`; what lies outside x counts as zero.
+    [[nodiscard]] float at(std::span<const float> x, std::size_t centre) const noexcept
+    {
+        const std::size_t begin = centre > reach ? centre - reach : 0;
+        const std::size_t end = std::min(centre + reach + 1, x.size());
+        return begin < end ? dotProduct(taps.data() + (begin + reach - centre), x.data() + begin, end - begin) : 0.0f;
+    }
+
+private:
+    std::size_t reach;
+    std::vector<float> taps;
+};
+
+/// How much of the cell of a sample lies inside a signal of `length` unit-spaced samples (which cover -0.5 to
+/// length - 0.5). The cell is `spacing` wide around `position`. Weighting coarse samples by it keeps sums and smoothed
+/// values right where the signal begins and ends.
+[[nodiscard]] inline double coverage(double position, double spacing, std::size_t length) noexcept
+{
+    const double begin = std::max(position - spacing / 2.0, -0.5);
+    const double end = std::min(position + spacing / 2.0, static_cast<double>(length) - 0.5);
+    return std::max(end - begin, 0.0) / spacing;
+}
+
+} // namespace pacini

@@ -1,0 +1,91 @@
+#pragma once
+
+// Computes the features of the haptic translation similarity.
+
+#include <pacini/evaluate/FeltSpectrum.h>
+#include <pacini/evaluate/HtsFeatures.h>
+#include <pacini/evaluate/PeakScale.h>
+#include <pacini/evaluate/PowerEnvelope.h>
+#include <pacini/evaluate/SecondOrderSections.h>
+#include <pacini/foundation/Units.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Which side of the comparison a signal is on: only of a source the audible envelope and events are needed.
+enum class HtsRole
+{
+    source,
+    candidate,
+};
+
+/// Computes HtsFeatures; transforms are planned anew only when the length of the signals changes.
+class HtsAnalyzer
+{
+public:
+    /// The features of a mono signal at 4 kHz; samples that are not finite count as 0. The weighting approximates the
+    /// acceleration threshold of the skin: flat from 20 to 300 Hz, then -24 dB per octave (Butterworth high-pass of
+    /// order 2, Linkwitz-Riley low-pass of order 4, both causal).
+    template <typename Sample>
+    [[nodiscard]] HtsFeatures analyze(std::span<const Sample> samples, HtsRole role)
+    {
+        HtsFeatures features;
+        features.duration = static_cast<double>(samples.size()) / fs;
+        const double scale = 1.0 / peakScale(samples);
+        std::vector<float> x(samples.size());
+        std::transform(samples.begin(), samples.end(), x.begin(),
+                       [scale](Sample v)
+                       { return std::isfinite(v) ? static_cast<float>(scale * static_cast<double>(v)) : 0.0f; });
+
+        detail::SectionCascade<1>({detail::highpassSection(20.0, fs)}).process(std::span(x));
+        if (role == HtsRole::source)
+        {
+            auto audible = powerEnvelopes.analyze(x);
+            features.audible = std::move(audible.envelope);
+            features.audibleEvents = std::move(audible.events);
+        }
+        const auto lowpass = detail::lowpassSection(300.0, fs);
+        detail::SectionCascade<2>({lowpass, lowpass}).process(std::span(x));
+        auto felt = powerEnvelopes.analyze(x);
+        features.felt = std::move(felt.envelope);
+        features.feltEvents = std::move(felt.events);
+        features.bands = bandEnvelopes(x);
+        features.spectrum = spectra.analyze(x);
+        return features;
+    }
+
+private:
+    static constexpr double fs = HtsFeatures::sampleRate;
+
+    /// Envelopes of causal Butterworth bands: squared, smoothed over 20 ms or a period of the lower edge.
+    static std::array<std::vector<float>, HtsFeatures::bandCount> bandEnvelopes(std::span<const float> x)
+    {
+        constexpr std::array<double, HtsFeatures::bandCount + 1> edges{25.0, 60.0, 125.0, 250.0, 500.0, 1000.0};
+        std::array<std::vector<float>, HtsFeatures::bandCount> envelopes;
+        std::vector<float> y(x.size());
+        for (std::size_t b = 0; b < envelopes.size(); ++b)
+        {
+            std::copy(x.begin(), x.end(), y.begin());
+            detail::SectionCascade<2>(detail::bandpassSections(edges[b], edges[b + 1], fs)).process(std::span(y));
+            for (float& v : y)
+                v *= v;
+            const HannKernel kernel = htsHannKernel(Seconds(std::max(0.020, 1.0 / edges[b])));
+            for (std::size_t at = 0; at < y.size(); at += HtsFeatures::envelopeSpacing)
+                envelopes[b].push_back(std::sqrt(kernel.at(y, at)));
+        }
+        return envelopes;
+    }
+
+    PowerEnvelopeAnalyzer powerEnvelopes;
+    FeltSpectrumAnalyzer spectra;
+};
+
+} // namespace pacini

@@ -1,0 +1,140 @@
+#include "support/Catch.h"
+#include "support/Golden.h"
+
+#include <pacini/filters/Resampler.h>
+#include <pacini/foundation/Random.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+std::vector<double> goldenInput(std::size_t frames)
+{
+    std::vector<double> x(frames);
+    for (std::size_t i = 0; i < frames; ++i)
+    {
+        const auto t = static_cast<double>(i);
+        x[i] = std::exp(-t / 200.0) * std::sin(0.3 * t) + 0.3 * std::sin(1.7 * t + 1.0) + (i == frames / 2 ? 0.5 : 0.0);
+    }
+    return x;
+}
+
+std::vector<double> sine(double f, int rate, std::size_t frames)
+{
+    std::vector<double> x(frames);
+    for (std::size_t i = 0; i < frames; ++i)
+        x[i] = std::sin(2.0 * std::numbers::pi * f * static_cast<double>(i) / rate);
+    return x;
+}
+
+template <typename Sample>
+std::vector<Sample> resampled(const std::vector<Sample>& x, int from, int to)
+{
+    return resample(std::span<const Sample>(x), from, to).value();
+}
+} // namespace
+
+TEST_CASE("Resampling equals SciPy's resample_poly", "[filters]")
+{
+    const auto file = test::golden("resampler");
+    for (const auto& c : file["cases"])
+    {
+        const int from = c["inputRate"];
+        const int to = c["outputRate"];
+        CAPTURE(from, to);
+        const auto x = goldenInput(c["frames"].get<std::size_t>());
+        const auto y = resampled(x, from, to);
+        const auto yFloat = resampled(std::vector<float>(x.begin(), x.end()), from, to);
+        REQUIRE(y.size() == c["outputFrames"].get<std::size_t>());
+        REQUIRE(yFloat.size() == y.size());
+        const auto expected = c["samples"].get<std::vector<double>>();
+        const auto step = c["step"].get<std::size_t>();
+        for (std::size_t i = 0; i < expected.size(); ++i)
+        {
+            CHECK(std::abs(y[i * step] - expected[i]) < 1e-10);
+            CHECK(std::abs(static_cast<double>(yFloat[i * step]) - expected[i]) < 2e-6);
+        }
+    }
+}
+
+TEST_CASE("Resampling keeps a sine in the pass band and its phase, and removes one above the new Nyquist frequency",
+          "[filters]")
+{
+    const auto y = resampled(sine(440.0, 44100, 44100), 44100, 8000);
+    const auto expected = sine(440.0, 8000, 8000);
+    for (std::size_t i = 200; i < 7800; ++i)
+        CHECK(std::abs(y[i] - expected[i]) < 3e-3); // ripple of the Kaiser window of shape 5
+    const auto gone = resampled(sine(6000.0, 44100, 44100), 44100, 8000);
+    for (std::size_t i = 200; i < 7800; ++i)
+        CHECK(std::abs(gone[i]) < 3e-3);
+}
+
+TEST_CASE("Resampling in pieces equals resampling at once", "[filters]")
+{
+    Random random(5);
+    std::vector<float> x(5000);
+    for (float& v : x)
+        v = static_cast<float>(random.uniform(-1.0, 1.0));
+    for (const auto& [from, to] : {std::pair(44100, 8000), std::pair(8000, 44100), std::pair(8000, 8000)})
+    {
+        CAPTURE(from, to);
+        const auto whole = resampled(x, from, to);
+        const Resampler<float> resampler(from, to);
+        std::vector<float> pieces(whole.size());
+        for (std::size_t begin = 0; begin < whole.size(); begin += 777)
+        {
+            const auto out = std::span(pieces).subspan(begin, std::min<std::size_t>(777, whole.size() - begin));
+            const auto first = std::max<std::int64_t>(resampler.firstInput(begin), 0);
+            const auto last = std::min<std::int64_t>(resampler.lastInput(begin + out.size() - 1), 4999);
+            if (first <= last)
+                resampler.process(std::span<const float>(x).subspan(static_cast<std::size_t>(first),
+                                                                    static_cast<std::size_t>(last - first + 1)),
+                                  first, begin, out);
+        }
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            CHECK(pieces[i] == Approx(whole[i]).margin(1e-6));
+    }
+}
+
+TEST_CASE("Equal rates give a copy, an empty signal an empty one, and every length rounds up", "[filters]")
+{
+    const std::vector<float> x{1.0f, -2.0f, 3.0f};
+    CHECK(resampled(x, 12345, 12345) == x);
+    CHECK(resampled(std::vector<float>(), 44100, 8000).empty());
+    for (std::size_t n = 1; n < 50; ++n)
+        CHECK(resampled(std::vector<float>(n, 1.0f), 44100, 8000).size() == (n * 80 + 440) / 441);
+}
+
+TEST_CASE("A number that is not finite spoils only the outputs around it", "[filters]")
+{
+    auto x = sine(300.0, 44100, 44100);
+    x[22050] = std::numeric_limits<double>::quiet_NaN();
+    const auto y = resampled(x, 44100, 8000);
+    std::size_t spoilt = 0;
+    for (std::size_t i = 0; i < y.size(); ++i)
+    {
+        if (!std::isfinite(y[i]))
+            ++spoilt;
+        CHECK((std::isfinite(y[i]) || (i > 3985 && i < 4015)));
+    }
+    CHECK(spoilt > 18);
+}
+
+TEST_CASE("Rates outside 2 to 384 kHz are refused", "[filters]")
+{
+    const std::vector<float> x(10);
+    for (const auto& [from, to] : {std::pair(0, 8000), std::pair(8000, 0), std::pair(-44100, 8000),
+                                   std::pair(1999, 8000), std::pair(8000, 384001)})
+    {
+        const auto result = resample(std::span<const float>(x), from, to);
+        REQUIRE_FALSE(result.ok());
+        CHECK(result.error().code == ErrorCode::invalidArgument);
+        CHECK(result.error().where == "sampleRate");
+    }
+    CHECK(resample(std::span<const float>(x), 2000, 384000).ok());
+}
