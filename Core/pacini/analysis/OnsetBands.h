@@ -102,10 +102,10 @@ inline void splitBand(const float* x, std::ptrdiff_t step, std::ptrdiff_t count,
 class OnsetBands
 {
 public:
-    /// `sampleRate` from 8 kHz to 768 kHz.
+    /// `sampleRate` from 2 kHz to 768 kHz.
     explicit OnsetBands(double sampleRate)
         : stageRate(sampleRate / std::exp2(stageCount(sampleRate))), inputSamples(sampleRate), stageSamples(stageRate),
-          input(history), stages(static_cast<std::size_t>(stageCount(sampleRate)), SlidingBuffer<float>(history))
+          mirrorLength(static_cast<std::ptrdiff_t>(0.06 * sampleRate)), input(history), stages(static_cast<std::size_t>(stageCount(sampleRate)), SlidingBuffer<float>(history))
     {
         designResampler();
         // The second difference rises by 12 dB per octave; it is scaled to pass 6-7 kHz unchanged at every rate.
@@ -114,10 +114,16 @@ public:
         dcCoefficient = 1.0 - std::exp(-2.0 * std::numbers::pi * 6.0 / OnsetFrame::rate);
     }
 
-    /// Adds samples whose DC offset is roughly 0 already.
-    void push(std::span<const float> samples)
+    /// Adds the samples first[0], first[stride], ... first[(count - 1) stride] less `offset`, the DC of the sound.
+    void push(const float* first, std::ptrdiff_t stride, std::ptrdiff_t count, float offset)
     {
-        std::copy(samples.begin(), samples.end(), input.extend(std::ssize(samples)));
+        float* x = input.extend(count);
+        if (stride == 1) // this case becomes vector code
+            for (std::ptrdiff_t i = 0; i < count; ++i)
+                x[i] = first[i] - offset;
+        else
+            for (std::ptrdiff_t i = 0; i < count; ++i)
+                x[i] = first[i * stride] - offset;
         halve();
         resample();
         split(base, 1, low[0], high[0]);
@@ -129,6 +135,17 @@ public:
         decimate(low[3], octave[2]);
         split(octave[2], 2, low[4], high[4]);
         removeDrift();
+    }
+
+    /// Lets the sound run backwards from its end for 60 ms, so that the frames up to the end can be completed without the
+    /// end itself looking like an event.
+    void mirrorEnd()
+    {
+        const std::ptrdiff_t end = input.end();
+        std::vector<float> mirrored(static_cast<std::size_t>(mirrorLength));
+        for (std::ptrdiff_t i = 0; i < std::min(mirrorLength, end); ++i)
+            mirrored[static_cast<std::size_t>(i)] = *input.at(end - 1 - i);
+        push(mirrored.data(), 1, mirrorLength, 0.0f);
     }
 
     /// Adds `weight` times the powers of the frames that are complete, at most `limit` frames in all, to `frames`, whose
@@ -183,7 +200,7 @@ private:
         const double span = 16.0 * std::max(1.0, stageRate / 22050.0);
         taps = 8 * static_cast<std::ptrdiff_t>(std::ceil(span / 8.0));
         const double half = static_cast<double>(taps) / 2.0;
-        const double cutoff = 2.0 * 2700.0 / stageRate;
+        const double cutoff = std::min(1.0, 2.0 * 2700.0 / stageRate);
         table.resize(static_cast<std::size_t>(phases * taps));
         for (std::ptrdiff_t p = 0; p < phases; ++p)
         {
@@ -358,14 +375,15 @@ private:
 
     void forget()
     {
-        input.forget(inputSamples.begin - 4);
-        // Each stage keeps what the next one and the coming frame read.
-        for (std::size_t i = 0; i + 1 < stages.size(); ++i)
-            stages[i].forget(2 * stages[i + 1].end() - 2);
-        if (!stages.empty())
-            input.forget(std::min(inputSamples.begin, 2 * stages.front().end()) - 4);
+        // Each signal keeps what the next one and the coming frame read.
         const auto resampled = static_cast<std::ptrdiff_t>(static_cast<double>(base.end()) * stageRate / baseRate);
-        stage().forget(std::min(stageSamples.begin, resampled - taps / 2) - 4);
+        const std::ptrdiff_t staged = std::min(stageSamples.begin, resampled - taps / 2) - 4;
+        const std::ptrdiff_t halved = stages.empty() ? staged : 2 * stages.front().end() - 4;
+        input.forget(std::min({inputSamples.begin, halved, input.end() - mirrorLength}));
+        for (std::size_t i = 0; i + 1 < stages.size(); ++i)
+            stages[i].forget(2 * stages[i + 1].end() - 4);
+        if (!stages.empty())
+            stages.back().forget(staged);
         base.forget(std::min(low[0].end() - 4, 8 * next));
         low[0].forget(std::min(low[1].end() - 8, 8 * next));
         low[1].forget(2 * octave[0].end() - 2);
@@ -386,6 +404,7 @@ private:
     double stageRate;
     Samples inputSamples;
     Samples stageSamples;
+    std::ptrdiff_t mirrorLength;
     std::ptrdiff_t taps = 0;
     std::vector<float> table; ///< phases x taps
     float bendScale = 1.0f;

@@ -22,12 +22,12 @@ namespace pacini
 class OnsetFeatures
 {
 public:
-    /// `sampleRate` from 8 kHz to 768 kHz, at least one channel.
+    /// `sampleRate` from 2 kHz to 768 kHz, at least one channel.
     OnsetFeatures(double sampleRate, std::size_t channelCount)
         : fs(sampleRate), firstFrame(static_cast<std::size_t>(std::ceil(sampleRate / OnsetFrame::rate))),
           channels(channelCount, OnsetBands(sampleRate)), offsets(channelCount, 0.0f)
     {
-        assert(sampleRate >= 8000.0 && sampleRate <= 768000.0 && channelCount > 0);
+        assert(sampleRate >= 2000.0 && sampleRate <= 768000.0 && channelCount > 0);
     }
 
     /// Adds whole frames of interleaved samples, all finite.
@@ -53,10 +53,8 @@ public:
         if (length == 0)
             return;
         const auto limit = static_cast<std::ptrdiff_t>(std::ceil(static_cast<double>(length) * OnsetFrame::rate / fs));
-        // The filters look ahead by 40 ms at most; there the last value holds on, so the end is no event.
-        const std::size_t tail = static_cast<std::size_t>(0.06 * fs) + 64;
-        for (std::size_t c = 0; c < channels.size(); ++c)
-            channels[c].push(std::vector<float>(tail, last[c]));
+        for (OnsetBands& channel : channels)
+            channel.mirrorEnd();
         emit(limit);
     }
 
@@ -86,7 +84,6 @@ private:
             offsets[c] = sorted[count / 2];
         }
         started = true;
-        last.resize(channels.size());
         process(head);
         head = {};
     }
@@ -98,19 +95,9 @@ private:
         for (std::size_t done = 0; done < count; done += blockFrames)
         {
             const std::size_t n = std::min(blockFrames, count - done);
-            plane.resize(n);
+            const float* block = interleaved.data() + done * stride;
             for (std::size_t c = 0; c < stride; ++c)
-            {
-                const float* x = interleaved.data() + done * stride + c;
-                const float offset = offsets[c];
-                if (stride == 1)
-                    std::transform(x, x + n, plane.begin(), [offset](float v) { return v - offset; });
-                else
-                    for (std::size_t i = 0; i < n; ++i)
-                        plane[i] = x[i * stride] - offset;
-                channels[c].push(plane);
-                last[c] = plane.back();
-            }
+                channels[c].push(block + c, static_cast<std::ptrdiff_t>(stride), static_cast<std::ptrdiff_t>(n), offsets[c]);
             length += n;
             emit(std::numeric_limits<std::ptrdiff_t>::max());
         }
@@ -127,9 +114,7 @@ private:
     std::size_t firstFrame; ///< samples in the first frame
     std::vector<OnsetBands> channels;
     std::vector<float> offsets; ///< DC of each channel
-    std::vector<float> last;    ///< last value of each channel
     std::vector<float> head;    ///< samples before the start
-    std::vector<float> plane;
     std::vector<OnsetFrame> ready;
     std::ptrdiff_t dropped = 0;
     std::size_t length = 0; ///< samples per channel so far

@@ -31,8 +31,8 @@ public:
         return elements.data() + (index - first);
     }
 
-    /// Adds `count` elements and returns where to write them.
-    [[nodiscard]] T* extend(std::ptrdiff_t count)
+    /// Adds `count` zeros and returns where they are.
+    T* extend(std::ptrdiff_t count)
     {
         const std::size_t old = elements.size();
         elements.resize(old + static_cast<std::size_t>(count));
