@@ -129,7 +129,7 @@ public:
         pushDecimated();
     }
 
-    /// Completes the clip; its curves lie on the grids of `quantise` bits.
+    /// Completes the clip. Packing rounds its values to the grids of `quantise` bits.
     [[nodiscard]] Clip finish()
     {
         for (std::size_t c = 0; c < channelCount; ++c)
