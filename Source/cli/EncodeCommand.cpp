@@ -66,15 +66,15 @@ std::string summary(const std::vector<EncodeTask>& tasks)
 }
 
 /// Options that only some methods have.
-constexpr const char* tunedOptions[] = {"--bands", "--breakpoints", "--quantise",  "--low",
-                                        "--high",  "--spacing",     "--keep-level"};
+constexpr const char* tunedOptions[] = {"--bands", "--breakpoints", "--quantise",    "--low",
+                                        "--high",  "--spacing",     "--sensitivity", "--keep-level"};
 
 bool hasOption(const MethodInfo& method, std::string_view option)
 {
     if (method.method == Method::a2vt)
         return true;
     if (method.method == Method::thesis)
-        return option != "--spacing" && option != "--keep-level";
+        return option != "--spacing" && option != "--sensitivity" && option != "--keep-level";
     return method.output == MethodOutput::clip && option == "--breakpoints";
 }
 
@@ -143,6 +143,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_option("--spacing", spacing, "log or linear bands")
         ->capture_default_str()
         ->check(CLI::IsMember({"log", "linear"}));
+    command
+        ->add_option("--sensitivity", params.onsets.sensitivity,
+                     "Above 1 more and weaker events become transients, below 1 fewer")
+        ->capture_default_str()
+        ->check(CLI::Range(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan, "Take NaN and infinite samples as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");

@@ -1,6 +1,7 @@
 #include "io/AudioReader.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
+#include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 #include "support/TempFolder.h"
@@ -129,9 +130,10 @@ TEST_CASE("encode refuses options that a method does not have", "[cli]")
     for (const char* arguments :
          {"--method envelope-sine --bands 3", "--method envelope-sine --low 50", "--method vocoder16 --quantise 8",
           "--method centroid-flatness --spacing linear", "--method thesis --keep-level",
-          "--method thesis --spacing log", "--method lowpass --breakpoints 5", "--method lowpass --format json",
-          "--method pitch-shift --format packed", "--method lowpass -o a.json", "--method lowpass -o a.pacb",
-          "--method lowpass .", "--method A2VT", "--method thesis --bands 0", "--method thesis --breakpoints 5000"})
+          "--method thesis --sensitivity 2", "--sensitivity 9", "--method thesis --spacing log",
+          "--method lowpass --breakpoints 5", "--method lowpass --format json", "--method pitch-shift --format packed",
+          "--method lowpass -o a.json", "--method lowpass -o a.pacb", "--method lowpass .", "--method A2VT",
+          "--method thesis --bands 0", "--method thesis --breakpoints 5000"})
     {
         CAPTURE(std::string(arguments));
         const auto outcome = encode(folder, std::string("door.wav ") + arguments);
@@ -166,6 +168,23 @@ TEST_CASE("encode passes on to a method what the user chose, and only that", "[c
           breakpointCount(clipOf("--method envelope-sine")));
 }
 
+TEST_CASE("More sensitivity gives more transients", "[cli]")
+{
+    const TempFolder folder;
+    // Noise that gets louder by 6 dB now and then.
+    auto x = noise(48000, 4);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] *= (i / 3200) % 2 != 0 ? 0.5f : 0.25f;
+    putSound(folder / "door.wav", x);
+    const auto transients = [&folder](const std::string& sensitivity)
+    {
+        CHECK(encode(folder, "door.wav -f -o x.json --sensitivity " + sensitivity).status == 0);
+        return readClip(folder / "x.json").value().transients.size();
+    };
+    CHECK(transients("0.25") <= 1);
+    CHECK(transients("4") > transients("0.25") + 5);
+}
+
 TEST_CASE("A clip is up to date only for the method and options that made it", "[cli]")
 {
     const TempFolder folder;
@@ -174,6 +193,7 @@ TEST_CASE("A clip is up to date only for the method and options that made it", "
                                         "--low 50",
                                         "--spacing linear",
                                         "--keep-level",
+                                        "--sensitivity 2",
                                         "--method thesis",
                                         "--method thesis --low 50",
                                         "--method thesis --high 700",
