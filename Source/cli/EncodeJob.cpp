@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace pacini::cli
@@ -21,6 +22,29 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     if (!settings.force && isUpToDate(input, output, result))
         return result;
 
+    const auto encoded = encode(input, result, progress);
+    if (!encoded)
+        return encoded.error();
+    const auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, encoded->packed)
+                                                               : writeClip(output, encoded->clip, settings.format);
+    if (!written)
+        return written.error();
+    result.bytes = *written;
+    return result;
+}
+
+Result<Clip> EncodeJob::encode(const fs::path& input, const std::function<void(double)>& progress)
+{
+    EncodeResult result;
+    auto encoded = encode(input, result, progress);
+    if (!encoded)
+        return encoded.error();
+    return std::move(encoded.value().clip);
+}
+
+Result<EncodeJob::Encoded> EncodeJob::encode(const fs::path& input, EncodeResult& result,
+                                             const std::function<void(double)>& progress)
+{
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
         return reader.error();
@@ -54,18 +78,13 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     std::vector<std::byte> packed;
     work.run([&] { packed = packClip(clip, packParamsFor(clip)); });
     clip = unpackClip(packed).value();
-    const auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
-                                                               : writeClip(output, clip, settings.format);
-    if (!written)
-        return written.error();
 
-    result.bytes = *written;
     result.duration = clip.duration;
     result.seconds = work.seconds();
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
     result.replacedSamples = reader->replacedSamples();
-    return result;
+    return Encoded{std::move(clip), std::move(packed)};
 }
 
 bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, EncodeResult& result) const

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -47,7 +48,18 @@ public:
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
                                            const std::function<void(double)>& progress);
 
+    /// The clip of one file, as run() would write it. Errors: those of AudioReader.
+    [[nodiscard]] Result<Clip> encode(const std::filesystem::path& input, const std::function<void(double)>& progress);
+
 private:
+    struct Encoded
+    {
+        Clip clip;
+        std::vector<std::byte> packed;
+    };
+
+    [[nodiscard]] Result<Encoded> encode(const std::filesystem::path& input, EncodeResult& result,
+                                         const std::function<void(double)>& progress);
     [[nodiscard]] bool isUpToDate(const std::filesystem::path& input, const std::filesystem::path& output,
                                   EncodeResult& result) const;
 

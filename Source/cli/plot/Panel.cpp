@@ -31,9 +31,8 @@ std::vector<const Series*> legendEntries(const Panel& panel)
 {
     std::vector<const Series*> entries;
     for (const Series& series : panel.series)
-        if (!nameOf(series).empty() &&
-            std::none_of(entries.begin(), entries.end(),
-                         [&](const Series* other) { return nameOf(*other) == nameOf(series); }))
+        if (isListed(series) && std::none_of(entries.begin(), entries.end(),
+                                             [&](const Series* other) { return nameOf(*other) == nameOf(series); }))
             entries.push_back(&series);
     return entries;
 }
@@ -69,7 +68,7 @@ void drawEntry(Canvas& canvas, const Panel& panel, const Series& entry, Point ba
 {
     const double rise = 0.36 * look.metrics.text;
     for (const Series& series : panel.series)
-        if (nameOf(series) == nameOf(entry))
+        if (isListed(series) && nameOf(series) == nameOf(entry))
             drawSample(canvas, series, {baseline.x + 0.5 * sampleWidth(look), baseline.y - rise}, sampleWidth(look));
     canvas.text({baseline.x + sampleWidth(look) + look.metrics.gap(), baseline.y}, nameOf(entry), labelStyle(look));
 }

@@ -40,11 +40,12 @@ struct Marker
 /// Points in the order they are joined. With neither stroke nor marker nothing is seen.
 struct Line
 {
-    std::string name; ///< in the legend, once for all series of this name; empty: not there
+    std::string name; ///< once in the legend for all series of this name
     std::vector<Point> points;
     std::optional<Stroke> stroke;
     std::optional<Marker> marker;      ///< at every point; left out where points are too dense to tell apart
     std::vector<std::string> labels{}; ///< of the points, or empty; left out where there is no room
+    bool listed = true;                ///< in the legend
 };
 
 /// What lies between two lines with the same x.
@@ -54,6 +55,7 @@ struct Area
     std::vector<Point> upper;
     std::vector<double> lower; ///< as many as upper
     Colour fill;
+    bool listed = true; ///< in the legend
 };
 
 /// Vertical lines from the base to the points.
@@ -63,10 +65,16 @@ struct Stems
     std::vector<Point> points;
     double base = 0.0;
     Stroke stroke;
-    Marker marker; ///< at the points
+    Marker marker;      ///< at the points
+    bool listed = true; ///< in the legend
 };
 
 using Series = std::variant<Line, Area, Stems>;
+
+[[nodiscard]] inline bool isListed(const Series& series)
+{
+    return std::visit([](const auto& s) { return s.listed && !s.name.empty(); }, series);
+}
 
 [[nodiscard]] inline const std::string& nameOf(const Series& series)
 {
