@@ -23,13 +23,14 @@ Axis timeAxis(TimeRange range)
     return {range.to - range.from > 120.0 ? "Time (min:s)" : "Time (s)", Scale::time, range.from, range.to, {}};
 }
 
-/// From 0, or from -largest, to a little more than the largest magnitude; to 1 when all is 0.
+/// From 0, or from -largest, to a little more than the largest magnitude; to 1 when there is silence.
 Axis amplitudeAxis(const std::vector<Point>& points, bool bothSigns)
 {
     double largest = 0.0;
     for (const Point& point : points)
         largest = std::max(largest, std::abs(point.y));
-    const double end = largest > 0.0 ? 1.08 * largest : 1.0;
+    constexpr double silence = 1e-6; // -120 dB: rounding noise
+    const double end = largest > silence ? 1.08 * largest : 1.0;
     return {"Amplitude", Scale::linear, bothSigns ? -end : 0.0, end, {}};
 }
 
@@ -114,9 +115,12 @@ std::string count(std::size_t number, std::string_view one)
 
 std::string subtitleFor(const Clip& clip)
 {
-    std::string text = fmt::format("{} \u00b7 {} \u00b7 {} \u00b7 {}", cli::durationText(clip.duration),
-                                   count(clip.bands.size(), "band"), count(breakpointCount(clip), "breakpoint"),
-                                   count(clip.transients.size(), "transient"));
+    const std::string length = clip.duration > 0.0 && clip.duration < 0.01
+                                   ? fmt::format("{:.3g} ms", 1e3 * clip.duration)
+                                   : cli::durationText(clip.duration);
+    std::string text =
+        fmt::format("{} \u00b7 {} \u00b7 {} \u00b7 {}", length, count(clip.bands.size(), "band"),
+                    count(breakpointCount(clip), "breakpoint"), count(clip.transients.size(), "transient"));
     if (!clip.source.file.empty())
         text += " \u00b7 made from " + clip.source.file;
     return text;
@@ -137,7 +141,7 @@ Figure makeClipFigure(const Clip& clip, std::string title, const std::vector<Nam
     if (!clip.bands.empty() || !clip.noise.empty())
         figure.panels.push_back(amplitudeLanes(clip, range, look));
     if (!clip.bands.empty() || !clip.centroid.empty())
-        figure.panels.push_back(pitchPanel(clip, range, style.size.width, look));
+        figure.panels.push_back(pitchPanel(clip, range, style.size.width / 2, look));
     for (Panel& panel : figure.panels)
     {
         panel.x = timeAxis(range);

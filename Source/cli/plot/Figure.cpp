@@ -10,7 +10,7 @@ namespace pacini::plot
 Look lookFor(const FigureStyle& style)
 {
     const double scale = std::min(style.size.width / 1600.0, style.size.height / 1000.0);
-    return {style.dark ? darkTheme() : lightTheme(), Metrics(std::max(7.0, 15.0 * scale))};
+    return {style.dark ? darkTheme() : lightTheme(), Metrics(15.0 * (scale < 1.0 ? std::sqrt(scale) : scale))};
 }
 
 void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
@@ -40,21 +40,30 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
     if (figure.panels.empty())
         return;
 
+    double left = page.bottom - border - top;
+    double shares = 0.0;
+    const auto isLowest = [&](std::size_t i)
+    {
+        return i + 1 == figure.panels.size();
+    };
+    for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    {
+        // Above and below a plot the margins do not depend on its height.
+        const Margins any = marginsOf(canvas, figure.panels[i], 0.0, isLowest(i), look);
+        left -= any.top + any.bottom;
+        shares += figure.panels[i].share;
+    }
+    left = std::max(left, static_cast<double>(figure.panels.size()));
     // Margins at the sides are those of the widest panel, so that the time axes stand above each other.
     Margins sides;
     std::vector<Margins> margins;
-    double shares = 0.0;
-    double left = page.bottom - border - top;
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
     {
         const Panel& panel = figure.panels[i];
-        margins.push_back(marginsOf(canvas, panel, 10.0 * m.text, i + 1 == figure.panels.size(), look));
+        margins.push_back(marginsOf(canvas, panel, left * panel.share / shares, isLowest(i), look));
         sides.left = std::max(sides.left, margins[i].left);
         sides.right = std::max(sides.right, margins[i].right);
-        left -= margins[i].top + margins[i].bottom;
-        shares += panel.share;
     }
-    left = std::max(left, static_cast<double>(figure.panels.size()));
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
     {
         const Panel& panel = figure.panels[i];
@@ -65,7 +74,7 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
                              std::round(page.right - border - sides.right) - 0.5, std::round(bottom) - 0.5};
         margins[i].left = sides.left;
         margins[i].right = sides.right;
-        drawPanel(canvas, panel, plot, margins[i], i + 1 == figure.panels.size(), look);
+        drawPanel(canvas, panel, plot, margins[i], isLowest(i), look);
         top = bottom + margins[i].bottom;
     }
 }

@@ -26,7 +26,8 @@ struct FigureStyle
     bool dark = false;
 };
 
-/// Texts grow with the picture: 15 pixels in one of 1600 x 1000.
+/// Texts are 15 pixels high in a picture of 1600 x 1000; they grow in proportion and shrink by the square root only, to
+/// stay readable.
 [[nodiscard]] Look lookFor(const FigureStyle& style);
 
 /// Fills the canvas with the figure.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace pacini::plot
@@ -21,18 +22,21 @@ int mostTicksX(const PlotArea& area, const Look& look)
     return static_cast<int>(area.box.width() / (6.0 * look.metrics.text));
 }
 
+/// Up to five where they just fit, more only with plenty of room.
 int mostTicksY(double height, const Look& look)
 {
-    return std::max(2, static_cast<int>(height / (2.2 * look.metrics.text)));
+    const double lines = height / look.metrics.text;
+    return std::max(2, static_cast<int>(std::min(lines / 1.15, std::max(5.0, lines / 4.0))));
 }
 
-/// The series that the legend names, each name once.
-std::vector<const Series*> legendEntries(const Panel& panel)
+/// The series that the legend names, each name once, if anything of them is seen in a plot of this width.
+std::vector<const Series*> legendEntries(const Panel& panel, double plotWidth)
 {
     std::vector<const Series*> entries;
     for (const Series& series : panel.series)
-        if (isListed(series) && std::none_of(entries.begin(), entries.end(),
-                                             [&](const Series* other) { return nameOf(*other) == nameOf(series); }))
+        if (isListed(series) && isSeen(series, plotWidth) &&
+            std::none_of(entries.begin(), entries.end(),
+                         [&](const Series* other) { return nameOf(*other) == nameOf(series); }))
             entries.push_back(&series);
     return entries;
 }
@@ -55,10 +59,12 @@ double entryWidth(const Canvas& canvas, const Series& series, const Look& look)
     return sampleWidth(look) + look.metrics.gap() + canvas.textWidth(nameOf(series), labelStyle(look));
 }
 
+constexpr double everything = std::numeric_limits<double>::infinity();
+
 double legendColumnWidth(const Canvas& canvas, const Panel& panel, const Look& look)
 {
     double width = 0.0;
-    for (const Series* entry : legendEntries(panel))
+    for (const Series* entry : legendEntries(panel, everything))
         width = std::max(width, entryWidth(canvas, *entry, look));
     return width;
 }
@@ -77,7 +83,7 @@ void drawEntry(Canvas& canvas, const Panel& panel, const Series& entry, Point ba
 double drawLegendAbove(Canvas& canvas, const Panel& panel, const Rectangle& plot, const Look& look)
 {
     double x = plot.right;
-    auto entries = legendEntries(panel);
+    auto entries = legendEntries(panel, plot.width());
     std::reverse(entries.begin(), entries.end());
     for (const Series* entry : entries)
     {
@@ -93,7 +99,7 @@ double drawLegendAbove(Canvas& canvas, const Panel& panel, const Rectangle& plot
 void drawLegendRight(Canvas& canvas, const Panel& panel, const Rectangle& plot, const Look& look)
 {
     double y = plot.top + look.metrics.text;
-    for (const Series* entry : legendEntries(panel))
+    for (const Series* entry : legendEntries(panel, plot.width()))
     {
         drawEntry(canvas, panel, *entry, {plot.right + 1.5 * look.metrics.text, y}, look);
         y += look.metrics.line();
@@ -119,28 +125,38 @@ void drawGrid(Canvas& canvas, const Panel& panel, const PlotArea& area, const st
     canvas.draw(major, {{}, Stroke{look.theme.grid, hair, 0.0, false}});
 }
 
-void drawRules(Canvas& canvas, const Panel& panel, const PlotArea& area, const Look& look,
-               std::vector<Rectangle>& taken)
+void drawRules(Canvas& canvas, const Panel& panel, const PlotArea& area, const Look& look)
 {
-    const TextStyle style{look.theme.quietText, 0.85 * look.metrics.text};
     Path path;
+    for (const Rule& rule : panel.rules)
+        if (area.showsX(rule.x))
+            path.segment({area.atX(rule.x), area.box.top}, {area.atX(rule.x), area.box.bottom});
+    canvas.draw(path, {{}, Stroke{look.theme.quietText, look.metrics.hair(), 3.0 * look.metrics.hair(), false}});
+}
+
+/// On a ground of their own, over the series.
+void labelRules(Canvas& canvas, const Panel& panel, const PlotArea& area, const Look& look,
+                std::vector<Rectangle>& taken)
+{
+    const TextStyle style{look.theme.text, 0.85 * look.metrics.text};
     double free = area.box.left;
     for (const Rule& rule : panel.rules)
     {
-        if (!area.showsX(rule.x))
+        if (!area.showsX(rule.x) || rule.label.empty())
             continue;
-        const double x = area.atX(rule.x);
-        path.segment({x, area.box.top}, {x, area.box.bottom});
-        const double start = x + 0.3 * style.size;
         const std::string label = shortened(canvas, rule.label, style, 0.25 * area.box.width());
-        const double end = start + canvas.textWidth(label, style);
-        if (label.empty() || start < free || end > area.box.right)
+        const double left = area.atX(rule.x) + look.metrics.hair();
+        const Rectangle box{left, area.box.top + look.metrics.hair(),
+                            left + canvas.textWidth(label, style) + 0.6 * style.size, area.box.top + 1.4 * style.size};
+        if (left < free || box.right > area.box.right)
             continue;
-        canvas.text({start, area.box.top + 1.1 * style.size}, label, style);
-        taken.push_back({start, area.box.top, end, area.box.top + 1.4 * style.size});
-        free = end + style.size;
+        Path ground;
+        ground.rectangle(box);
+        canvas.draw(ground, {look.theme.ground.withAlpha(0.8), {}});
+        canvas.text({left + 0.3 * style.size, area.box.top + 1.1 * style.size}, label, style);
+        taken.push_back(box);
+        free = box.right;
     }
-    canvas.draw(path, {{}, Stroke{look.theme.quietText, look.metrics.hair(), 3.0 * look.metrics.hair(), false}});
 }
 
 /// After all series, so that no text is drawn over and none covers a marker.
@@ -211,8 +227,11 @@ Margins marginsOf(const Canvas& canvas, const Panel& panel, double height, bool 
     if (panel.legend == LegendPlace::right)
         margins.right += 1.5 * m.text + legendColumnWidth(canvas, panel, look);
     const bool lineAbove =
-        !panel.title.empty() || (panel.legend == LegendPlace::above && !legendEntries(panel).empty());
+        !panel.title.empty() || (panel.legend == LegendPlace::above && !legendEntries(panel, everything).empty());
     margins.top = lineAbove ? m.line() + m.gap() : m.gap();
+    // The last label of the x axis is centred at its end.
+    if (withX)
+        margins.right = std::max(margins.right, 0.5 * widest(canvas, ticksOf(panel.x, 10), style));
     margins.bottom = withX ? m.gap() + 2.2 * m.line() : 0.0;
     return margins;
 }
@@ -227,19 +246,22 @@ void drawPanel(Canvas& canvas, const Panel& panel, const Rectangle& plot, const 
 
     canvas.beginGroup(panel.title);
     drawGrid(canvas, panel, area, ticksX, ticksY, look);
-    drawRules(canvas, panel, area, look, taken);
+    drawRules(canvas, panel, area, look);
     Path frame;
     frame.rectangle(plot);
     canvas.draw(frame, {{}, Stroke{look.theme.frame, look.metrics.hair(), 0.0, false}});
     for (const Series& series : panel.series)
         drawSeries(canvas, series, area, look);
+    labelRules(canvas, panel, area, look, taken);
     labelSeries(canvas, panel, area, look, taken);
 
     drawLabelsY(canvas, ticksY, area, Align::right, look);
     drawLabelsY(canvas, panel.rightLabels, area, Align::left, look);
     TextStyle titleStyle{look.theme.text, look.metrics.text, false, Align::centre, true};
-    canvas.text({plot.left - margins.left + 0.8 * look.metrics.text, 0.5 * (plot.top + plot.bottom)},
-                shortened(canvas, panel.y.title, titleStyle, plot.height() + 2.0 * look.metrics.line()), titleStyle);
+    const double titleRoom = plot.height() + look.metrics.line();
+    if (titleRoom > 4.0 * look.metrics.text)
+        canvas.text({plot.left - margins.left + 0.8 * look.metrics.text, 0.5 * (plot.top + plot.bottom)},
+                    shortened(canvas, panel.y.title, titleStyle, titleRoom), titleStyle);
     if (withX)
         drawAxisX(canvas, panel, area, ticksX, look);
     double room = plot.width();

@@ -64,10 +64,22 @@ Paint markerPaint(const Marker& marker)
     return {marker.colour, {}};
 }
 
+void drawMarker(Canvas& canvas, const Marker& marker, Point at)
+{
+    Path path;
+    addMarker(path, marker, at);
+    canvas.draw(path, markerPaint(marker));
+}
+
+/// More than one marker in 0.7 of its size would run together into a bar.
+bool markersFit(const Marker& marker, std::size_t count, double width)
+{
+    return static_cast<double>(count) * 0.7 * marker.size <= width;
+}
+
 void drawMarkers(Canvas& canvas, const Marker& marker, std::span<const Point> pixels, const Rectangle& box)
 {
-    // More than one in 0.7 of its size would run together into a bar.
-    if (static_cast<double>(pixels.size()) * 0.7 * marker.size > box.width())
+    if (!markersFit(marker, pixels.size(), box.width()))
         return;
     Path path;
     if (marker.shape == MarkerShape::circle && marker.size <= 6.0)
@@ -127,7 +139,11 @@ void drawIn(Canvas& canvas, const Stems& stems, const PlotArea& area)
     Path path;
     for (const Point& top : pixels)
         path.segment({top.x, area.atY(stems.base)}, top);
-    canvas.draw(path, {{}, stems.stroke});
+    Stroke stroke = stems.stroke;
+    // Without their markers stems are told apart by what shines through.
+    if (!markersFit(stems.marker, pixels.size(), area.box.width()))
+        stroke.colour = stroke.colour.withAlpha(0.4);
+    canvas.draw(path, {{}, stroke});
     drawMarkers(canvas, stems.marker, pixels, area.box);
 }
 } // namespace
@@ -157,11 +173,12 @@ std::vector<Point> thinned(const std::vector<Point>& points)
     return kept;
 }
 
-void drawMarker(Canvas& canvas, const Marker& marker, Point at)
+bool isSeen(const Series& series, double width)
 {
-    Path path;
-    addMarker(path, marker, at);
-    canvas.draw(path, markerPaint(marker));
+    const auto* line = std::get_if<Line>(&series);
+    if (line == nullptr || line->stroke)
+        return true;
+    return !line->points.empty() && line->marker && markersFit(*line->marker, line->points.size(), width);
 }
 
 void drawSeries(Canvas& canvas, const Series& series, const PlotArea& area, const Look& look)

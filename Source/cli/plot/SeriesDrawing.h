@@ -13,8 +13,9 @@ namespace pacini::plot
 /// cover the same pixels. Points that go back in x come back as they are.
 [[nodiscard]] std::vector<Point> thinned(const std::vector<Point>& points);
 
-/// A marker centred at `at`.
-void drawMarker(Canvas& canvas, const Marker& marker, Point at);
+/// Whether a series has anything to see in a plot of `width` pixels: points, and lines or markers that are not too
+/// dense to be drawn.
+[[nodiscard]] bool isSeen(const Series& series, double width);
 
 /// Draws a series without its labels, cut off at the edge of the plot.
 void drawSeries(Canvas& canvas, const Series& series, const PlotArea& area, const Look& look);
