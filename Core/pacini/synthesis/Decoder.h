@@ -243,16 +243,20 @@ private:
         for (std::size_t i = 0; i < clip.transients.size(); ++i)
         {
             const Transient& transient = clip.transients[i];
-            const double gap = i + 1 < clip.transients.size()
-                                   ? (clip.transients[i + 1].time - transient.time) * params.stretch
-                                   : std::numeric_limits<double>::infinity();
+            double gap = std::numeric_limits<double>::infinity();
+            if (i > 0)
+                gap = transient.time - clip.transients[i - 1].time;
+            if (i + 1 < clip.transients.size())
+                gap = std::min(gap, clip.transients[i + 1].time - transient.time);
+            gap *= params.stretch;
             double level = transient.amplitude;
             if (leveller)
             {
-                // What the bands reach by themselves around the event needs no pulse.
+                // What the bands reach by themselves around the event needs no pulse. The envelope is a mean over 10
+                // ms: they peak at up to twice its value.
                 double reached = 0.0;
                 for (const double after : {0.0, 0.005, 0.010})
-                    reached = std::max(reached, valueAt(clip.envelope, transient.time + after));
+                    reached = std::max(reached, 2.0 * valueAt(clip.envelope, transient.time + after));
                 level = std::sqrt(std::max(level * level - reached * reached, 0.0));
             }
             if (level <= 0.0)
