@@ -2,6 +2,7 @@
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
+#include "cli/PlotCommand.h"
 #include "cli/RenderCommand.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<PlotCommand>());
     return commands;
 }
 
