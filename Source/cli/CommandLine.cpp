@@ -1,4 +1,5 @@
 #include "cli/Command.h"
+#include "cli/CompareCommand.h"
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
@@ -21,6 +22,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
     return commands;
 }
@@ -37,6 +39,7 @@ int runCommandLine(int argc, const char* const* argv)
                "  pacini encode impact.wav -o impact.pacb     a recording becomes a clip of a few hundred bytes\n"
                "  pacini render impact.pacb -o impact.wav     the clip becomes a drive signal for an actuator\n"
                "  pacini encode sounds/ -o clips/ --format packed\n"
+               "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
                "'pacini COMMAND --help' explains a command.");
 
     Console console;

@@ -153,7 +153,8 @@ struct AudioReader::State
                              fmt::format("frame {}, channel {}", delivered + i / channels, i % channels),
                              fmt::format("is {}, not a number (counted from 0); repair the file or allow NaN",
                                          std::isnan(samples[i]) ? "NaN" : "infinite")};
-            samples[i] = 0.0f;
+            if (!options.keepNan)
+                samples[i] = 0.0f;
             ++replaced;
         }
         return {};
@@ -214,9 +215,9 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (info.channels < 1 || info.channels > limits::channels)
         return invalid(
             fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
-    if (info.samplerate < limits::lowestSampleRate || info.samplerate > limits::highestSampleRate)
+    if (info.samplerate < options.lowestSampleRate || info.samplerate > limits::highestSampleRate)
         return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it", info.samplerate,
-                                   limits::lowestSampleRate, limits::highestSampleRate));
+                                   options.lowestSampleRate, limits::highestSampleRate));
     if (data && !options.allowTruncated)
         if (auto broken = brokenPromise(*data, info))
             return *broken;

@@ -15,13 +15,6 @@
 namespace pacini
 {
 
-/// What a reader lets pass instead of reporting it.
-struct AudioReadOptions
-{
-    bool allowTruncated = false; ///< deliver what is there of a file that was cut off
-    bool allowNan = false;       ///< replace NaN and infinite samples by 0 and count them
-};
-
 /// The range of files that are read and written.
 namespace limits
 {
@@ -30,14 +23,23 @@ inline constexpr int lowestSampleRate = 8000;    ///< Hz
 inline constexpr int highestSampleRate = 384000; ///< Hz
 } // namespace limits
 
+/// What a reader lets pass instead of reporting it.
+struct AudioReadOptions
+{
+    bool allowTruncated = false;                     ///< deliver what is there of a file that was cut off
+    bool allowNan = false;                           ///< replace NaN and infinite samples by 0 and count them
+    bool keepNan = false;                            ///< with allowNan: count them, but deliver them as they are
+    int lowestSampleRate = limits::lowestSampleRate; ///< Hz
+};
+
 /// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
 /// MP3. The content decides the format, not the name. Memory does not grow with what a header claims.
 class AudioReader
 {
 public:
     /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
-    /// channels outside 1-64, rate outside 8-384 kHz), truncated (the header promises more than is there; FLAC, Ogg and
-    /// MP3 show this only at their end, in read()).
+    /// channels outside 1-64, rate below options.lowestSampleRate or above 384 kHz), truncated (the header promises
+    /// more than is there; FLAC, Ogg and MP3 show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;
@@ -57,7 +59,7 @@ public:
     /// io. After an Error the content of `interleaved` is unspecified and reading on is not possible.
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
 
-    /// Samples that allowNan has replaced so far.
+    /// Samples that allowNan has let pass so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 
 private:
