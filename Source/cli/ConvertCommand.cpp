@@ -44,6 +44,11 @@ Exit ConvertCommand::run(Console& console)
         console.error(input, clip.error());
         return Exit::failed;
     }
+    if (sameFileKey(input) == sameFileKey(output))
+    {
+        console.error(output, {ErrorCode::invalidArgument, "", "is input and output; name another output"});
+        return Exit::failed;
+    }
     if (quantise > 0)
         setQuantise(*clip, quantise);
     const auto written = writeClip(output, *clip, target);
@@ -57,7 +62,7 @@ Exit ConvertCommand::run(Console& console)
             {"input", input}, {"output", output}, {"bytes", *written}, {"duration", clip->duration}}
                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
-        console.print(fmt::format("{}: {}", output, bytesText(static_cast<double>(*written))));
+        console.note(fmt::format("{}: {}", printable(output), bytesText(static_cast<double>(*written))));
     return Exit::ok;
 }
 

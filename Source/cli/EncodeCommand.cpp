@@ -1,5 +1,6 @@
 #include "cli/EncodeCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
 #include "cli/Task.h"
@@ -78,16 +79,16 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->add_option("--breakpoints", params.breakpoints,
                      "At most this many breakpoints per second and band; simple sounds take fewer")
         ->capture_default_str()
-        ->check(CLI::Range(0.5, 1000.0));
+        ->check(numberFrom(0.5, 1000.0));
     command->add_option("--quantise", params.quantise, "Bits of each value, 4 to 16")
         ->capture_default_str()
         ->check(CLI::Range(4, 16));
     command->add_option("--low", params.lowFrequency, "Lower end of the bands, Hz")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 1700.0));
+        ->check(numberFrom(1.0, 1700.0));
     command->add_option("--high", params.highFrequency, "Upper end of the bands, Hz")
         ->capture_default_str()
-        ->check(CLI::Range(2.0, 1800.0));
+        ->check(numberFrom(2.0, 1800.0));
     command->add_option("--spacing", spacing, "log or linear bands")
         ->capture_default_str()
         ->check(CLI::IsMember({"log", "linear"}));
@@ -134,14 +135,7 @@ Exit EncodeCommand::run(Console& console)
             return [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
             {
                 EncodeTask& task = tasks[i];
-                if (!task.error)
-                {
-                    auto result = job.run(task.input, task.output, progress);
-                    if (result)
-                        task.result = *result;
-                    else
-                        task.error = result.error();
-                }
+                attempt(task, [&] { return job.run(task.input, task.output, progress); });
                 if (task.error)
                     console.error(task.input.string(), *task.error);
                 else if (task.result->replacedSamples > 0)
@@ -150,7 +144,10 @@ Exit EncodeCommand::run(Console& console)
             };
         });
 
-    console.print(json ? jsonReport(tasks, toJson) : summary(tasks));
+    if (json)
+        console.print(jsonReport(tasks, toJson));
+    else
+        console.note(summary(tasks));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }
 

@@ -1,6 +1,7 @@
 #include "cli/EncodeJob.h"
 
 #include "cli/Stopwatch.h"
+#include "cli/Task.h"
 #include "io/AtomicFile.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     const auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
                                                                : writeClip(output, clip, settings.format);
     if (!written)
-        return written.error();
+        return atOutput(output, written.error());
 
     result.bytes = *written;
     result.duration = clip.duration;

@@ -1,6 +1,7 @@
 #include "cli/RenderJob.h"
 
 #include "cli/Stopwatch.h"
+#include "cli/Task.h"
 #include "io/ClipFile.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     format.expectedFrames = total;
     auto writer = AudioWriter::create(output, format);
     if (!writer)
-        return writer.error();
+        return atOutput(output, writer.error());
     std::vector<float> block(blockFrames);
     for (std::uint64_t done = 0; done < total;)
     {
@@ -80,13 +81,13 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         for (const float v : part)
             result.peak = std::max(result.peak, std::abs(static_cast<double>(v)));
         if (auto written = writer->write(part); !written)
-            return written.error();
+            return atOutput(output, written.error());
         done += part.size();
         progress(static_cast<double>(done) / static_cast<double>(total));
     }
     const auto report = writer->finish();
     if (!report)
-        return report.error();
+        return atOutput(output, report.error());
     result.bytes = report->bytes;
     result.clippedSamples = report->clippedSamples;
     result.seconds = work.seconds();

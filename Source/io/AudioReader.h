@@ -28,6 +28,7 @@ namespace limits
 inline constexpr int channels = 64;
 inline constexpr int lowestSampleRate = 8000;    ///< Hz
 inline constexpr int highestSampleRate = 384000; ///< Hz
+inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
 
 /// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
