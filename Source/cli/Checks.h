@@ -5,8 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <system_error>
 
 namespace pacini::cli
 {
@@ -26,16 +29,19 @@ namespace pacini::cli
         range);
 }
 
-/// A whole number of 0 or more; a minus sign, which unsigned types would wrap around, is refused.
+/// A whole number of 64 bits; a minus sign, which unsigned types would wrap around, is refused.
 [[nodiscard]] inline CLI::Validator countingNumber()
 {
+    const auto range = fmt::format("0 to {}", std::numeric_limits<std::uint64_t>::max());
     return CLI::Validator(
-        [](std::string& text)
+        [=](std::string& text)
         {
-            const bool good = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-            return good ? std::string() : fmt::format("{} is not a whole number of 0 or more", text);
+            std::uint64_t value = 0;
+            const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good = failure == std::errc() && end == text.data() + text.size();
+            return good ? std::string() : fmt::format("{} is not a whole number from {}", text, range);
         },
-        "0 or more");
+        range);
 }
 
 } // namespace pacini::cli

@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <system_error>
+
 namespace pacini::cli
 {
 
@@ -44,7 +47,7 @@ Exit ConvertCommand::run(Console& console)
         console.error(input, clip.error());
         return Exit::failed;
     }
-    if (sameFileKey(input) == sameFileKey(output))
+    if (std::error_code unknown; std::filesystem::equivalent(input, output, unknown))
     {
         console.error(output, {ErrorCode::invalidArgument, "", "is input and output; name another output"});
         return Exit::failed;

@@ -116,10 +116,10 @@ Exit InfoCommand::run(Console& console)
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
-        const auto audio = describeAudio(file);
+        const auto audio = isClipFile(file) ? Result<Json>(clip.error()) : describeAudio(file);
         if (!audio)
         {
-            console.error(file, isClipFile(file) ? clip.error() : audio.error());
+            console.error(file, audio.error());
             failed = true;
             continue;
         }

@@ -106,7 +106,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("ST");
     command->add_option("--stretch", stretch, "Length factor; pitch stays")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0))
+        ->check(numberFrom(0.01, 100.0))
         ->type_name("R");
     command->add_option("--delay", delay, "Silence before the clip, s")
         ->capture_default_str()

@@ -4,6 +4,8 @@
 #include "cli/Task.h"
 #include "io/ClipFile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -51,6 +53,10 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.report = decoder->report();
     const auto total = static_cast<std::uint64_t>(decoder->totalFrames());
     result.duration = static_cast<double>(total) / fs;
+    if (result.duration > limits::duration)
+        return Error{ErrorCode::tooLarge, "",
+                     fmt::format("would last {:.1f} hours, at most 24 are written; make --stretch or --delay smaller",
+                                 result.duration / 3600.0)};
 
     constexpr std::size_t blockFrames = 4096;
     Equalizer equalizer;

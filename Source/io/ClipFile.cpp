@@ -21,6 +21,9 @@ constexpr std::string_view packedMagic = "PACB";
 
 bool looksLikeJson(std::string_view bytes)
 {
+    // UTF-16 is refused by the reader of JSON, which says so.
+    if (bytes.starts_with(std::string_view("\xFF\xFE{\0", 4)) || bytes.starts_with(std::string_view("\xFE\xFF\0{", 4)))
+        return true;
     if (bytes.starts_with("\xEF\xBB\xBF"))
         bytes.remove_prefix(3);
     const auto first = bytes.find_first_not_of(" \t\r\n");
