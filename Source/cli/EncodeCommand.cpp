@@ -93,7 +93,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->capture_default_str()
         ->check(CLI::IsMember({"log", "linear"}));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
-    command->add_flag("--allow-nan", allowNan, "Take NaN and infinite samples as 0 instead of refusing the file");
+    command->add_flag("--allow-nan", allowNan,
+                      "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
@@ -128,21 +129,22 @@ Exit EncodeCommand::run(Console& console)
     {
         return tasks[i].input.filename().string();
     };
-    runTasks(
-        console, tasks.size(), jobs, nameOf,
-        [&]
-        {
-            return [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
-            {
-                EncodeTask& task = tasks[i];
-                attempt(task, [&] { return job.run(task.input, task.output, progress); });
-                if (task.error)
-                    console.error(task.input.string(), *task.error);
-                else if (task.result->replacedSamples > 0)
-                    console.warning(task.input.string(), fmt::format("{} samples were not finite and were taken as 0",
-                                                                     task.result->replacedSamples));
-            };
-        });
+    runTasks(console, tasks.size(), jobs, nameOf,
+             [&]
+             {
+                 return
+                     [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
+                 {
+                     EncodeTask& task = tasks[i];
+                     attempt(task, [&] { return job.run(task.input, task.output, progress); });
+                     if (task.error)
+                         console.error(task.input.string(), *task.error);
+                     else if (task.result->replacedSamples > 0)
+                         console.warning(task.input.string(),
+                                         fmt::format("{} samples were no numbers or absurdly large and were taken as 0",
+                                                     task.result->replacedSamples));
+                 };
+             });
 
     if (json)
         console.print(jsonReport(tasks, toJson));
