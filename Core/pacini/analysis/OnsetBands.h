@@ -104,8 +104,12 @@ class OnsetBands
 public:
     /// `sampleRate` from 2 kHz to 768 kHz.
     explicit OnsetBands(double sampleRate)
-        : stageRate(sampleRate / std::exp2(stageCount(sampleRate))), inputSamples(sampleRate), stageSamples(stageRate),
-          mirrorLength(static_cast<std::ptrdiff_t>(0.06 * sampleRate)), input(history), stages(static_cast<std::size_t>(stageCount(sampleRate)), SlidingBuffer<float>(history))
+        : stageRate(sampleRate / std::exp2(stageCount(sampleRate))),
+          inputSamples(sampleRate),
+          stageSamples(stageRate),
+          mirrorLength(static_cast<std::ptrdiff_t>(0.06 * sampleRate)),
+          input(history),
+          stages(static_cast<std::size_t>(stageCount(sampleRate)), SlidingBuffer<float>(history))
     {
         designResampler();
         // The second difference rises by 12 dB per octave; it is scaled to pass 6-7 kHz unchanged at every rate.
@@ -137,8 +141,8 @@ public:
         removeDrift();
     }
 
-    /// Lets the sound run backwards from its end for 60 ms, so that the frames up to the end can be completed without the
-    /// end itself looking like an event.
+    /// Lets the sound run backwards from its end for 60 ms, so that the frames up to the end can be completed without
+    /// the end itself looking like an event.
     void mirrorEnd()
     {
         const std::ptrdiff_t end = input.end();
@@ -148,8 +152,8 @@ public:
         push(mirrored.data(), 1, mirrorLength, 0.0f);
     }
 
-    /// Adds `weight` times the powers of the frames that are complete, at most `limit` frames in all, to `frames`, whose
-    /// element 0 is frame `first`; grows `frames` as needed. Returns the index after the last frame.
+    /// Adds `weight` times the powers of the frames that are complete, at most `limit` frames in all, to `frames`,
+    /// whose element 0 is frame `first`; grows `frames` as needed. Returns the index after the last frame.
     std::ptrdiff_t emit(std::vector<OnsetFrame>& frames, std::ptrdiff_t first, std::ptrdiff_t limit, float weight)
     {
         for (; next < limit && complete(next); ++next)
@@ -169,7 +173,8 @@ private:
     static constexpr double baseRate = 8.0 * OnsetFrame::rate;
     static constexpr std::ptrdiff_t history = 32; ///< silence before the start that the longest filter can see
     static constexpr std::ptrdiff_t phases = 64;
-    static constexpr std::ptrdiff_t pitchFrames = 16; ///< half width of the window that measures the lowest band's pitch
+    static constexpr std::ptrdiff_t pitchFrames =
+        16; ///< half width of the window that measures the lowest band's pitch
 
     /// The samples of the coming frame in a signal of some rate: those at times in [k/900, (k+1)/900).
     struct Samples
@@ -208,7 +213,8 @@ private:
             std::vector<double> h(static_cast<std::size_t>(taps));
             for (std::size_t i = 0; i < h.size(); ++i)
             {
-                const double t = static_cast<double>(i) - half + 1.0 - static_cast<double>(p) / static_cast<double>(phases);
+                const double t =
+                    static_cast<double>(i) - half + 1.0 - static_cast<double>(p) / static_cast<double>(phases);
                 const double window = std::abs(t) < half ? std::cos(std::numbers::pi * t / (2.0 * half)) : 0.0;
                 const double x = std::numbers::pi * cutoff * t;
                 h[i] = window * window * (t == 0.0 ? 1.0 : std::sin(x) / x);
@@ -267,7 +273,8 @@ private:
         }
     }
 
-    static void split(const SlidingBuffer<float>& from, std::ptrdiff_t step, SlidingBuffer<float>& lowTo, SlidingBuffer<float>& highTo)
+    static void split(const SlidingBuffer<float>& from, std::ptrdiff_t step, SlidingBuffer<float>& lowTo,
+                      SlidingBuffer<float>& highTo)
     {
         const std::ptrdiff_t begin = lowTo.end();
         const std::ptrdiff_t count = from.end() - 3 * step - begin;
@@ -330,8 +337,9 @@ private:
         band[4] = detail::sumOfSquares(high[1].at(8 * k), 8) / 8.0f;
         band[3] = detail::sumOfSquares(high[2].at(4 * k), 4) / 4.0f;
 
-        // Below 450 Hz a frame is shorter than a half wave. The energy of an oscillation, x^2 + (x'/omega)^2, stays steady
-        // through its phases; an octave is narrow enough to take one omega (where sin(omega) = 0.9) for all of it.
+        // Below 450 Hz a frame is shorter than a half wave. The energy of an oscillation, x^2 + (x'/omega)^2, stays
+        // steady through its phases; an octave is narrow enough to take one omega (where sin(omega) = 0.9) for all of
+        // it.
         constexpr float octaveScale = 1.0f / (0.9f * 0.9f);
         const float* h3 = high[3].at(2 * k);
         const float* h4 = high[4].at(k);
@@ -343,7 +351,8 @@ private:
         band[0] = 0.5f * (square(*x) + static_cast<float>(squaredPeriod(k)) * square(slope(x)));
 
         std::array<float, 8> lowHalf;
-        std::transform(low[0].at(8 * k), low[0].at(8 * k) + 8, lowHalf.begin(), [offset](float v) { return v - offset; });
+        std::transform(low[0].at(8 * k), low[0].at(8 * k) + 8, lowHalf.begin(),
+                       [offset](float v) { return v - offset; });
 
         frame.power += weight * static_cast<float>(std::max(0.0, power));
         frame.lowPower += weight * detail::sumOfSquares(lowHalf.data(), 8) / 8.0f;
@@ -361,8 +370,7 @@ private:
         {
             const auto slot = static_cast<std::size_t>(measured % std::ssize(pitchSquares));
             const float* x = lowest.at(measured);
-            const std::array<double, 2> now{static_cast<double>(square(*x)),
-                                            static_cast<double>(square(slope(x)))};
+            const std::array<double, 2> now{static_cast<double>(square(*x)), static_cast<double>(square(slope(x)))};
             for (std::size_t i = 0; i < 2; ++i)
             {
                 pitchSums[i] += now[i] - pitchSquares[slot][i];
@@ -410,18 +418,21 @@ private:
     float bendScale = 1.0f;
     double dcCoefficient = 0.0;
 
-    SlidingBuffer<float> input;                ///< at fs
-    std::vector<SlidingBuffer<float>> stages;  ///< fs/2, fs/4 ... down to 20-40 kHz
-    SlidingBuffer<float> base{history};              ///< at 7200 Hz
-    std::array<SlidingBuffer<float>, 5> low{SlidingBuffer<float>{history}, SlidingBuffer<float>{history}, SlidingBuffer<float>{history}, SlidingBuffer<float>{history}, SlidingBuffer<float>{history}};
+    SlidingBuffer<float> input;               ///< at fs
+    std::vector<SlidingBuffer<float>> stages; ///< fs/2, fs/4 ... down to 20-40 kHz
+    SlidingBuffer<float> base{history};       ///< at 7200 Hz
+    std::array<SlidingBuffer<float>, 5> low{SlidingBuffer<float>{history}, SlidingBuffer<float>{history},
+                                            SlidingBuffer<float>{history}, SlidingBuffer<float>{history},
+                                            SlidingBuffer<float>{history}};
     std::array<SlidingBuffer<float>, 5> high = low;
-    std::array<SlidingBuffer<float>, 3> octave{SlidingBuffer<float>{history}, SlidingBuffer<float>{history}, SlidingBuffer<float>{history}}; ///< 3600, 1800, 900 Hz
+    std::array<SlidingBuffer<float>, 3> octave{SlidingBuffer<float>{history}, SlidingBuffer<float>{history},
+                                               SlidingBuffer<float>{history}}; ///< 3600, 1800, 900 Hz
 
-    SlidingBuffer<float> lowest{history};                                   ///< low[4] without DC
+    SlidingBuffer<float> lowest{history}; ///< low[4] without DC
 
     std::ptrdiff_t next = 0; ///< the frame to come
-    double dc = 0.0;    ///< of the full band, slowly following
-    double drift = 0.0; ///< of the lowest band
+    double dc = 0.0;         ///< of the full band, slowly following
+    double drift = 0.0;      ///< of the lowest band
     std::ptrdiff_t measured = 0;
     std::array<std::array<double, 2>, 2 * pitchFrames + 1> pitchSquares{};
     std::array<double, 2> pitchSums{};

@@ -8,7 +8,8 @@
 namespace pacini
 {
 
-/// Short-time powers (mean squares) of one 900th of a second, averaged over the channels, so that channels never cancel.
+/// Short-time powers (mean squares) of one 900th of a second, averaged over the channels, so that channels never
+/// cancel.
 ///
 /// The bands are octaves below 1800 Hz and two wide bands above: up to 112, 225, 450, 900, 1800 and about 3600 Hz, and
 /// all above. They overlap (12 dB per octave near the edges); only their changes matter here. For a steady tone of any
