@@ -1,5 +1,6 @@
 #include "cli/EncodeJob.h"
 
+#include "cli/Task.h"
 #include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
 
@@ -105,8 +106,9 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    return settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
-                                                 : writeClip(output, clip, settings.format);
+    auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
+                                                         : writeClip(output, clip, settings.format);
+    return written ? written : atOutput(output, written.error());
 }
 
 Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& output, const Progress& progress,
@@ -120,7 +122,7 @@ Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path&
     result.duration = static_cast<double>(signal.size()) / reader.sampleRate();
     const auto report = writeAudio(output, signal, {.sampleRate = reader.sampleRate()});
     if (!report)
-        return report.error();
+        return atOutput(output, report.error());
     return static_cast<std::size_t>(report->bytes);
 }
 

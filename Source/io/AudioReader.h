@@ -21,13 +21,15 @@ namespace limits
 inline constexpr int channels = 64;
 inline constexpr int lowestSampleRate = 8000;    ///< Hz
 inline constexpr int highestSampleRate = 384000; ///< Hz
+inline constexpr float sample = 1e12f;           ///< magnitude: 1 is full scale, integers of 32 bits reach 2e9
+inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
 
 /// What a reader lets pass instead of reporting it.
 struct AudioReadOptions
 {
     bool allowTruncated = false;                     ///< deliver what is there of a file that was cut off
-    bool allowNan = false;                           ///< replace NaN and infinite samples by 0 and count them
+    bool allowNan = false;                           ///< replace NaN, infinite and absurd samples by 0 and count them
     bool keepNan = false;                            ///< with allowNan: count them, but deliver them as they are
     int lowestSampleRate = limits::lowestSampleRate; ///< Hz
 };
@@ -55,8 +57,9 @@ public:
 
     /// Fills `interleaved` (channels() samples per frame, full scale 1, float files may go beyond) with the next frames
     /// and returns how many frames came; fewer than fit only at the end, then 0. Precondition: room for whole frames.
-    /// Errors: notFinite with the first bad frame and channel, both counted from 0; truncated; invalidData (damaged);
-    /// io. After an Error the content of `interleaved` is unspecified and reading on is not possible.
+    /// Errors: notFinite (also beyond limits::sample) with the first bad frame and channel, both counted from 0;
+    /// truncated; invalidData (damaged); io. After an Error the content of `interleaved` is unspecified and reading on
+    /// is not possible.
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
 
     /// Samples that allowNan has let pass so far.
