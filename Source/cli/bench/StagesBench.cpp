@@ -1,0 +1,102 @@
+#include "cli/bench/Bench.h"
+#include "cli/bench/Timed.h"
+#include "io/AudioReader.h"
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/OnsetDetector.h>
+#include <pacini/clip/PackedClip.h>
+
+#include <algorithm>
+
+namespace pacini::cli
+{
+
+namespace
+{
+std::vector<std::vector<float>> decimatedChannels(const BenchSound& sound, std::vector<RationalDecimator>& decimators)
+{
+    const auto channels = decimators.size();
+    std::vector<std::vector<float>> low(channels);
+    std::vector<float> channel(sound.interleaved.size() / channels);
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+        for (std::size_t i = 0; i < channel.size(); ++i)
+            channel[i] = sound.interleaved[i * channels + c];
+        decimators[c].reset();
+        decimators[c].push(channel, low[c]);
+        decimators[c].finish(low[c]);
+    }
+    return low;
+}
+
+void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+{
+    const EncoderParams params;
+    Encoder encoder(params);
+    const auto encode = timed(settings.repeats,
+                              [&]
+                              {
+                                  encoder.start(sound.sampleRate, sound.channels);
+                                  encoder.push(sound.interleaved);
+                                  return encoder.finish();
+                              });
+    const auto pack =
+        timed(settings.repeats, [&] { return packClip(encode.result, packParamsFor(encode.result)); });
+
+    std::vector<RationalDecimator> decimators(static_cast<std::size_t>(sound.channels),
+                                              RationalDecimator(sound.sampleRate, analysisRate));
+    const auto decimate = timed(settings.repeats, [&] { return decimatedChannels(sound, decimators); });
+    BandAnalysis analysis({tiledBands(static_cast<std::size_t>(params.bands), params.lowFrequency, params.highFrequency,
+                                      params.spacing)});
+    const std::vector<std::span<const float>> channels(decimate.result.begin(), decimate.result.end());
+    const auto analyse = timed(settings.repeats,
+                               [&]
+                               {
+                                   analysis.reset(channels.size());
+                                   analysis.push(channels);
+                                   return analysis.finish();
+                               });
+    const auto onsets =
+        timed(settings.repeats,
+              [&]
+              {
+                  return detectOnsets(sound.interleaved, static_cast<std::size_t>(sound.channels), sound.sampleRate);
+              });
+    const auto read = timed(settings.repeats, [&] { return readAudio(sound.path).ok(); });
+
+    const double total = encode.seconds + pack.seconds;
+    const auto add = [&](const std::string& stage, double seconds)
+    {
+        rows.add({sound.name, stage, sound.duration(), total, seconds});
+    };
+    add("decimate to 4 kHz", decimate.seconds);
+    add("band analysis", analyse.seconds);
+    add("fit curves", encode.seconds - decimate.seconds - analyse.seconds);
+    add("pack", pack.seconds);
+    add("all of these", total);
+    add("find events (not among these)", onsets.seconds);
+    add("read the file (not among these)", read.seconds);
+}
+} // namespace
+
+Bench stagesBench()
+{
+    return {"stages",
+            "Stages of encoding",
+            "What share of the time that `pacini encode` takes (default settings, without access to files) goes into "
+            "each stage. Decimation, band analysis and packing are the encoder's own building blocks, run by themselves "
+            "on the same data; the fit of all curves with their normalisation and pitches is what the whole encoder "
+            "takes beyond them. Shares are of the total over all sounds.",
+            {{"clip", "", Reduction::sound},
+             {"stage", "", Reduction::key},
+             {"duration", "s", Reduction::sum, "", "", 1.0, false},
+             {"totalSeconds", "s", Reduction::sum, "", "", 1.0, false},
+             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
+             {"share", "%", Reduction::ratio, "seconds", "totalSeconds", 100.0},
+             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
+            {},
+            measure};
+}
+
+} // namespace pacini::cli
