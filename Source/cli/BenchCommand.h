@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cli/Command.h"
-
 #include "cli/bench/Bench.h"
 
 #include <optional>

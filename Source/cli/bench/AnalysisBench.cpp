@@ -48,8 +48,8 @@ struct Envelopes
 
 /// The yardstick: the bands of the judge (zero-phase Butterworth band-passes of third order, -6 dB at edges in equal
 /// ratios, which is the definition of none of the banks here), by one transform of the whole sound at its own rate in
-/// double precision; magnitude of the analytic signal at 16 kHz or more, 20 ms Hann. It takes no short cut in time, rate
-/// or precision.
+/// double precision; magnitude of the analytic signal at 16 kHz or more, 20 ms Hann. It takes no short cut in time,
+/// rate or precision.
 Envelopes reference(std::span<const float> mono, double fs, std::size_t bandCount)
 {
     const std::size_t size = nextFastFftSize(mono.size() + static_cast<std::size_t>(fs)); // 1 s of silence after it
@@ -242,14 +242,12 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
         {
             const double lowRate = analysisRate;
             add("raised cosines", rate,
-                [&]
-                {
+                [&] {
                     return byZeroPhaseBank(decimated(mono, decimator), lowRate, bandCount, rate,
                                            ZeroPhaseMethod::raisedCosine);
                 });
             add("forward-backward", rate,
-                [&]
-                {
+                [&] {
                     return byZeroPhaseBank(decimated(mono, decimator), lowRate, bandCount, rate,
                                            ZeroPhaseMethod::forwardBackward);
                 });
@@ -262,30 +260,32 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
 
 Bench analysisBench()
 {
-    return {"analysis",
-            "Filter banks and envelopes",
-            "From a mono signal at its own rate (first 10 s of each sound) to the envelopes of its bands between 30 and "
-            "1000 Hz. The reference is one transform of the whole sound at full rate in double precision with the "
-            "judge's bands (zero-phase Butterworth, -6 dB at the edges) and a 20 ms Hann window. SNR: of all bands with "
-            "one gain, at 200 values per second; snrAtLag after the shift by lag that fits best, the same for all "
-            "bands. 'blocks' is what the encoder uses; the others follow their bands with an attack of 2, a hold of 10 "
-            "and a release of 30 ms.",
-            {{"clip", "", Reduction::sound},
-             {"bands", "", Reduction::key},
-             {"variant", "", Reduction::key},
-             {"rate", "1/s", Reduction::key},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"snr", "dB"},
-             {"lag", "ms"},
-             {"snrAtLag", "dB"},
-             {"errorAtLag", "%"},
-             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
-             {"relativeTime", "", Reduction::relative, "time", "bands"}},
-            {{"", "Filter banks, 6 bands", "variant", "time", "errorAtLag", "rate", "bands", "6"},
-             {"bands", "Filter banks, 1 to 30 bands", "variant", "time", "errorAtLag", "bands"}},
-            measure};
+    return {
+        "analysis",
+        "Filter banks and envelopes",
+        "From a mono signal at its own rate (first 10 s of each sound) to the envelopes of its bands between 30 and "
+        "1000 Hz. The reference is one transform of the whole sound at full rate in double precision with the "
+        "judge's bands (zero-phase Butterworth, -6 dB at the edges) and a 20 ms Hann window. SNR: of all bands with "
+        "one gain, at 200 values per second; snrAtLag after the shift by lag that fits best, the same for all "
+        "bands. 'blocks' is what the encoder uses; the others follow their bands with an attack of 2, a hold of 10 "
+        "and a release of 30 ms.",
+        {{"clip", "", Reduction::sound},
+         {"bands", "", Reduction::key},
+         {"variant", "", Reduction::key},
+         {"rate", "1/s", Reduction::key},
+         summed("duration", "s"),
+         summed("seconds", "s"),
+         {"snr", "dB"},
+         {"lag", "ms"},
+         {"snrAtLag", "dB"},
+         {"errorAtLag", "%"},
+         {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+         {"relativeTime", "", Reduction::relative, "time", "bands"}},
+        {{"", "Filter banks, 6 bands", "variant", "time", "errorAtLag", "rate", "bands", "6"},
+         {"bands", "Filter banks, 1 to 30 bands", "variant", "time", "errorAtLag", "bands"}},
+        {},
+        measure};
 }
 
 } // namespace pacini::cli

@@ -28,6 +28,7 @@ struct BenchFigure
     std::string label;       ///< column that tells the points of a line apart
     std::string filter = {}; ///< column, may be empty
     std::string value = {};  ///< only rows with this text in that column
+    bool joined = true;      ///< points of a line are joined
 };
 
 struct Bench
@@ -37,6 +38,7 @@ struct Bench
     std::string note; ///< how the numbers are formed: whole sentences
     std::vector<BenchColumn> columns;
     std::vector<BenchFigure> figures;
+    std::vector<std::string> perSound; ///< Markdown shows each sound's row that agrees in these keys with the first row
     /// Adds the rows of one sound.
     void (*measure)(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows);
 };

@@ -8,8 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini::cli
@@ -18,15 +20,26 @@ namespace pacini::cli
 /// The measurements of one bench on all sounds.
 struct BenchReport
 {
+    explicit BenchReport(Bench benchToRun) : bench(std::move(benchToRun)), rows(bench.columns), means(bench.columns) {}
+
+    /// Measures one more sound. Sounds that give no rows (silence, for some) do not count.
+    void measure(const BenchSound& sound, const BenchSettings& settings)
+    {
+        const std::size_t before = rows.rows();
+        bench.measure(sound, settings, rows);
+        sounds += rows.rows() > before ? 1u : 0u;
+    }
+
     Bench bench;
     BenchTable rows;  ///< of every sound
-    BenchTable means; ///< over the sounds
+    BenchTable means; ///< over the sounds: rows.overSounds()
+    std::size_t sounds = 0;
 };
 
-/// {"bench", "title", "note", "units", "means": [...], "rows": [...]}.
+/// {"bench", "title", "note", "sounds", "units", "means": [...], "rows": [...]}.
 [[nodiscard]] nlohmann::ordered_json toJson(const BenchReport& report);
 
-/// A section with heading, note and table; for whole methods also the table of every sound under its default settings.
+/// A section with heading, note and table; where the bench says so also of every sound.
 [[nodiscard]] std::string toMarkdown(const BenchReport& report);
 
 /// Writes NAME.csv (every sound), NAME.json and the figures (NAME.svg, NAME-FIGURE.svg; `format` svg or png) into

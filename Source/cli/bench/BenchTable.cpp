@@ -38,21 +38,35 @@ std::string shortText(const BenchCell& cell)
     return value != nullptr ? shortNumber(*value) : "-";
 }
 
+/// Empty when there is nothing to divide by.
+BenchCell quotient(double above, const double* below)
+{
+    BenchCell cell;
+    if (below != nullptr && *below != 0.0)
+        cell = above / *below;
+    return cell;
+}
+
 std::string csvField(const std::string& text)
 {
     if (text.find_first_of(",\"\r\n") == std::string::npos)
         return text;
     std::string quoted = "\"";
     for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
+        quoted.append(c == '"' ? 2 : 1, c);
+    quoted += '"';
+    return quoted;
 }
 
 std::string markdownField(const std::string& text)
 {
     std::string escaped;
     for (const char c : text)
-        escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    {
+        if (c == '|')
+            escaped += '\\';
+        escaped += c;
+    }
     return escaped;
 }
 
@@ -63,7 +77,7 @@ bool isText(const BenchColumn& column)
 
 std::string titleOf(const BenchColumn& column)
 {
-    return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+    return column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
 }
 } // namespace
 
@@ -84,7 +98,7 @@ BenchCell BenchTable::computed(std::size_t column, const std::vector<BenchCell>&
     if (wanted.reduction == Reduction::ratio)
     {
         const auto* below = std::get_if<double>(&row[indexOf(wanted.denominator)]);
-        return below != nullptr && *below != 0.0 ? BenchCell(wanted.scale * *above / *below) : BenchCell();
+        return quotient(wanted.scale * *above, below);
     }
     const std::size_t value = indexOf(wanted.numerator);
     const auto agrees = [&](const std::vector<BenchCell>& other)
@@ -97,7 +111,7 @@ BenchCell BenchTable::computed(std::size_t column, const std::vector<BenchCell>&
     };
     const auto first = std::find_if(cells.begin(), cells.end(), agrees);
     const auto* base = first != cells.end() ? std::get_if<double>(&(*first)[value]) : above;
-    return base != nullptr && *base != 0.0 ? BenchCell(*above / *base) : BenchCell();
+    return quotient(*above, base);
 }
 
 void BenchTable::compute(std::vector<BenchCell>& row) const
@@ -170,7 +184,9 @@ BenchTable BenchTable::overSounds() const
                         ++count;
                     }
                 const double divisor = reduction == Reduction::mean ? static_cast<double>(count) : 1.0;
-                row.push_back(count > 0 ? BenchCell(sum / divisor) : BenchCell());
+                row.emplace_back();
+                if (count > 0)
+                    row.back() = sum / divisor;
             }
         }
         reduced.add(std::move(row));
@@ -207,7 +223,7 @@ std::string BenchTable::csv() const
 {
     std::string text;
     for (std::size_t c = 0; c < columns.size(); ++c)
-        text += (c > 0 ? "," : "") + csvField(titleOf(columns[c]));
+        text += fmt::format("{}{}", c > 0 ? "," : "", csvField(titleOf(columns[c])));
     text += "\n";
     for (const auto& row : cells)
     {
@@ -276,10 +292,10 @@ std::string BenchTable::markdown() const
     {
         if (!columns[c].printed)
             continue;
-        lines[0] += " " + titleOf(columns[c]) + " |";
+        lines[0] += fmt::format(" {} |", titleOf(columns[c]));
         lines[1] += isText(columns[c]) ? "---|" : "---:|";
         for (std::size_t r = 0; r < rows(); ++r)
-            lines[r + 2] += " " + markdownField(shortText(cells[r][c])) + " |";
+            lines[r + 2] += fmt::format(" {} |", markdownField(shortText(cells[r][c])));
     }
     std::string table;
     for (const std::string& line : lines)

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,11 +30,17 @@ struct BenchColumn
     std::string name; ///< a word in camelCase
     std::string unit; ///< may be empty
     Reduction reduction = Reduction::mean;
-    std::string numerator;   ///< name of a column before this one, where the reduction needs it
-    std::string denominator; ///< likewise
-    double scale = 1.0;      ///< of a ratio
-    bool printed = true;     ///< false: only in CSV and JSON
+    std::string numerator = {};   ///< name of a column before this one, where the reduction needs it
+    std::string denominator = {}; ///< likewise
+    double scale = 1.0;           ///< of a ratio
+    bool printed = true;          ///< false: only in CSV and JSON
 };
+
+/// A sum that only CSV and JSON show: what ratios are made of.
+[[nodiscard]] inline BenchColumn summed(std::string name, std::string unit = {})
+{
+    return {std::move(name), std::move(unit), Reduction::sum, {}, {}, 1.0, false};
+}
 
 /// Empty (not measured, or not computed yet), a text or a number.
 using BenchCell = std::variant<std::monostate, std::string, double>;

@@ -117,24 +117,26 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
 
 Bench decimateBench()
 {
-    return {"decimate",
-            "Decimators",
-            "From a sound's own rate to the 4 kHz of the analysis (first 10 s). The reference is an ideal low-pass: the "
-            "spectrum of the whole sound, cut at 2 kHz. SNR over the range of the bands and over what lies above it, "
-            "where aliases come first; the making of the filter is not timed.",
-            {{"clip", "", Reduction::sound},
-             {"variant", "", Reduction::key},
-             {"frames", "", Reduction::sum, "", "", 1.0, false},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"snr20to1000Hz", "dB"},
-             {"error20to1000Hz", "%"},
-             {"snr1000to1700Hz", "dB"},
-             {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
-             {"relativeTime", "", Reduction::relative, "time"}},
-            {{"", "Decimators", "variant", "time", "error20to1000Hz", "variant"}},
-            measure};
+    return {
+        "decimate",
+        "Decimators",
+        "From a sound's own rate to the 4 kHz of the analysis (first 10 s). The reference is an ideal low-pass: the "
+        "spectrum of the whole sound, cut at 2 kHz. SNR over the range of the bands and over what lies above it, "
+        "where aliases come first; the making of the filter is not timed.",
+        {{"clip", "", Reduction::sound},
+         {"variant", "", Reduction::key},
+         summed("frames"),
+         summed("duration", "s"),
+         summed("seconds", "s"),
+         {"snr20to1000Hz", "dB"},
+         {"error20to1000Hz", "%"},
+         {"snr1000to1700Hz", "dB"},
+         {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
+         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+         {"relativeTime", "", Reduction::relative, "time"}},
+        {{"", "Decimators", "variant", "time", "error20to1000Hz", "variant"}},
+        {},
+        measure};
 }
 
 } // namespace pacini::cli

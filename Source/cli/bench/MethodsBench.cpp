@@ -135,11 +135,15 @@ private:
         // Against silence only the level of the candidate means anything.
         const auto measure = [&m](double value)
         {
-            return m.silentReference ? BenchCell() : BenchCell(value);
+            BenchCell cell;
+            if (!m.silentReference)
+                cell = value;
+            return cell;
         };
-        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, renderSeconds, std::move(bytesPerSecond),
-                  std::move(pointsPerSecond), verdict.hts, measure(m.logSpectralDistance), measure(m.wideSnr),
-                  measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing, detected.all});
+        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, renderSeconds,
+                  std::move(bytesPerSecond), std::move(pointsPerSecond), verdict.hts, measure(m.logSpectralDistance),
+                  measure(m.wideSnr), measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing,
+                  detected.all});
     }
 
     const BenchSound& sound;
@@ -201,40 +205,43 @@ Bench methodsBench()
 {
     const auto figure = [](std::string name, std::string title, std::string x, std::string y)
     {
-        return BenchFigure{std::move(name), std::move(title), "method", std::move(x), std::move(y), "variant"};
+        return BenchFigure{
+            std::move(name), std::move(title), "method", std::move(x), std::move(y), "variant", {}, {}, false};
     };
-    return {"methods",
-            "Translation methods",
-            "Each sound is encoded, packed, unpacked and rendered at 8 kHz; quality and time come from the same run. "
-            "Means over the sounds, times real time as total over total. B/s is the size of the file; signals have none. "
-            "HTS: haptic translation similarity, 0 to 100. LSD: log spectral distance. Events F1 (within 25 ms of the "
-            "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
-            "neutral detector finds in the rendered signal.",
-            {{"clip", "", Reduction::sound},
-             {"method", "", Reduction::key},
-             {"variant", "", Reduction::key},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"encodeSeconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"renderSeconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"bytesPerSecond", "B/s"},
-             {"pointsPerSecond", "1/s"},
-             {"hts", ""},
-             {"lsd", "dB"},
-             {"wideSnr", "dB"},
-             {"centroidError", "%"},
-             {"statedAgreeing", "", Reduction::sum, "", "", 1.0, false},
-             {"statedAll", "", Reduction::sum, "", "", 1.0, false},
-             {"detectedAgreeing", "", Reduction::sum, "", "", 1.0, false},
-             {"detectedAll", "", Reduction::sum, "", "", 1.0, false},
-             {"statedF1", "", Reduction::ratio, "statedAgreeing", "statedAll"},
-             {"detectedF1", "", Reduction::ratio, "detectedAgreeing", "detectedAll"},
-             {"encodeTimesRealTime", "", Reduction::ratio, "duration", "encodeSeconds"},
-             {"renderTimesRealTime", "", Reduction::ratio, "duration", "renderSeconds"},
-             {"encodeTime", "ms/s", Reduction::ratio, "encodeSeconds", "duration", 1000.0, false},
-             {"relativeTime", "", Reduction::relative, "encodeTime"}},
-            {figure("", "Log spectral distance against encoding time", "encodeTime", "lsd"),
-             figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd")},
-            measure};
+    return {
+        "methods",
+        "Translation methods",
+        "Each sound is encoded, packed, unpacked and rendered at 8 kHz; quality and time come from the same run. "
+        "Means over the sounds, times real time as total over total. B/s is the size of the file; signals have none. "
+        "HTS: haptic translation similarity, 0 to 100. LSD: log spectral distance. Events F1 (within 25 ms of the "
+        "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
+        "neutral detector finds in the rendered signal.",
+        {{"clip", "", Reduction::sound},
+         {"method", "", Reduction::key},
+         {"variant", "", Reduction::key},
+         summed("duration", "s"),
+         summed("encodeSeconds", "s"),
+         summed("renderSeconds", "s"),
+         {"bytesPerSecond", "B/s"},
+         {"pointsPerSecond", "1/s"},
+         {"hts", ""},
+         {"lsd", "dB"},
+         {"wideSnr", "dB"},
+         {"centroidError", "%"},
+         summed("statedAgreeing"),
+         summed("statedAll"),
+         summed("detectedAgreeing"),
+         summed("detectedAll"),
+         {"statedF1", "", Reduction::ratio, "statedAgreeing", "statedAll"},
+         {"detectedF1", "", Reduction::ratio, "detectedAgreeing", "detectedAll"},
+         {"encodeTimesRealTime", "", Reduction::ratio, "duration", "encodeSeconds"},
+         {"renderTimesRealTime", "", Reduction::ratio, "duration", "renderSeconds"},
+         {"encodeTime", "ms/s", Reduction::ratio, "encodeSeconds", "duration", 1000.0, false},
+         {"relativeTime", "", Reduction::relative, "encodeTime"}},
+        {figure("", "Log spectral distance against encoding time", "encodeTime", "lsd"),
+         figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd")},
+        {"method", "variant"},
+        measure};
 }
 
 } // namespace pacini::cli

@@ -59,8 +59,8 @@ struct Simplifier
     std::function<std::optional<Curves>(const Curves&, const Goal&)> run;
 };
 
-/// Envelopes of six bands at 1 kHz as the thesis has them, each with a peak of 1; bands 40 dB below the loudest are left
-/// out.
+/// Envelopes of six bands at 1 kHz as the thesis has them, each with a peak of 1; bands 40 dB below the loudest are
+/// left out.
 Curves denseEnvelopes(const BenchSound& sound)
 {
     RationalDecimator decimator(sound.sampleRate, analysisRate);
@@ -112,7 +112,8 @@ RefitParams above0()
 /// One method of the library, curve by curve.
 Simplifier libraryMethod(const std::string& name, SimplifyMethod method, bool withRefit)
 {
-    return {withRefit ? name + "+refit" : name, [=](const Curves& dense, const Goal& goal) -> std::optional<Curves>
+    return {withRefit ? name + "+refit" : name,
+            [=](const Curves& dense, const Goal& goal) -> std::optional<Curves>
             {
                 if (goal.kind == GoalKind::price)
                     return std::nullopt;
@@ -158,7 +159,8 @@ Simplifier evenSpacing(bool withRefit)
 /// All curves of the sound out of one budget.
 Simplifier sharedBudget()
 {
-    return {"shared budget+refit", [](const Curves& dense, const Goal& goal) -> std::optional<Curves>
+    return {"shared budget+refit",
+            [](const Curves& dense, const Goal& goal) -> std::optional<Curves>
             {
                 if (goal.kind != GoalKind::count)
                     return std::nullopt;
@@ -183,7 +185,8 @@ Simplifier sharedBudget()
 /// A fixed price per point, as the encoder does it.
 Simplifier fixedPrice()
 {
-    return {"lagrangian+refit", [](const Curves& dense, const Goal& goal) -> std::optional<Curves>
+    return {"lagrangian+refit",
+            [](const Curves& dense, const Goal& goal) -> std::optional<Curves>
             {
                 if (goal.kind != GoalKind::price)
                     return std::nullopt;
@@ -261,29 +264,31 @@ Bench simplifyBench()
     {
         return BenchFigure{name, "Simplifiers by " + by, "method", "time", "rmsError", "goal", "by", by};
     };
-    return {"simplify",
-            "Simplifiers",
-            "Curves: envelopes at 1 kHz of six bands of the first 10 s of each sound, bands 40 dB below the loudest left "
-            "out. Errors are shares of the curve's peak, RMS over all points of all bands, mean over the sounds; time is "
-            "per point of the dense curve. The optimal method has the least maximum error there is, the lagrangian one "
-            "nearly the least RMS error; the shared budget moves points between the bands; a price is what the encoder "
-            "uses.",
-            {{"clip", "", Reduction::sound},
-             {"by", "", Reduction::key},
-             {"goal", "", Reduction::key},
-             {"method", "", Reduction::key},
-             {"points", "", Reduction::sum, "", "", 1.0, false},
-             {"densePoints", "", Reduction::sum, "", "", 1.0, false},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"rmsError", "%"},
-             {"maxError", "%"},
-             {"pointsPerSecond", "1/s", Reduction::ratio, "points", "duration"},
-             {"time", "ns/point", Reduction::ratio, "seconds", "densePoints", 1e9},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
-             {"relativeTime", "", Reduction::relative, "time", "goal"}},
-            {figure("count", "count"), figure("tolerance", "tolerance")},
-            measure};
+    return {
+        "simplify",
+        "Simplifiers",
+        "Curves: envelopes at 1 kHz of six bands of the first 10 s of each sound, bands 40 dB below the loudest left "
+        "out. Errors are shares of the curve's peak, RMS over all points of all bands, mean over the sounds; time is "
+        "per point of the dense curve. The optimal method has the least maximum error there is, the lagrangian one "
+        "nearly the least RMS error; the shared budget moves points between the bands; a price is what the encoder "
+        "uses.",
+        {{"clip", "", Reduction::sound},
+         {"by", "", Reduction::key},
+         {"goal", "", Reduction::key},
+         {"method", "", Reduction::key},
+         summed("points"),
+         summed("densePoints"),
+         summed("duration", "s"),
+         summed("seconds", "s"),
+         {"rmsError", "%"},
+         {"maxError", "%"},
+         {"pointsPerSecond", "1/s", Reduction::ratio, "points", "duration"},
+         {"time", "ns/point", Reduction::ratio, "seconds", "densePoints", 1e9},
+         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+         {"relativeTime", "", Reduction::relative, "time", "goal"}},
+        {figure("count", "count"), figure("tolerance", "tolerance")},
+        {},
+        measure};
 }
 
 } // namespace pacini::cli

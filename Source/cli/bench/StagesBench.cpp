@@ -40,8 +40,7 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
                                   encoder.push(sound.interleaved);
                                   return encoder.finish();
                               });
-    const auto pack =
-        timed(settings.repeats, [&] { return packClip(encode.result, packParamsFor(encode.result)); });
+    const auto pack = timed(settings.repeats, [&] { return packClip(encode.result, packParamsFor(encode.result)); });
 
     std::vector<RationalDecimator> decimators(static_cast<std::size_t>(sound.channels),
                                               RationalDecimator(sound.sampleRate, analysisRate));
@@ -57,11 +56,8 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
                                    return analysis.finish();
                                });
     const auto onsets =
-        timed(settings.repeats,
-              [&]
-              {
-                  return detectOnsets(sound.interleaved, static_cast<std::size_t>(sound.channels), sound.sampleRate);
-              });
+        timed(settings.repeats, [&]
+              { return detectOnsets(sound.interleaved, static_cast<std::size_t>(sound.channels), sound.sampleRate); });
     const auto read = timed(settings.repeats, [&] { return readAudio(sound.path).ok(); });
 
     const double total = encode.seconds + pack.seconds;
@@ -81,22 +77,24 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
 
 Bench stagesBench()
 {
-    return {"stages",
-            "Stages of encoding",
-            "What share of the time that `pacini encode` takes (default settings, without access to files) goes into "
-            "each stage. Decimation, band analysis and packing are the encoder's own building blocks, run by themselves "
-            "on the same data; the fit of all curves with their normalisation and pitches is what the whole encoder "
-            "takes beyond them. Shares are of the total over all sounds.",
-            {{"clip", "", Reduction::sound},
-             {"stage", "", Reduction::key},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"totalSeconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
-             {"share", "%", Reduction::ratio, "seconds", "totalSeconds", 100.0},
-             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
-            {},
-            measure};
+    return {
+        "stages",
+        "Stages of encoding",
+        "What share of the time that `pacini encode` takes (default settings, without access to files) goes into "
+        "each stage. Decimation, band analysis and packing are the encoder's own building blocks, run by themselves "
+        "on the same data; the fit of all curves with their normalisation and pitches is what the whole encoder "
+        "takes beyond them. Shares are of the total over all sounds.",
+        {{"clip", "", Reduction::sound},
+         {"stage", "", Reduction::key},
+         summed("duration", "s"),
+         summed("totalSeconds", "s"),
+         summed("seconds", "s"),
+         {"share", "%", Reduction::ratio, "seconds", "totalSeconds", 100.0},
+         {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
+        {},
+        {},
+        measure};
 }
 
 } // namespace pacini::cli

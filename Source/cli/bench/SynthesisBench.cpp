@@ -136,13 +136,13 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
     const auto carriers = carriersOf(clip);
     if (carriers.empty())
         return;
-    const auto add = [&](const std::string& part, const std::string& variant, double rate, const Signal& wanted,
-                         auto&& work)
+    const auto add =
+        [&](const std::string& part, const std::string& variant, double rate, const Signal& wanted, auto&& work)
     {
         const auto run = timed(settings.repeats, work);
         const double ratio = snr(wanted, run.result);
-        rows.add({sound.name, part, variant, clip.duration, rate * clip.duration, run.seconds, ratio,
-                  errorShare(ratio)});
+        rows.add(
+            {sound.name, part, variant, clip.duration, rate * clip.duration, run.seconds, ratio, errorShare(ratio)});
     };
 
     const auto frames = static_cast<std::size_t>(clip.duration * outputRate);
@@ -178,15 +178,16 @@ Bench synthesisBench()
             {{"clip", "", Reduction::sound},
              {"part", "", Reduction::key},
              {"variant", "", Reduction::key},
-             {"duration", "s", Reduction::sum, "", "", 1.0, false},
-             {"frames", "", Reduction::sum, "", "", 1.0, false},
-             {"seconds", "s", Reduction::sum, "", "", 1.0, false},
+             summed("duration", "s"),
+             summed("frames"),
+             summed("seconds", "s"),
              {"snr", "dB"},
              {"error", "%"},
              {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
              {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
              {"relativeTime", "", Reduction::relative, "time", "part"}},
             {{"", "Oscillators", "variant", "time", "error", "variant", "part", "oscillators"}},
+            {},
             measure};
 }
 

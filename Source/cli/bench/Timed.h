@@ -18,9 +18,9 @@ struct Timed
     double seconds = 0.0; ///< of the fastest run
 };
 
-/// Runs `work` up to `repeats` times (at least once), but begins no further run after 0.5 s. The least time counts: what
-/// else goes on in a computer can only add to it. Errors are then computed from the result, so that nothing of the work
-/// can be optimised away and nothing is measured on anything but what was timed.
+/// Runs `work` up to `repeats` times (at least once), but begins no further run after 0.5 s. The least time counts:
+/// what else goes on in a computer can only add to it. Errors are then computed from the result, so that nothing of the
+/// work can be optimised away and nothing is measured on anything but what was timed.
 template <typename Work>
 [[nodiscard]] auto timed(int repeats, Work&& work) -> Timed<std::invoke_result_t<Work&>>
 {
