@@ -32,14 +32,20 @@ std::vector<std::vector<float>> decimatedChannels(const BenchSound& sound, std::
 void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     const EncoderParams params;
+    const auto encodeWith = [&sound](Encoder& encoder)
+    {
+        encoder.start(sound.sampleRate, sound.channels);
+        encoder.push(sound.interleaved);
+        return encoder.finish();
+    };
     Encoder encoder(params);
-    const auto encode = timed(settings.repeats,
-                              [&]
-                              {
-                                  encoder.start(sound.sampleRate, sound.channels);
-                                  encoder.push(sound.interleaved);
-                                  return encoder.finish();
-                              });
+    const auto encode = timed(settings.repeats, [&] { return encodeWith(encoder); });
+    const auto encodeFirst = timed(settings.repeats,
+                                   [&]
+                                   {
+                                       Encoder fresh(params);
+                                       return encodeWith(fresh);
+                                   });
     const auto pack = timed(settings.repeats, [&] { return packClip(encode.result, packParamsFor(encode.result)); });
 
     std::vector<RationalDecimator> decimators(static_cast<std::size_t>(sound.channels),
@@ -70,6 +76,7 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
     add("fit curves", encode.seconds - decimate.seconds - analyse.seconds);
     add("pack", pack.seconds);
     add("all of these", total);
+    add("set up, once (not among these)", encodeFirst.seconds - encode.seconds);
     add("find events (not among these)", onsets.seconds);
     add("read the file (not among these)", read.seconds);
 }
@@ -83,7 +90,8 @@ Bench stagesBench()
         "What share of the time that `pacini encode` takes (default settings, without access to files) goes into "
         "each stage. Decimation, band analysis and packing are the encoder's own building blocks, run by themselves "
         "on the same data; the fit of all curves with their normalisation and pitches is what the whole encoder "
-        "takes beyond them. Shares are of the total over all sounds.",
+        "takes beyond them; setting up is what the first sound takes beyond a later one. Shares are of the total over "
+        "all sounds.",
         {{"clip", "", Reduction::sound},
          {"stage", "", Reduction::key},
          summed("duration", "s"),

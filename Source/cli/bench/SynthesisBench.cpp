@@ -126,14 +126,21 @@ Signal decoded(const Clip& clip, const DecoderParams& params)
     return Signal(out.begin(), out.end());
 }
 
+Clip encoded(std::span<const float> mono, int sampleRate, const EncoderParams& params)
+{
+    Encoder encoder(params);
+    encoder.start(sampleRate, 1);
+    encoder.push(mono);
+    return encoder.finish();
+}
+
 void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     const auto mono = sound.beginning(longest);
-    Encoder encoder(EncoderParams{});
-    encoder.start(sound.sampleRate, 1);
-    encoder.push(mono);
-    const Clip clip = encoder.finish();
-    const auto carriers = carriersOf(clip);
+    const Clip clip = encoded(mono, sound.sampleRate, EncoderParams{});
+    EncoderParams manyPoints;
+    manyPoints.breakpoints = 200.0;
+    const auto carriers = carriersOf(encoded(mono, sound.sampleRate, manyPoints));
     if (carriers.empty())
         return;
     const auto add =
@@ -172,7 +179,9 @@ Bench synthesisBench()
 {
     return {"synthesis",
             "Oscillators and decoder",
-            "The sinusoids of the clip that the encoder makes of each sound (first 10 s). Oscillators at 8 kHz against "
+            "The sinusoids of the clip that the encoder makes of each sound (first 10 s): for the oscillators with up "
+            "to 200 points per second and band, so that pitches move; for the decoder with the default settings. "
+            "Oscillators at 8 kHz against "
             "sines of a phase accumulated in long double, time per frame and sinusoid; the decoder at 48 kHz against "
             "itself with its sinusoids computed at the full rate, time per frame.",
             {{"clip", "", Reduction::sound},
