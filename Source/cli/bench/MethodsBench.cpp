@@ -1,8 +1,9 @@
 #include "cli/RenderJob.h"
 #include "cli/bench/Bench.h"
+#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
-#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/methods/Method.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/evaluate/Hts.h>
@@ -161,12 +162,7 @@ void measureOwn(Measurement& measurement, const BenchSound& sound, const Encoder
 {
     Encoder encoder(params); // kept between sounds by `pacini encode`, so its making is not timed
     measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params),
-                     [&]
-                     {
-                         encoder.start(sound.sampleRate, sound.channels);
-                         encoder.push(sound.interleaved);
-                         return encoder.finish();
-                     });
+                     [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
 }
 
 void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
@@ -178,10 +174,14 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
     {
         const std::string name(info.name);
         const double fs = sound.sampleRate;
+        const auto mix = [&sound]
+        {
+            return monoMix(sound.interleaved, static_cast<std::size_t>(sound.channels));
+        };
         if (info.output == MethodOutput::signal)
-            measurement.signal(name, [&] { return translateToSignal(info.method, sound.mono, fs); });
+            measurement.signal(name, [&] { return translateToSignal(info.method, mix(), fs); });
         else if (info.method != Method::a2vt)
-            measurement.clip(name, "", [&] { return translateToClip(info.method, sound.mono, fs); });
+            measurement.clip(name, "", [&] { return translateToClip(info.method, mix(), fs); });
     }
     if (!settings.sweep)
         return;

@@ -1,7 +1,7 @@
 #include "cli/bench/Bench.h"
+#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
-#include <pacini/analysis/Encoder.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/Decoder.h>
 
@@ -126,21 +126,15 @@ Signal decoded(const Clip& clip, const DecoderParams& params)
     return Signal(out.begin(), out.end());
 }
 
-Clip encoded(std::span<const float> mono, int sampleRate, const EncoderParams& params)
-{
-    Encoder encoder(params);
-    encoder.start(sampleRate, 1);
-    encoder.push(mono);
-    return encoder.finish();
-}
-
 void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     const auto mono = sound.beginning(longest);
-    const Clip clip = encoded(mono, sound.sampleRate, EncoderParams{});
+    Encoder usual{EncoderParams{}};
+    const Clip clip = encoded(usual, mono, sound.sampleRate, 1);
     EncoderParams manyPoints;
     manyPoints.breakpoints = 200.0;
-    const auto carriers = carriersOf(encoded(mono, sound.sampleRate, manyPoints));
+    Encoder detailed(manyPoints);
+    const auto carriers = carriersOf(encoded(detailed, mono, sound.sampleRate, 1));
     if (carriers.empty())
         return;
     const auto add =
