@@ -1,3 +1,4 @@
+#include "cli/BenchCommand.h"
 #include "cli/Command.h"
 #include "cli/CompareCommand.h"
 #include "cli/ConvertCommand.h"
@@ -27,6 +28,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<ConvertCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
+    commands.push_back(std::make_unique<BenchCommand>());
     return commands;
 }
 
