@@ -3,6 +3,7 @@
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
+#include "cli/PlotCommand.h"
 #include "cli/RenderCommand.h"
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
+    commands.push_back(std::make_unique<PlotCommand>());
     return commands;
 }
 
