@@ -253,9 +253,8 @@ TEST_CASE("Samples that are no numbers are named by frame and channel, or replac
         const auto audio = readAudio(put(folder / "x", bytes), nanAllowed);
         REQUIRE(audio.ok());
         CHECK(audio->replacedSamples == 2);
-        const auto kept = readAudio(folder / "x", {.allowNan = true, .keepNan = true});
+        const auto kept = readAudio(folder / "x", {.keepNan = true});
         REQUIRE(kept.ok());
-        CHECK(kept->replacedSamples == 2);
         CHECK_FALSE(std::isfinite(kept->samples[150001]));
         samples[150001] = samples[150005] = 0.0f;
         CHECK(audio->samples == samples);
