@@ -4,7 +4,7 @@
 #include "io/ClipFile.h"
 
 #include <algorithm>
-#include <memory>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -63,7 +63,12 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
         if (sound.duration() > limits::duration)
             return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
     }
-    sound.notFinite = reader->replacedSamples();
+    work.run(
+        [&]
+        {
+            sound.notFinite = static_cast<std::uint64_t>(
+                std::count_if(sound.samples.begin(), sound.samples.end(), [](float v) { return !std::isfinite(v); }));
+        });
     return sound;
 }
 
@@ -81,10 +86,8 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
                                                           const std::function<void(double)>& progress)
 {
     // The judge counts what is not finite as silence after resampling, so it must come through.
-    const AudioReadOptions reading{.allowTruncated = settings.allowTruncated,
-                                   .allowNan = true,
-                                   .keepNan = true,
-                                   .lowestSampleRate = lowestResamplerRate};
+    const AudioReadOptions reading{
+        .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
     CompareResult result;
     Stopwatch work;
     std::optional<JudgeAnalyzer> judge;

@@ -31,7 +31,7 @@ struct CompareResult
     double duration = 0.0;          ///< s of the reference
     double candidateDuration = 0.0; ///< s
     double seconds = 0.0;           ///< s of work, without access to files
-    std::uint64_t notFinite = 0;    ///< samples of both files that were NaN or infinite
+    std::uint64_t notFinite = 0;    ///< frames of both files that were NaN or infinite
     HtsScore hts;
     HtsScore htsFidelity;
     JudgeMeasures measures;

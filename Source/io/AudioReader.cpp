@@ -158,8 +158,7 @@ struct AudioReader::State
                                                samples[i])
                                  : fmt::format("is {}, not a number (counted from 0); repair the file or allow NaN",
                                                std::isnan(samples[i]) ? "NaN" : "infinite")};
-            if (!options.keepNan)
-                samples[i] = 0.0f;
+            samples[i] = 0.0f;
             ++replaced;
         }
         return {};
@@ -258,8 +257,9 @@ Result<std::size_t> AudioReader::read(std::span<float> interleaved)
     const auto wanted = interleaved.size() / channels;
     const auto count = sf_readf_float(state->sound.get(), interleaved.data(), static_cast<sf_count_t>(wanted));
     const auto got = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
-    if (auto finite = state->checkFinite(interleaved.first(got * channels)); !finite)
-        return finite.error();
+    if (!state->options.keepNan)
+        if (auto finite = state->checkFinite(interleaved.first(got * channels)); !finite)
+            return finite.error();
     state->delivered += got;
     if (got < wanted)
         if (auto end = state->explainEnd(); !end)

@@ -15,6 +15,15 @@
 namespace pacini
 {
 
+/// What a reader lets pass instead of reporting it.
+struct AudioReadOptions
+{
+    bool allowTruncated = false; ///< deliver what is there of a file that was cut off
+    bool allowNan = false;       ///< replace NaN, infinite and absurd samples by 0 and count them
+    bool keepNan = false;        ///< deliver such samples as they are; they are neither an error nor counted
+    int lowestSampleRate = 8000; ///< Hz: limits::lowestSampleRate, where sounds for haptics begin
+};
+
 /// The range of files that are read and written.
 namespace limits
 {
@@ -24,15 +33,6 @@ inline constexpr int highestSampleRate = 384000; ///< Hz
 inline constexpr float sample = 1e12f;           ///< magnitude: 1 is full scale, integers of 32 bits reach 2e9
 inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
-
-/// What a reader lets pass instead of reporting it.
-struct AudioReadOptions
-{
-    bool allowTruncated = false;                     ///< deliver what is there of a file that was cut off
-    bool allowNan = false;                           ///< replace NaN, infinite and absurd samples by 0 and count them
-    bool keepNan = false;                            ///< with allowNan: count them, but deliver them as they are
-    int lowestSampleRate = limits::lowestSampleRate; ///< Hz
-};
 
 /// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
 /// MP3. The content decides the format, not the name. Memory does not grow with what a header claims.
@@ -62,7 +62,7 @@ public:
     /// is not possible.
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
 
-    /// Samples that allowNan has let pass so far.
+    /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 
 private:

@@ -131,6 +131,10 @@ TEST_CASE("Channels and rates outside the accepted range are refused", "[io][aud
     CHECK(failureOf(folder, wavBytes({.sampleRate = 7999}, data)).message ==
           "has a sample rate of 7999 Hz, 8000 to 384000 Hz are accepted; resample it");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 384001}, data)).code == ErrorCode::invalidData);
+    const AudioReadOptions slow{.lowestSampleRate = 2000};
+    CHECK(readAudio(put(folder / "slow", wavBytes({.sampleRate = 2000}, data)), slow)->sampleRate == 2000);
+    CHECK(failureOf(folder, wavBytes({.sampleRate = 1999}, data), slow).message ==
+          "has a sample rate of 1999 Hz, 2000 to 384000 Hz are accepted; resample it");
     CHECK(readAudio(put(folder / "ok", wavBytes({.channels = 64, .sampleRate = 384000}, data))).ok());
     for (std::uint16_t channels : {std::uint16_t(0), std::uint16_t(1025), std::uint16_t(65535)})
         CHECK(failureOf(folder, wavBytes({.channels = channels}, data)).code == ErrorCode::invalidData);
@@ -249,6 +253,9 @@ TEST_CASE("Samples that are no numbers are named by frame and channel, or replac
         const auto audio = readAudio(put(folder / "x", bytes), nanAllowed);
         REQUIRE(audio.ok());
         CHECK(audio->replacedSamples == 2);
+        const auto kept = readAudio(folder / "x", {.keepNan = true});
+        REQUIRE(kept.ok());
+        CHECK_FALSE(std::isfinite(kept->samples[150001]));
         samples[150001] = samples[150005] = 0.0f;
         CHECK(audio->samples == samples);
     }

@@ -1,0 +1,71 @@
+#include "io/OnsetFile.h"
+
+#include "support/Catch.h"
+#include "support/TempFolder.h"
+
+#include <string>
+#include <vector>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+const std::vector<double> twoTimes{0.12, 0.8};
+
+std::string failureText(const std::string& text)
+{
+    const auto onsets = readOnsetText(text);
+    REQUIRE_FALSE(onsets.ok());
+    return onsets.error().text();
+}
+} // namespace
+
+TEST_CASE("Onsets of several sounds are found by file name or by stem", "[io]")
+{
+    const auto onsets = readOnsetText(R"({"door.wav": [0.8, 0.12], "bell": [1], "still.wav": []})");
+    REQUIRE(onsets.ok());
+    CHECK(onsets->namesFiles);
+    REQUIRE(onsets->find("some/folder/door.wav") != nullptr);
+    CHECK(*onsets->find("some/folder/door.wav") == twoTimes);
+    REQUIRE(onsets->find("bell.flac") != nullptr);
+    CHECK(*onsets->find("bell.flac") == std::vector<double>{1.0});
+    REQUIRE(onsets->find("still.wav") != nullptr);
+    CHECK(onsets->find("still.wav")->empty());
+    CHECK(onsets->find("window.wav") == nullptr);
+}
+
+TEST_CASE("A list or lines of times are the onsets of any sound", "[io]")
+{
+    for (const char* text : {"[0.12, 0.8]", " \n[ 0.8,0.12 ]\n", "0.12\n0.8\n",
+                             "\xEF\xBB\xBF# by hand\r\n\r\n  0.8\r\n0.12", "0.120000\t0.130000\tknock\n8e-1,second\n"})
+    {
+        CAPTURE(text);
+        const auto onsets = readOnsetText(text);
+        REQUIRE(onsets.ok());
+        CHECK_FALSE(onsets->namesFiles);
+        REQUIRE(onsets->find("x.wav") != nullptr);
+        CHECK(*onsets->find("x.wav") == twoTimes);
+    }
+    const auto empty = readOnsetText("");
+    REQUIRE(empty.ok());
+    CHECK(empty->find("x.wav")->empty());
+}
+
+TEST_CASE("What is no list of times is refused at its place", "[io]")
+{
+    CHECK(failureText("{\"a.wav\": [0.1, -1]}") == "a.wav[1]: is -1; times are 0 or more, in seconds");
+    CHECK(failureText("{\"a.wav\": 3}") == "a.wav: must be a list of times in seconds, such as [0.12, 0.8]");
+    CHECK(failureText("{\"a.wav\": [\"0.1\"]}") == "a.wav[0]: must be a time in seconds");
+    CHECK(failureText("[[0.1]]") == "[0]: must be a time in seconds");
+    CHECK(failureText("[{}]") == "[0]: must be a time in seconds");
+    CHECK(failureText("{\"a\": {\"b\": []}}") == "a: must be a list of times in seconds, such as [0.12, 0.8]");
+    CHECK(failureText("{\"a\": [], \"a\": []}") == "a: is there twice");
+    CHECK(failureText("0.1\n\n-2") == "line 3: \"-2\" is not a time in seconds, 0 or more");
+    CHECK(failureText("0.1\nnan") == "line 2: \"nan\" is not a time in seconds, 0 or more");
+    CHECK(failureText("knock 0.1") == "line 1: \"knock\" is not a time in seconds, 0 or more");
+    CHECK(failureText("0.1x") == "line 1: \"0.1x\" is not a time in seconds, 0 or more");
+    CHECK_FALSE(readOnsetText("[0.1, 0.2").ok());
+    CHECK_FALSE(readOnsetText("[1e999]").ok());
+    CHECK(readOnsets("does-not-exist.json").error().code == ErrorCode::io);
+}
