@@ -57,6 +57,12 @@ TEST_CASE("Linear ticks never number more than asked for and never leave the ran
             }
 }
 
+TEST_CASE("Ranges that doubles hardly resolve have few ticks too", "[plot]")
+{
+    CHECK(linearTicks(1.0, std::nextafter(1.0, 2.0), 8).size() <= 8);
+    CHECK(linearTicks(1e15, 1e15 + 0.25, 8).size() <= 8);
+}
+
 TEST_CASE("Logarithmic ticks are at 1, 2 and 5 while there is room, then at decades, then at every n-th", "[plot]")
 {
     CHECK(labels(logarithmicTicks(25.0, 1200.0, 6)) == Texts{"50", "100", "200", "500", "1000"});

@@ -26,6 +26,7 @@ CLIP = {
     "markers": [{"time": 1.0, "name": "turn"}],
 }
 EMPTY = {"format": "pacini.clip", "version": 1, "duration": 0.0, "bands": []}
+SHORTEST = {"format": "pacini.clip", "version": 1, "duration": 5e-324, "bands": []}
 SAMPLE = {"format": "pacini.clip", "version": 1, "duration": 1 / 48000, "bands": [],
           "envelope": [{"time": 0.0, "amplitude": 1.0}]}
 
@@ -96,8 +97,9 @@ def check_errors(pacini, folder, clip):
     for size in ["1600", "1600x", "x1000", "10x10", "1600x1000x3", "1e3x500", "99999x1000", "-500x500"]:
         run(pacini, clip, "-o", folder / "out.png", "--size", size, expect=2)
     run(pacini, clip, "-o", folder / "out.png", "--from", 1, "--to", 0.5, expect=2)
-    done = run(pacini, clip, "-o", folder / "out.png", "--from", 2.5, expect=1)
-    assert "--from" in done.stderr, done.stderr
+    for part in [["--from", 2.5], ["--from", 1, "--to", 1.0000000001]]:
+        done = run(pacini, clip, "-o", folder / "out.png", *part, expect=1)
+        assert "--from" in done.stderr, done.stderr
     for arguments in [[folder / "none.json"], [clip, "--sound", folder / "none.wav"], [clip, "--profile", "none"]]:
         done = run(pacini, *arguments, "-o", folder / "out.png", expect=1)
         assert done.stderr.startswith("pacini: ") and "none" in done.stderr, done.stderr
@@ -123,7 +125,7 @@ def main(pacini, sound):
         assert png_size(folder / "part.png") == (641, 402)
         run(pacini, clip, "-o", folder / "clip.svg")
         check_svg(folder / "clip.svg")
-        for number, unusual in enumerate([EMPTY, SAMPLE]):
+        for number, unusual in enumerate([EMPTY, SHORTEST, SAMPLE]):
             (folder / "unusual.json").write_text(json.dumps(unusual))
             run(pacini, folder / "unusual.json", "-o", folder / f"unusual{number}.svg")
             ElementTree.parse(folder / f"unusual{number}.svg")
