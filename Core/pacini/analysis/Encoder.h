@@ -52,6 +52,8 @@ struct EncoderParams
         return wrong("breakpoints", "must be 0.5 to 1000 per second and band");
     if (params.quantise < 4 || params.quantise > 16)
         return wrong("quantise", "must be 4 to 16 bits");
+    if (!(params.onsets.sensitivity >= 0.25 && params.onsets.sensitivity <= 4.0))
+        return wrong("sensitivity", "must be 0.25 to 4");
     return {};
 }
 
@@ -69,6 +71,8 @@ struct EncoderParams
         record.push_back({"high", params.highFrequency});
     if (params.spacing != usual.spacing)
         record.push_back({"spacing", std::string("linear")});
+    if (params.onsets.sensitivity != usual.onsets.sensitivity)
+        record.push_back({"sensitivity", params.onsets.sensitivity});
     if (params.normalise != usual.normalise)
         record.push_back({"normalise", params.normalise});
     return record;

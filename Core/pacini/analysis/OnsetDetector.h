@@ -20,11 +20,14 @@ namespace pacini
 {
 
 /// Drops the onsets that louder neighbours mask and those below `params.silence`. A neighbour's level falls by
-/// `maskRecovery` with the distance in time; an onset d dB below the strongest of these levels stays if d <= maskLimit and
-/// salience >= 1 + maskSlope max(0, d - maskMargin). `onsets` are in order of time. O(n).
+/// `maskRecovery` with the distance in time; an onset d dB below the strongest of these levels stays if d <= maskLimit
+/// and salience >= 1 + maskSlope max(0, d - maskMargin). `onsets` are in order of time. O(n).
 [[nodiscard]] inline std::vector<Onset> unmaskedOnsets(std::span<const Onset> onsets, const OnsetParams& params)
 {
-    const auto level = [](const Onset& onset) { return Decibels::fromGain(std::max(onset.amplitude, 1e-10)).value; };
+    const auto level = [](const Onset& onset)
+    {
+        return Decibels::fromGain(std::max(onset.amplitude, 1e-10)).value;
+    };
     std::vector<double> mask(onsets.size(), -std::numeric_limits<double>::infinity());
     const auto spread = [&](std::size_t from, std::size_t to)
     {
@@ -42,19 +45,21 @@ namespace pacini
     {
         const double deficit = mask[i] - level(onsets[i]);
         const double least = 1.0 + params.maskSlope * std::max(0.0, deficit - params.maskMargin.value);
-        if (deficit <= params.maskLimit.value && onsets[i].salience >= least && level(onsets[i]) >= params.silence.value)
+        if (deficit <= params.maskLimit.value && onsets[i].salience >= least &&
+            level(onsets[i]) >= params.silence.value)
             kept.push_back(onsets[i]);
     }
     return kept;
 }
 
-/// Finds onsets in a stream of OnsetFrames: push() them in order, then finish() once. The result does not depend on how the
-/// frames are cut into calls. Memory: under a second of frames and 64 bytes per onset. Not real-time: allocates.
+/// Finds onsets in a stream of OnsetFrames: push() them in order, then finish() once. The result does not depend on how
+/// the frames are cut into calls. Memory: under a second of frames and 64 bytes per onset. Not real-time: allocates.
 class OnsetDetector
 {
 public:
     explicit OnsetDetector(const OnsetParams& onsetParams = {})
-        : params(onsetParams), scores(std::clamp(params.sensitivity, 0.25, 4.0)),
+        : params(onsetParams),
+          scores(std::clamp(params.sensitivity, 0.25, 4.0)),
           gap(static_cast<std::ptrdiff_t>(std::ceil(params.minimumGap.frames(OnsetFrame::rate) - 1e-9)))
     {
     }
@@ -80,7 +85,7 @@ private:
         float salience = 0.0f;
     };
 
-    static constexpr std::ptrdiff_t peakReach = 5;     ///< a peak of salience is the greatest of 5 frames on either side
+    static constexpr std::ptrdiff_t peakReach = 5; ///< a peak of salience is the greatest of 5 frames on either side
     static constexpr std::ptrdiff_t measureReach = 24; ///< frames after a peak that measuring it reads
 
     void advance()
@@ -124,8 +129,8 @@ private:
 };
 
 /// The onsets of `interleaved` samples of `channelCount` channels at `sampleRate` Hz (2-768 kHz), in order of time. All
-/// samples must be finite; a trailing part of a frame is an error (asserted). Works through the sound in small pieces, so
-/// it needs little memory of its own.
+/// samples must be finite; a trailing part of a frame is an error (asserted). Works through the sound in small pieces,
+/// so it needs little memory of its own.
 [[nodiscard]] inline std::vector<Onset> detectOnsets(std::span<const float> interleaved, std::size_t channelCount,
                                                      double sampleRate, const OnsetParams& params = {})
 {

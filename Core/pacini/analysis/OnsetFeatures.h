@@ -24,8 +24,10 @@ class OnsetFeatures
 public:
     /// `sampleRate` from 2 kHz to 768 kHz, at least one channel.
     OnsetFeatures(double sampleRate, std::size_t channelCount)
-        : fs(sampleRate), firstFrame(static_cast<std::size_t>(std::ceil(sampleRate / OnsetFrame::rate))),
-          channels(channelCount, OnsetBands(sampleRate)), offsets(channelCount, 0.0f)
+        : fs(sampleRate),
+          firstFrame(static_cast<std::size_t>(std::ceil(sampleRate / OnsetFrame::rate))),
+          channels(channelCount, OnsetBands(sampleRate)),
+          offsets(channelCount, 0.0f)
     {
         assert(sampleRate >= 2000.0 && sampleRate <= 768000.0 && channelCount > 0);
     }
@@ -97,7 +99,8 @@ private:
             const std::size_t n = std::min(blockFrames, count - done);
             const float* block = interleaved.data() + done * stride;
             for (std::size_t c = 0; c < stride; ++c)
-                channels[c].push(block + c, static_cast<std::ptrdiff_t>(stride), static_cast<std::ptrdiff_t>(n), offsets[c]);
+                channels[c].push(block + c, static_cast<std::ptrdiff_t>(stride), static_cast<std::ptrdiff_t>(n),
+                                 offsets[c]);
             length += n;
             emit(std::numeric_limits<std::ptrdiff_t>::max());
         }

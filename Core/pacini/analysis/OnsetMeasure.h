@@ -17,8 +17,8 @@ namespace detail
 {
 /// Offset from `frame` (-12..8) of the frame in which the attack around it starts: going back from where half the peak
 /// amplitude is reached, the first frame that stands out from the background before, that is exceeds 8 % of the peak
-/// amplitude and 2.5 times the background's median (but at most half the peak). `frame` must have 17 frames before it and
-/// 9 after; the result is not below -`index`, the frame's distance from the start of the sound.
+/// amplitude and 2.5 times the background's median (but at most half the peak). `frame` must have 17 frames before it
+/// and 9 after; the result is not below -`index`, the frame's distance from the start of the sound.
 inline std::ptrdiff_t attackStart(const OnsetFrame* frame, std::ptrdiff_t index)
 {
     float peak = 0.0f;
@@ -73,8 +73,8 @@ inline double sharpness(const OnsetFrame* start)
 } // namespace detail
 
 /// The event around `frame`, which is frame number `index` and has 26 frames before it and 24 after it in memory. Its
-/// amplitudes, sqrt(2 P) with P the greatest power over 5.6 ms, are looked for before frame `nextEvent` of the sound and
-/// within 24 ms. The time is exact to a fraction of a frame where the sound sets in suddenly.
+/// amplitudes, sqrt(2 P) with P the greatest power over 5.6 ms, are looked for before frame `nextEvent` of the sound
+/// and within 24 ms. The time is exact to a fraction of a frame where the sound sets in suddenly.
 [[nodiscard]] inline Onset measureOnset(const OnsetFrame* frame, std::ptrdiff_t index, std::ptrdiff_t nextEvent)
 {
     const std::ptrdiff_t offset = detail::attackStart(frame, index);
@@ -90,7 +90,8 @@ inline double sharpness(const OnsetFrame* start)
 
     const std::ptrdiff_t end = std::min<std::ptrdiff_t>(22, nextEvent - index);
     const std::ptrdiff_t count = std::max<std::ptrdiff_t>(end - offset + 1, 6);
-    onset.amplitude = std::sqrt(2.0 * detail::greatestPower(start - 1, count, [](const OnsetFrame& f) { return f.power; }));
+    onset.amplitude =
+        std::sqrt(2.0 * detail::greatestPower(start - 1, count, [](const OnsetFrame& f) { return f.power; }));
     onset.lowAmplitude =
         std::sqrt(2.0 * detail::greatestPower(start - 1, count, [](const OnsetFrame& f) { return f.lowPower; }));
     onset.sharpness = detail::sharpness(start);

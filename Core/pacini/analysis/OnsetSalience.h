@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Turns OnsetFrames into a salience per frame; 1 is the threshold of an event.
+/// Turns OnsetFrames into a salience per frame; 1 is the threshold of an event, and what is clearly below it is 0.
 ///
 /// Two measures, the larger counts:
 /// - bands: each band's loudness in the 9 ms from the frame on, less its loudness in the 9 ms before, summed over the
@@ -23,13 +23,15 @@ namespace pacini
 ///   the spectrum. Loudness is power^(5/16), near Stevens' 0.3, so the measure is a relative one: the same at every
 ///   level. This is the band-wise relative difference of A. Klapuri, "Sound onset detection by applying psychoacoustic
 ///   knowledge", ICASSP 1999, bounded to 0-1 by a power law in place of his logarithm.
-/// - total: the same for the sum of all bands with 3 ms from the frame on, against the maximum of the 7 ms before. Finds
+/// - total: the same for the sum of all bands with 3 ms from the frame on, against the maximum of the 7 ms before.
+/// Finds
 ///   the single strokes of fast trains (up to 80/s), but not the pitch pulses of voices above 100 Hz.
 ///
 /// In either, "before" also holds what was there in the last tenths of a second, falling by 130 dB/s, unless the sound
-/// paused: a fluctuation must surpass the earlier ones, a stroke after a pause need not. (S. Boeck and G. Widmer, "Maximum
-/// filter vibrato suppression for onset detection", DAFx 2013, compare with a maximum over neighbouring frequencies for
-/// the same reason.) Looking 30 ms ahead keeps slow swells out: they are never a large part of what follows.
+/// paused: a fluctuation must surpass the earlier ones, a stroke after a pause need not. (S. Boeck and G. Widmer,
+/// "Maximum filter vibrato suppression for onset detection", DAFx 2013, compare with a maximum over neighbouring
+/// frequencies for the same reason.) Looking 30 ms ahead keeps slow swells out: they are never a large part of what
+/// follows.
 class OnsetSalience
 {
 public:
@@ -40,7 +42,8 @@ public:
 
     /// `sensitivity` multiplies the salience.
     explicit OnsetSalience(double sensitivity)
-        : bandThreshold(0.375f / static_cast<float>(sensitivity)), totalThreshold(0.42f / static_cast<float>(sensitivity)),
+        : bandThreshold(0.375f / static_cast<float>(sensitivity)),
+          totalThreshold(0.42f / static_cast<float>(sensitivity)),
           leastStep(std::pow(std::max(0.01f, 1.0f - totalThreshold), -1.0f / exponent))
     {
     }
@@ -83,12 +86,12 @@ private:
     static constexpr float exponent = 5.0f / 16.0f;
     static constexpr float tiny = 1e-16f; ///< power, keeps ratios defined in digital silence
 
-    static constexpr std::ptrdiff_t window = 8;       ///< frames (9 ms)
-    static constexpr std::ptrdiff_t shortAfter = 3;   ///< frames (3 ms)
-    static constexpr std::ptrdiff_t shortBefore = 6;  ///< frames (7 ms)
-    static constexpr std::ptrdiff_t horizon = 27;     ///< frames (30 ms)
-    static constexpr std::ptrdiff_t humBefore = 45;   ///< frames (50 ms, a period of 20 Hz)
-    static constexpr std::ptrdiff_t humAfter = 18;    ///< frames (20 ms)
+    static constexpr std::ptrdiff_t window = 8;        ///< frames (9 ms)
+    static constexpr std::ptrdiff_t shortAfter = 3;    ///< frames (3 ms)
+    static constexpr std::ptrdiff_t shortBefore = 6;   ///< frames (7 ms)
+    static constexpr std::ptrdiff_t horizon = 27;      ///< frames (30 ms)
+    static constexpr std::ptrdiff_t humBefore = 45;    ///< frames (50 ms, a period of 20 Hz)
+    static constexpr std::ptrdiff_t humAfter = 18;     ///< frames (20 ms)
     static constexpr float maskFall = -13.0f / 900.0f; ///< decades of power per frame: 130 dB/s
 
     void extendLoudness(const SlidingBuffer<OnsetFrame>& frames)
@@ -168,8 +171,8 @@ private:
         return evidence / (loudnessOf(loudest + tiny) * totalThreshold);
     }
 
-    /// How much of the mask counts, as a factor of loudness, when the loudness before is `ratio` of that after: all of it
-    /// while the sound rises by less than 3 dB, twice as many dB less beyond that.
+    /// How much of the mask counts, as a factor of loudness, when the loudness before is `ratio` of that after: all of
+    /// it while the sound rises by less than 3 dB, twice as many dB less beyond that.
     static float memoryOf(float ratio) noexcept
     {
         const float margin = 1.2419f; // 2^(5/16)
@@ -177,8 +180,8 @@ private:
         return pause * pause;
     }
 
-    /// The same for a low tone under way, whose ticks (the edges of a saw wave at 20-60 Hz) are no events: near 1 where the
-    /// lowest band of the last 50 ms, 6 dB up, reaches the power of the frame; falls with its cube.
+    /// The same for a low tone under way, whose ticks (the edges of a saw wave at 20-60 Hz) are no events: near 1 where
+    /// the lowest band of the last 50 ms, 6 dB up, reaches the power of the frame; falls with its cube.
     [[nodiscard]] static float humAt(const SlidingBuffer<OnsetFrame>& frames, std::ptrdiff_t k)
     {
         const OnsetFrame* frame = frames.at(k);
@@ -206,7 +209,7 @@ private:
     float bandThreshold;
     float totalThreshold;
     float leastStep; ///< no smaller step of power passes totalThreshold
-    float bandFall = std::pow(10.0f, maskFall * exponent);
+    float bandFall = std::pow(10.0f, maskFall* exponent);
     float totalFall = std::pow(10.0f, maskFall);
 
     SlidingBuffer<Row> loudness{window, -window}; ///< element k: of the window that begins with frame k
