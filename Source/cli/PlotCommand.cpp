@@ -190,11 +190,12 @@ Exit PlotCommand::run(Console& console)
     const auto clip = clipOf(input, isClip, progress);
     if (!clip)
         return fail(input, clip.error());
-    const double end = clip->duration > 0.0 ? clip->duration : 1.0;
+    constexpr double shortest = 1e-6; // s
+    const double end = clip->duration > shortest ? clip->duration : 1.0;
     const plot::TimeRange range{from.value_or(0.0), std::min(to.value_or(end), end)};
-    if (range.from >= range.to)
+    if (range.to - range.from < shortest)
         return fail(input, {ErrorCode::invalidArgument, "--from",
-                            fmt::format("is not before the end of the clip, {:.3f} s", clip->duration)});
+                            fmt::format("is not before --to and the end of the clip, {:.3f} s", clip->duration)});
 
     const plot::FigureStyle style{*parseSize(size), dark};
     const auto columns = static_cast<std::size_t>(style.size.width);

@@ -84,9 +84,9 @@ std::vector<Tick> linearTicks(double low, double high, int most)
     const double first = std::ceil(low / step.size() - slack);
     const double last = std::floor(high / step.size() + slack);
     std::vector<Tick> ticks;
-    for (double i = first; i <= last; i += 1.0)
+    for (double i = 0.0; i <= last - first; i += 1.0)
     {
-        const double value = decimal(i * step.mantissa, step.exponent);
+        const double value = decimal((first + i) * step.mantissa, step.exponent);
         ticks.push_back({value + 0.0, plain(value, -step.exponent)});
     }
     return ticks;

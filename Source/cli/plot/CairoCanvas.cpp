@@ -1,7 +1,9 @@
 #include "cli/plot/CairoCanvas.h"
 
+#include "cli/plot/CairoHandles.h"
+#include "cli/plot/FontMetrics.h"
+
 #include <cairo-pdf.h>
-#include <cairo.h>
 
 #include <cmath>
 #include <numbers>
@@ -12,17 +14,6 @@ namespace pacini::plot
 
 namespace
 {
-struct SurfaceCloser
-{
-    void operator()(cairo_surface_t* surface) const noexcept { cairo_surface_destroy(surface); }
-};
-struct ContextCloser
-{
-    void operator()(cairo_t* context) const noexcept { cairo_destroy(context); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, SurfaceCloser>;
-using Context = std::unique_ptr<cairo_t, ContextCloser>;
-
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) noexcept
 {
     try
@@ -41,56 +32,14 @@ void setColour(cairo_t* context, const Colour& colour)
     cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-void setFont(cairo_t* context, const TextStyle& style)
-{
-    cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(context, style.size);
-}
-
-/// Metrics that do not depend on the pixel grid, so that pictures of all formats and sizes are laid out alike.
-void useExactMetrics(cairo_t* context)
-{
-    const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
-        cairo_font_options_create(), cairo_font_options_destroy);
-    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_SLIGHT);
-    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-    cairo_set_font_options(context, options.get());
-}
-
-double advance(cairo_t* context, std::string_view what, const TextStyle& style)
-{
-    setFont(context, style);
-    cairo_text_extents_t extents;
-    cairo_text_extents(context, printable(what).c_str(), &extents);
-    return extents.x_advance;
-}
 } // namespace
-
-struct FontMetrics::State
-{
-    Surface surface{cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1)};
-    Context context{cairo_create(surface.get())};
-};
-
-FontMetrics::FontMetrics() : state(std::make_unique<State>())
-{
-    useExactMetrics(state->context.get());
-}
-
-FontMetrics::~FontMetrics() = default;
-
-double FontMetrics::textWidth(std::string_view what, const TextStyle& style) const
-{
-    return advance(state->context.get(), what, style);
-}
 
 struct CairoCanvas::State
 {
     std::unique_ptr<std::string> bytes = std::make_unique<std::string>(); ///< a PDF, as it comes
     Surface surface;
     Context context;
+    FontMetrics metrics;
     bool isPng = false;
 };
 
@@ -178,7 +127,7 @@ void CairoCanvas::text(Point at, std::string_view what, const TextStyle& style)
 
 double CairoCanvas::textWidth(std::string_view what, const TextStyle& style) const
 {
-    return advance(state->context.get(), what, style);
+    return state->metrics.textWidth(what, style);
 }
 
 void CairoCanvas::beginGroup(std::string_view, const std::optional<Rectangle>& clip)

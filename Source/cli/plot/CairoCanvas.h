@@ -7,22 +7,6 @@
 namespace pacini::plot
 {
 
-/// Measures texts in the system's sans-serif font.
-class FontMetrics
-{
-public:
-    FontMetrics();
-    ~FontMetrics();
-    FontMetrics(const FontMetrics&) = delete;
-    FontMetrics& operator=(const FontMetrics&) = delete;
-
-    [[nodiscard]] double textWidth(std::string_view what, const TextStyle& style) const;
-
-private:
-    struct State;
-    std::unique_ptr<State> state;
-};
-
 class CairoCanvas : public Canvas
 {
 public:

@@ -30,6 +30,9 @@ Axis amplitudeAxis(const std::vector<Point>& points, bool bothSigns)
     for (const Point& point : points)
         largest = std::max(largest, std::abs(point.y));
     constexpr double silence = 1e-6; // -120 dB: rounding noise
+    constexpr double nearFull = 0.8; // then full drive should be in the picture
+    if (largest > nearFull)
+        largest = std::max(largest, 1.0);
     const double end = largest > silence ? 1.08 * largest : 1.0;
     return {"Amplitude", Scale::linear, bothSigns ? -end : 0.0, end, {}};
 }

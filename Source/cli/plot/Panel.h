@@ -3,6 +3,7 @@
 // One pair of axes with what they show.
 
 #include "cli/plot/Axis.h"
+#include "cli/plot/Look.h"
 #include "cli/plot/Series.h"
 
 #include <string>
@@ -36,26 +37,6 @@ struct Panel
     LegendPlace legend = LegendPlace::above;
     bool crossGrid = true; ///< grid lines also at the ticks of y
     double share = 1.0;    ///< of the height of a figure, in relation to the other panels
-};
-
-/// Sizes in pixels that all texts and gaps of a figure follow from.
-struct Metrics
-{
-    explicit Metrics(double textSize) : text(textSize) {}
-
-    double text; ///< size of ordinary text
-
-    [[nodiscard]] double title() const noexcept { return 1.5 * text; }
-    [[nodiscard]] double line() const noexcept { return 1.45 * text; } ///< distance of lines of text
-    [[nodiscard]] double gap() const noexcept { return 0.5 * text; }
-    [[nodiscard]] double hair() const noexcept { return text / 13.0; } ///< width of thin lines
-};
-
-/// How to draw.
-struct Look
-{
-    Theme theme = lightTheme();
-    Metrics metrics{13.0};
 };
 
 /// Pixels that a panel needs around its plot.

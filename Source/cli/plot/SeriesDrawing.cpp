@@ -183,8 +183,10 @@ bool isSeen(const Series& series, double width)
 
 void drawSeries(Canvas& canvas, const Series& series, const PlotArea& area, const Look& look)
 {
-    // Lines and markers at the edge are cut in half there; a little room shows them whole.
-    const double room = look.metrics.gap();
+    // Lines end at the frame; markers on it are shown whole.
+    const auto* line = std::get_if<Line>(&series);
+    const bool endsAtFrame = std::holds_alternative<Area>(series) || (line != nullptr && line->stroke);
+    const double room = endsAtFrame ? look.metrics.hair() : look.metrics.gap();
     canvas.beginGroup(nameOf(series), Rectangle{area.box.left - room, area.box.top - room, area.box.right + room,
                                                 area.box.bottom + room});
     std::visit([&](const auto& s) { drawIn(canvas, s, area); }, series);

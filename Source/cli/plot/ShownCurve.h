@@ -56,7 +56,7 @@ namespace pacini::plot
     for (const Breakpoint& point : curve)
     {
         const double position = (point.time - range.from) / width;
-        if (position < 0.0 || position > static_cast<double>(columns))
+        if (position < 0.0 || position > static_cast<double>(columns) || point.time > duration)
             continue;
         const auto c = std::min(static_cast<std::size_t>(position), columns - 1);
         peaks[c] = std::max(peaks[c], point.value);

@@ -3,7 +3,7 @@
 // A canvas for SVG. Written by hand and not by cairo, which would turn every letter into an outline: texts stay texts
 // that can be searched, edited and read aloud, and what a curve is stands in its group's title.
 
-#include "cli/plot/CairoCanvas.h"
+#include "cli/plot/FontMetrics.h"
 
 #include <cstddef>
 
