@@ -190,6 +190,17 @@ TEST_CASE("Strokes on one channel of several are found", "[analysis][onsets]")
     CHECK(detectOnsets(four, 4, fs).size() == 8);
 }
 
+TEST_CASE("A louder stroke soon after does not count for the one before", "[analysis][onsets]")
+{
+    const double fs = 44100.0;
+    auto sound = silence(1.0, fs);
+    addClick(sound, 0.3, fs, 0.4);
+    addClick(sound, 0.318, fs, 0.8);
+    const auto onsets = onsetsOf(sound, fs);
+    REQUIRE(onsets.size() == 2);
+    CHECK(onsets[0].amplitude == Approx(0.5 * onsets[1].amplitude).epsilon(0.1));
+}
+
 TEST_CASE("More sensitivity never loses events, and finds weaker ones", "[analysis][onsets]")
 {
     const double fs = 44100.0;
