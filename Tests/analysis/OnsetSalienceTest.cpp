@@ -175,15 +175,15 @@ TEST_CASE("A fluctuation must surpass the earlier ones, a stroke after a pause n
         return framesOf(500,
                         [between](std::ptrdiff_t k)
                         {
-                            const bool on = (k >= 300 && k < 330) || (k >= 360 && k < 390);
+                            const bool on = (k >= 300 && k < 330) || (k >= 342 && k < 372);
                             Bands bands = allBands(on ? 0.1 : k < 300 ? 0.02 : between);
                             bands[0] = 0.0; // a low tone has rules of its own
                             return bands;
                         });
     };
-    const double fluctuation = greatest(salienceOf(strokes(0.05), 2.0), 350, 370); // 3 dB would be enough alone
-    const double stroke = greatest(salienceOf(strokes(0.0)), 350, 370);
-    CHECK(fluctuation == 0.0);
+    const double fluctuation = greatest(salienceOf(strokes(0.05), 2.0), 332, 352); // 3 dB would be enough alone
+    const double stroke = greatest(salienceOf(strokes(0.0)), 332, 352);
+    CHECK(fluctuation < 0.9);
     CHECK(stroke > 2.0);
 }
 
