@@ -6,6 +6,7 @@
 #   bash cmake/bootstrap.sh build   install and build the command: build/release/bin/pacini
 #   bash cmake/bootstrap.sh deps    only install what building and testing need
 set -euo pipefail
+help=$(sed -n '2,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
@@ -13,6 +14,7 @@ build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfm
 test_packages=(catch2 python3 python3-jsonschema clang-format)
 
 say() { printf '\n== %s\n' "$*"; }
+usage() { printf '%s\n' "$help"; }
 fail() { printf 'bootstrap: %s\n' "$*" >&2; exit 1; }
 
 install_packages() {
@@ -90,8 +92,12 @@ test)
     ctest --preset asan
     say "All tests passed"
     ;;
+-h | --help | help)
+    usage
+    ;;
 *)
-    sed -n '2,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build and deps\n\n" "$1" >&2
+    usage >&2
     exit 2
     ;;
 esac

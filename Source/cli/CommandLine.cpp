@@ -1,14 +1,20 @@
+#include "cli/BenchCommand.h"
 #include "cli/Command.h"
+#include "cli/CompareCommand.h"
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
+#include "cli/PlotCommand.h"
 #include "cli/RenderCommand.h"
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 namespace pacini::cli
 {
@@ -20,8 +26,47 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<CompareCommand>());
+    commands.push_back(std::make_unique<PlotCommand>());
+    commands.push_back(std::make_unique<BenchCommand>());
     return commands;
 }
+
+namespace
+{
+/// One line that says what is wrong with the command line and where to read on.
+std::string usageText(const CLI::ParseError& error, const CLI::App& app, const std::vector<CLI::App*>& commands)
+{
+    const auto chosen =
+        std::find_if(commands.begin(), commands.end(), [](const CLI::App* command) { return command->parsed(); });
+    std::string what = error.what();
+    const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (chosen != commands.end())
+        return fmt::format("{}: {}; try 'pacini {} --help'", (*chosen)->get_name(),
+                           missing ? "a file to work on is missing" : what, (*chosen)->get_name());
+    if (missing)
+    {
+        std::string names;
+        for (const CLI::App* command : commands)
+            names += " " + command->get_name();
+        const auto rest = app.remaining();
+        what =
+            (rest.empty() ? "a command is missing" : "'" + rest.front() + "' is not a command") + "; there are" + names;
+    }
+    return what + "; try 'pacini --help'";
+}
+
+/// `exit`, unless something could not be printed.
+int exitCode(Console& console, Exit exit)
+{
+    if (const auto failure = console.printFailure())
+    {
+        console.error("standard output", *failure);
+        exit = Exit::failed;
+    }
+    return static_cast<int>(exit);
+}
+} // namespace
 
 int runCommandLine(int argc, const char* const* argv)
 {
@@ -35,39 +80,43 @@ int runCommandLine(int argc, const char* const* argv)
                "  pacini encode impact.wav -o impact.pacb     a recording becomes a clip of a few hundred bytes\n"
                "  pacini render impact.pacb -o impact.wav     the clip becomes a drive signal for an actuator\n"
                "  pacini encode sounds/ -o clips/ --format packed\n"
+               "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
                "'pacini COMMAND --help' explains a command.");
 
     Console console;
     auto commands = allCommands();
     std::vector<CLI::App*> declared;
+    bool quiet = false;
     for (auto& command : commands)
+    {
         declared.push_back(command->declare(app));
+        declared.back()->add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+    }
     try
     {
         app.parse(argc, argv);
     }
-    catch (const CLI::CallForHelp& help)
+    catch (const CLI::Success& asked) // for help or the version
     {
-        return app.exit(help);
-    }
-    catch (const CLI::CallForAllHelp& help)
-    {
-        return app.exit(help);
-    }
-    catch (const CLI::CallForVersion& version)
-    {
-        return app.exit(version);
+        std::ostringstream text;
+        app.exit(asked, text, text);
+        std::string lines = text.str();
+        lines.erase(lines.find_last_not_of('\n') + 1);
+        console.print(lines);
+        return exitCode(console, Exit::ok);
     }
     catch (const CLI::ParseError& error)
     {
-        fmt::print(stderr, "pacini: {}\nTry 'pacini --help' or 'pacini COMMAND --help'.\n", error.what());
+        console.error("", {ErrorCode::invalidArgument, "", usageText(error, app, declared)});
         return static_cast<int>(Exit::usage);
     }
+    if (quiet)
+        console.beQuiet();
     try
     {
         for (std::size_t i = 0; i < commands.size(); ++i)
             if (declared[i]->parsed())
-                return static_cast<int>(commands[i]->run(console));
+                return exitCode(console, commands[i]->run(console));
     }
     catch (const std::bad_alloc&)
     {

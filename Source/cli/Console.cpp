@@ -1,59 +1,79 @@
 #include "cli/Console.h"
 
+#include "cli/Terminal.h"
+#include "io/FileHandle.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 
-#if defined(_WIN32)
-#include <io.h>
-#else
-#include <unistd.h>
-#endif
-
 namespace pacini::cli
 {
+
+namespace
+{
+// What a stream refuses must not end the work on the files.
+void put(std::FILE* stream, std::string_view text)
+{
+    std::fwrite(text.data(), 1, text.size(), stream);
+}
+} // namespace
 
 void Console::print(std::string_view line)
 {
     const std::lock_guard lock(mutex);
     clearLine();
-    fmt::print(stdout, "{}\n", line);
-    std::fflush(stdout);
+    errno = 0;
+    put(stdout, fmt::format("{}\n", line));
+    if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && printErrno == 0)
+        printErrno = errno != 0 ? errno : EIO;
+}
+
+void Console::note(std::string_view line)
+{
+    if (!quiet)
+        print(line);
 }
 
 void Console::error(std::string_view file, const Error& error)
 {
-    const std::lock_guard lock(mutex);
-    clearLine();
-    if (file.empty())
-        fmt::print(stderr, "pacini: {}\n", error.text());
-    else
-        fmt::print(stderr, "pacini: {}: {}\n", file, error.text());
+    message(file.empty() ? error.text() : fmt::format("{}: {}", file, error.text()));
 }
 
 void Console::warning(std::string_view file, std::string_view what)
 {
+    message(fmt::format("{}: warning: {}", file, what));
+}
+
+void Console::message(std::string_view line)
+{
     const std::lock_guard lock(mutex);
     clearLine();
-    fmt::print(stderr, "pacini: {}: warning: {}\n", file, what);
+    put(stderr, fmt::format("pacini: {}\n", printable(line)));
 }
 
 void Console::progress(double share, std::string_view text)
 {
-    if (!isTerminal())
+    if (quiet || !terminal::canRedraw())
         return;
     const std::lock_guard lock(mutex);
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    if (lineShown && now - lastShown < 0.1 && share < 1.0)
+    if (nextProgress < 0.0)
+        nextProgress = now + 0.5;
+    if (now < nextProgress)
         return;
-    lastShown = now;
+    nextProgress = now + 0.5;
     constexpr int width = 30;
-    const int filled = static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * width));
-    fmt::print(stderr, "\r\x1b[K[{}{}] {:3.0f} %  {}", std::string(static_cast<std::size_t>(filled), '#'),
-               std::string(static_cast<std::size_t>(width - filled), '-'), 100.0 * std::clamp(share, 0.0, 1.0), text);
+    const double done = std::clamp(share, 0.0, 1.0);
+    const auto filled = static_cast<std::size_t>(std::lround(done * width));
+    const auto bar = fmt::format("[{}{}] {:3.0f} %  {}", std::string(filled, '#'), std::string(width - filled, '-'),
+                                 100.0 * done, printable(text));
+    // A line that wraps could not be taken back.
+    put(stderr, "\r\x1b[K" + terminal::cutToWidth(bar, terminal::columns() - 1));
     std::fflush(stderr);
     lineShown = true;
 }
@@ -64,21 +84,39 @@ void Console::endProgress()
     clearLine();
 }
 
-bool Console::isTerminal()
+std::optional<Error> Console::printFailure()
 {
-#if defined(_WIN32)
-    return _isatty(_fileno(stderr)) != 0;
-#else
-    return isatty(STDERR_FILENO) != 0;
-#endif
+    const std::lock_guard lock(mutex);
+    if (printErrno == 0)
+        return {};
+    if (printErrno == EBADF)
+        return Error{ErrorCode::io, "", "is closed; open it or send it to a file"};
+    return fileError(printErrno);
 }
 
 void Console::clearLine()
 {
     if (!lineShown)
         return;
-    fmt::print(stderr, "\r\x1b[K");
+    put(stderr, "\r\x1b[K");
+    std::fflush(stderr);
     lineShown = false;
+}
+
+std::string printable(std::string_view text)
+{
+    std::string shown;
+    for (const char c : text)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\n')
+            shown += "\\n";
+        else if (byte < 0x20 || byte == 0x7F)
+            shown += fmt::format("\\x{:02x}", byte);
+        else
+            shown += c;
+    }
+    return shown;
 }
 
 std::string bytesText(double bytes)

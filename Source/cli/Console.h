@@ -4,8 +4,8 @@
 
 #include <pacini/foundation/Result.h>
 
-#include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,35 +20,49 @@ enum class Exit
     usage = 2,  ///< something was wrong with the command line
 };
 
-/// Writes whole lines from any thread. A progress line, if one stands on the terminal, gives way to messages.
+/// Writes whole lines from any thread. A progress line, if one stands on the terminal, gives way to messages. No
+/// colours; a screen reader gets whole lines, and progress only where a terminal is watched.
 class Console
 {
 public:
-    /// A line on stdout.
+    /// No notes and no progress from now on; results, warnings and errors stay.
+    void beQuiet() { quiet = true; }
+
+    /// A result: a line on stdout.
     void print(std::string_view line);
 
-    /// `pacini: FILE: where: what` on stderr; `file` may be empty.
+    /// A line on stdout about what was done, for people.
+    void note(std::string_view line);
+
+    /// `pacini: FILE: where: what` on stderr, always one line; `file` may be empty.
     void error(std::string_view file, const Error& error);
 
-    /// `pacini: FILE: warning: what` on stderr.
+    /// `pacini: FILE: warning: what` on stderr, always one line.
     void warning(std::string_view file, std::string_view what);
 
-    /// Shows `done` of `total` (0-1 each share) with a text, on a terminal only; at most ten times a second.
+    /// Shows the `share` that is done (0 to 1) with a text, on a terminal only: first after half a second, then at
+    /// most twice a second.
     void progress(double share, std::string_view text);
 
     /// Removes the progress line.
     void endProgress();
 
-    /// True when stderr is a terminal.
-    [[nodiscard]] static bool isTerminal();
+    /// Why something could not be printed on stdout, if so.
+    [[nodiscard]] std::optional<Error> printFailure();
 
 private:
+    void message(std::string_view line);
     void clearLine();
 
     std::mutex mutex;
+    bool quiet = false;
     bool lineShown = false;
-    double lastShown = -1.0;
+    double nextProgress = -1.0; ///< s of the steady clock; negative before the first call
+    int printErrno = 0;
 };
+
+/// `text` on one line of a terminal: control characters, which a file's name may hold, as \n or \x1b.
+[[nodiscard]] std::string printable(std::string_view text);
 
 /// A size such as "412 B" or "1.3 kB".
 [[nodiscard]] std::string bytesText(double bytes);

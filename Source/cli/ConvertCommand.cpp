@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <system_error>
+
 namespace pacini::cli
 {
 
@@ -44,6 +47,11 @@ Exit ConvertCommand::run(Console& console)
         console.error(input, clip.error());
         return Exit::failed;
     }
+    if (std::error_code unknown; std::filesystem::equivalent(input, output, unknown))
+    {
+        console.error(output, {ErrorCode::invalidArgument, "", "is input and output; name another output"});
+        return Exit::failed;
+    }
     if (quantise > 0)
         setQuantise(*clip, quantise);
     const auto written = writeClip(output, *clip, target);
@@ -57,7 +65,7 @@ Exit ConvertCommand::run(Console& console)
             {"input", input}, {"output", output}, {"bytes", *written}, {"duration", clip->duration}}
                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
-        console.print(fmt::format("{}: {}", output, bytesText(static_cast<double>(*written))));
+        console.note(fmt::format("{}: {}", printable(output), bytesText(static_cast<double>(*written))));
     return Exit::ok;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/EncodeCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
 #include "cli/Task.h"
@@ -130,16 +131,16 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->add_option("--breakpoints", params.breakpoints,
                      "At most this many breakpoints per second and band; simple sounds take fewer")
         ->capture_default_str()
-        ->check(CLI::Range(0.5, 1000.0));
+        ->check(numberFrom(0.5, 1000.0));
     command->add_option("--quantise", params.quantise, "Bits of each value, 4 to 16")
         ->capture_default_str()
         ->check(CLI::Range(4, 16));
     command->add_option("--low", params.lowFrequency, "Lower end of the bands, Hz")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 1700.0));
+        ->check(numberFrom(1.0, 1700.0));
     command->add_option("--high", params.highFrequency, "Upper end of the bands, Hz")
         ->capture_default_str()
-        ->check(CLI::Range(2.0, 1800.0));
+        ->check(numberFrom(2.0, 1800.0));
     command->add_option("--spacing", spacing, "log or linear bands")
         ->capture_default_str()
         ->check(CLI::IsMember({"log", "linear"}));
@@ -149,7 +150,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->capture_default_str()
         ->check(CLI::Range(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
-    command->add_flag("--allow-nan", allowNan, "Take NaN and infinite samples as 0 instead of refusing the file");
+    command->add_flag("--allow-nan", allowNan,
+                      "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
@@ -243,30 +245,27 @@ Exit EncodeCommand::run(Console& console)
     {
         return tasks[i].input.filename().string();
     };
-    runTasks(
-        console, tasks.size(), jobs, nameOf,
-        [&]
-        {
-            return [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
-            {
-                EncodeTask& task = tasks[i];
-                if (!task.error)
-                {
-                    auto result = job.run(task.input, task.output, progress);
-                    if (result)
-                        task.result = *result;
-                    else
-                        task.error = result.error();
-                }
-                if (task.error)
-                    console.error(task.input.string(), *task.error);
-                else if (task.result->replacedSamples > 0)
-                    console.warning(task.input.string(), fmt::format("{} samples were not finite and were taken as 0",
-                                                                     task.result->replacedSamples));
-            };
-        });
+    runTasks(console, tasks.size(), jobs, nameOf,
+             [&]
+             {
+                 return
+                     [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
+                 {
+                     EncodeTask& task = tasks[i];
+                     attempt(task, [&] { return job.run(task.input, task.output, progress); });
+                     if (task.error)
+                         console.error(task.input.string(), *task.error);
+                     else if (task.result->replacedSamples > 0)
+                         console.warning(task.input.string(),
+                                         fmt::format("{} samples were no numbers or absurdly large and were taken as 0",
+                                                     task.result->replacedSamples));
+                 };
+             });
 
-    console.print(json ? jsonReport(tasks, toJson) : summary(tasks));
+    if (json)
+        console.print(jsonReport(tasks, toJson));
+    else
+        console.note(summary(tasks));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }
 

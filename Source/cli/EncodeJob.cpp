@@ -1,5 +1,6 @@
 #include "cli/EncodeJob.h"
 
+#include "cli/Task.h"
 #include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
 
@@ -72,45 +73,81 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
         return reader.error();
-    const double sampleRate = reader->sampleRate();
     Stopwatch work;
-    Result<void> written;
-    if (settings.method == Method::a2vt)
-    {
-        auto clip = encodeInPieces(*reader, progress, work);
-        if (!clip)
-            return clip.error();
-        written = writeEncoded(std::move(clip).value(), input, output, work, result);
-    }
-    else
-    {
-        const auto mono = readMono(*reader, progress, work);
-        if (!mono)
-            return mono.error();
-        if (makesClip)
-        {
-            Clip clip;
-            work.run([&] { clip = translateToClip(settings.method, *mono, sampleRate, settings.choices); });
-            clip.source.sampleRate = sampleRate;
-            clip.source.channels = reader->channels();
-            written = writeEncoded(std::move(clip), input, output, work, result);
-        }
-        else
-        {
-            std::vector<float> signal;
-            work.run([&] { signal = translateToSignal(settings.method, *mono, sampleRate); });
-            result.duration = static_cast<double>(signal.size()) / sampleRate;
-            const auto report = writeAudio(output, signal, {.sampleRate = reader->sampleRate()});
-            if (!report)
-                return report.error();
-            result.bytes = static_cast<std::size_t>(report->bytes);
-        }
-    }
+    const auto written = makesClip ? encodeClip(*reader, input, output, progress, work, result)
+                                   : encodeSignal(*reader, output, progress, work, result);
     if (!written)
         return written.error();
+    result.bytes = *written;
     result.seconds = work.seconds();
     result.replacedSamples = reader->replacedSamples();
     return result;
+}
+
+Result<Clip> EncodeJob::encode(const fs::path& input, const Progress& progress)
+{
+    auto reader = AudioReader::open(input, settings.reading);
+    if (!reader)
+        return reader.error();
+    Stopwatch work;
+    return makeClip(*reader, input, progress, work);
+}
+
+Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& input, const fs::path& output,
+                                          const Progress& progress, Stopwatch& work, EncodeResult& result)
+{
+    auto made = makeClip(reader, input, progress, work);
+    if (!made)
+        return made.error();
+    // Both formats hold the same data: what lies on the grids of `quantise` bits.
+    std::vector<std::byte> packed;
+    work.run([&] { packed = packClip(*made, packParamsFor(*made)); });
+    const Clip clip = unpackClip(packed).value();
+    result.duration = clip.duration;
+    result.breakpoints = breakpointCount(clip);
+    result.transients = clip.transients.size();
+    auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
+                                                         : writeClip(output, clip, settings.format);
+    return written ? written : atOutput(output, written.error());
+}
+
+Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& output, const Progress& progress,
+                                            Stopwatch& work, EncodeResult& result) const
+{
+    const auto mono = readMono(reader, progress, work);
+    if (!mono)
+        return mono.error();
+    std::vector<float> signal;
+    work.run([&] { signal = translateToSignal(settings.method, *mono, reader.sampleRate()); });
+    result.duration = static_cast<double>(signal.size()) / reader.sampleRate();
+    const auto report = writeAudio(output, signal, {.sampleRate = reader.sampleRate()});
+    if (!report)
+        return atOutput(output, report.error());
+    return static_cast<std::size_t>(report->bytes);
+}
+
+Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, const Progress& progress, Stopwatch& work)
+{
+    Clip clip;
+    if (settings.method == Method::a2vt)
+    {
+        auto encoded = encodeInPieces(reader, progress, work);
+        if (!encoded)
+            return encoded.error();
+        clip = std::move(encoded).value();
+    }
+    else
+    {
+        const auto mono = readMono(reader, progress, work);
+        if (!mono)
+            return mono.error();
+        work.run([&] { clip = translateToClip(settings.method, *mono, reader.sampleRate(), settings.choices); });
+        clip.source.sampleRate = reader.sampleRate();
+        clip.source.channels = reader.channels();
+    }
+    clip.source.file = input.filename().string();
+    clip.name = input.stem().string();
+    return clip;
 }
 
 Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work)
@@ -123,26 +160,6 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& prog
     Clip clip;
     work.run([&] { clip = encoder.finish(); });
     return clip;
-}
-
-Result<void> EncodeJob::writeEncoded(Clip clip, const fs::path& input, const fs::path& output, Stopwatch& work,
-                                     EncodeResult& result) const
-{
-    clip.source.file = input.filename().string();
-    clip.name = input.stem().string();
-    // Both formats hold the same data: what lies on the grids of `quantise` bits.
-    std::vector<std::byte> packed;
-    work.run([&] { packed = packClip(clip, packParamsFor(clip)); });
-    clip = unpackClip(packed).value();
-    const auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
-                                                               : writeClip(output, clip, settings.format);
-    if (!written)
-        return written.error();
-    result.bytes = *written;
-    result.duration = clip.duration;
-    result.breakpoints = breakpointCount(clip);
-    result.transients = clip.transients.size();
-    return {};
 }
 
 std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const

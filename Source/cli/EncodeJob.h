@@ -54,19 +54,27 @@ public:
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
                                            const std::function<void(double)>& progress);
 
+    /// The clip of one file, not yet rounded to its grids. Only for methods that make clips. Errors: as run().
+    [[nodiscard]] Result<Clip> encode(const std::filesystem::path& input, const std::function<void(double)>& progress);
+
 private:
+    using Path = std::filesystem::path;
     using Progress = std::function<void(double)>;
 
-    [[nodiscard]] bool isUpToDate(const std::filesystem::path& input, const std::filesystem::path& output,
-                                  EncodeResult& result) const;
+    [[nodiscard]] bool isUpToDate(const Path& input, const Path& output, EncodeResult& result) const;
 
     /// What a clip made now would say of its encoder, without what depends on the sound.
     [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
 
+    /// Both return the size of the file they wrote.
+    [[nodiscard]] Result<std::size_t> encodeClip(AudioReader& reader, const Path& input, const Path& output,
+                                                 const Progress& progress, Stopwatch& work, EncodeResult& result);
+    [[nodiscard]] Result<std::size_t> encodeSignal(AudioReader& reader, const Path& output, const Progress& progress,
+                                                   Stopwatch& work, EncodeResult& result) const;
+
+    [[nodiscard]] Result<Clip> makeClip(AudioReader& reader, const Path& input, const Progress& progress,
+                                        Stopwatch& work);
     [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work);
-    [[nodiscard]] Result<void> writeEncoded(Clip clip, const std::filesystem::path& input,
-                                            const std::filesystem::path& output, Stopwatch& work,
-                                            EncodeResult& result) const;
 
     EncodeSettings settings;
     Encoder encoder;

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pacini::cli
 {
@@ -45,10 +46,11 @@ Json describe(const Clip& clip)
 std::string text(const std::string& file, const Clip& clip)
 {
     const Json j = describe(clip);
-    std::string lines = fmt::format("{}: haptic clip \"{}\", {}\n", file, clip.name, durationText(clip.duration));
+    std::string lines =
+        fmt::format("{}: haptic clip \"{}\", {}\n", printable(file), printable(clip.name), durationText(clip.duration));
     if (!clip.source.file.empty())
-        lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", clip.source.file, clip.source.sampleRate,
-                             clip.source.channels, clip.source.channels == 1 ? "" : "s");
+        lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", printable(clip.source.file),
+                             clip.source.sampleRate, clip.source.channels, clip.source.channels == 1 ? "" : "s");
     if (!clip.encoder.empty())
         lines += "  encoder       " + j["encoder"].dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     if (!clip.bands.empty())
@@ -114,20 +116,20 @@ Exit InfoCommand::run(Console& console)
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
-        const auto audio = describeAudio(file);
+        const auto audio = isClipFile(file) ? Result<Json>(clip.error()) : describeAudio(file);
         if (!audio)
         {
-            console.error(file, isClipFile(file) ? clip.error() : audio.error());
+            console.error(file, audio.error());
             failed = true;
             continue;
         }
         if (json)
             reports.push_back(*audio);
         else
-            console.print(fmt::format("{}: sound, {}, {} Hz, {} channels, peak {:.3f}", file,
+            console.print(fmt::format("{}: sound, {}, {} Hz, {} channel{}, peak {:.3f}", printable(file),
                                       durationText((*audio)["duration"].get<double>()),
                                       (*audio)["sampleRate"].get<int>(), (*audio)["channels"].get<int>(),
-                                      (*audio)["peak"].get<double>()));
+                                      (*audio)["channels"] == 1 ? "" : "s", (*audio)["peak"].get<double>()));
     }
     if (json && !reports.empty())
         console.print(

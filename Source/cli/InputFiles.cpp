@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <system_error>
 
 namespace pacini::cli
@@ -61,6 +62,8 @@ InputFiles findInputs(const std::vector<std::string>& named, const std::vector<s
         else
             found.files.push_back({path, path.filename()}); // what is wrong with it, its reader says
     }
+    std::set<fs::path> seen;
+    std::erase_if(found.files, [&](const InputFile& file) { return !seen.insert(sameFileKey(file.path)).second; });
     return found;
 }
 
@@ -98,8 +101,17 @@ Result<fs::path> outputFor(const InputFile& input, const std::string& output, bo
     fs::create_directories(path.parent_path(), error);
     if (error)
         return Error{ErrorCode::io, "",
-                     "cannot make the folder " + path.parent_path().string() + ": " + error.message()};
+                     "the folder " + path.parent_path().string() + " cannot be made (" + error.message() +
+                         "); name another with -o"};
     return path;
+}
+
+fs::path sameFileKey(const fs::path& path)
+{
+    // The folder's links are resolved, the file's own are not: two links to one file are two results.
+    std::error_code error;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(path, error).parent_path(), error);
+    return error ? path.lexically_normal() : folder / path.filename();
 }
 
 std::string lowerExtension(const fs::path& path)

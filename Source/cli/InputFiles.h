@@ -32,8 +32,8 @@ struct InputFiles
     bool several = false; ///< more than one path, or a folder, was named
 };
 
-/// Resolves files and folders; of a folder (with all below it) the files whose extension is in `extensions` (lower
-/// case, with dot) count. Hidden files are passed over in folders, never when named.
+/// Resolves files and folders, each file once; of a folder (with all below it) the files whose extension is in
+/// `extensions` (lower case, with dot) count. Hidden files are passed over in folders, never when named.
 [[nodiscard]] InputFiles findInputs(const std::vector<std::string>& named, const std::vector<std::string>& extensions);
 
 /// The extensions of audio files that are looked for in folders.
@@ -47,6 +47,9 @@ struct InputFiles
 /// Folders are made as needed. Errors: io.
 [[nodiscard]] Result<std::filesystem::path> outputFor(const InputFile& input, const std::string& output, bool several,
                                                       const std::string& extension);
+
+/// The same for all ways of naming one file, whether it exists or not.
+[[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
 
 /// The extension in lower case.
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);

@@ -1,5 +1,6 @@
 #include "cli/RenderCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/InputFiles.h"
 #include "cli/ProgramFolder.h"
 #include "cli/RenderJob.h"
@@ -35,6 +36,7 @@ nlohmann::ordered_json toJson(const RenderTask& task)
              {{"innerRate", r.report.innerRate},
               {"carriers", r.report.carriers},
               {"silentBands", r.report.silentBands},
+              {"noiseBands", r.report.noiseBands},
               {"levelled", r.report.levelled},
               {"pulses", r.report.pulses},
               {"maskedTransients", r.report.maskedTransients}}}};
@@ -44,10 +46,10 @@ std::string explanation(const RenderTask& task)
 {
     const DecoderReport& plan = task.result->report;
     return fmt::format("{}:\n"
-                       "  {} sinusoids at an inner rate of {:.0f} Hz{}\n"
+                       "  {} sinusoids and {} bands of noise at an inner rate of {:.0f} Hz{}\n"
                        "  left out: {} silent bands, {} events that the bands reach by themselves\n"
                        "  {} pulses",
-                       task.input.string(), plan.carriers, plan.innerRate,
+                       printable(task.input.string()), plan.carriers, plan.noiseBands, plan.innerRate,
                        plan.levelled ? ", levelled to the envelope" : "", plan.silentBands, plan.maskedTransients,
                        plan.pulses);
 }
@@ -94,30 +96,30 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("P");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
-        ->check(CLI::Range(2000.0, 192000.0));
+        ->check(numberFrom(2000.0, 192000.0));
     command->add_option("--encoding", encoding, "Samples as float32, pcm24 or pcm16")
         ->capture_default_str()
         ->check(CLI::IsMember({"float32", "pcm24", "pcm16"}));
-    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(CLI::Range(-120.0, 60.0));
+    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(numberFrom(-120.0, 60.0));
     command->add_option("--transpose", transpose, "Semitones up or down; time stays")
         ->capture_default_str()
-        ->check(CLI::Range(-96.0, 96.0))
+        ->check(numberFrom(-96.0, 96.0))
         ->type_name("ST");
     command->add_option("--stretch", stretch, "Length factor; pitch stays")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0))
+        ->check(numberFrom(0.01, 100.0))
         ->type_name("R");
     command->add_option("--delay", delay, "Silence before the clip, s")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 3600.0));
+        ->check(numberFrom(0.0, 3600.0));
     command->add_option("--variation", variation, "Random variation of the bands, 0 to 1")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(numberFrom(0.0, 1.0))
         ->type_name("V");
     command->add_option("--variation-per", variationPer, "One random factor per breakpoint or per band")
         ->capture_default_str()
         ->check(CLI::IsMember({"breakpoint", "band"}));
-    command->add_option("--seed", seed, "Seed of the variation")->capture_default_str();
+    command->add_option("--seed", seed, "Seed of the variation")->capture_default_str()->check(countingNumber());
     command
         ->add_option("--carriers", carriers,
                      "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid")
@@ -132,10 +134,10 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command
         ->add_option("--pulse-frequency", pulseFrequency,
                      "Frequency of square and sine pulses, Hz [the actuator's resonance]")
-        ->check(CLI::Range(1.0, 2000.0));
+        ->check(numberFrom(1.0, 2000.0));
     command->add_option("--pulse-cycles", pulseCycles, "Periods of square and sine pulses")
         ->capture_default_str()
-        ->check(CLI::Range(0.1, 100.0));
+        ->check(numberFrom(0.1, 100.0));
     command->add_flag("--explain", explain, "Say what is played and what is left out");
     command->add_option("-j,--jobs", jobs, "Clips to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
@@ -197,14 +199,7 @@ Exit RenderCommand::run(Console& console)
                  return [&](std::size_t i, const std::function<void(double)>& progress)
                  {
                      RenderTask& task = tasks[i];
-                     if (!task.error)
-                     {
-                         auto result = render(task.input, task.output, settings, progress);
-                         if (result)
-                             task.result = *result;
-                         else
-                             task.error = result.error();
-                     }
+                     attempt(task, [&] { return render(task.input, task.output, settings, progress); });
                      if (task.error)
                          console.error(task.input.string(), *task.error);
                      else if (task.result->clippedSamples > 0)
@@ -222,7 +217,7 @@ Exit RenderCommand::run(Console& console)
         for (const RenderTask& task : tasks)
             if (explain && task.result)
                 console.print(explanation(task));
-        console.print(summary(tasks));
+        console.note(summary(tasks));
     }
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }

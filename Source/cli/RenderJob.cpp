@@ -1,7 +1,10 @@
 #include "cli/RenderJob.h"
 
 #include "cli/Stopwatch.h"
+#include "cli/Task.h"
 #include "io/ClipFile.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +53,10 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.report = decoder->report();
     const auto total = static_cast<std::uint64_t>(decoder->totalFrames());
     result.duration = static_cast<double>(total) / fs;
+    if (result.duration > limits::duration)
+        return Error{ErrorCode::tooLarge, "",
+                     fmt::format("would last {:.1f} hours, at most 24 are written; make --stretch or --delay smaller",
+                                 result.duration / 3600.0)};
 
     constexpr std::size_t blockFrames = 4096;
     Equalizer equalizer;
@@ -64,7 +71,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     format.expectedFrames = total;
     auto writer = AudioWriter::create(output, format);
     if (!writer)
-        return writer.error();
+        return atOutput(output, writer.error());
     std::vector<float> block(blockFrames);
     for (std::uint64_t done = 0; done < total;)
     {
@@ -80,13 +87,13 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         for (const float v : part)
             result.peak = std::max(result.peak, std::abs(static_cast<double>(v)));
         if (auto written = writer->write(part); !written)
-            return written.error();
+            return atOutput(output, written.error());
         done += part.size();
         progress(static_cast<double>(done) / static_cast<double>(total));
     }
     const auto report = writer->finish();
     if (!report)
-        return report.error();
+        return atOutput(output, report.error());
     result.bytes = report->bytes;
     result.clippedSamples = report->clippedSamples;
     result.seconds = work.seconds();

@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +30,38 @@ struct Task
     std::optional<Error> error;
 };
 
+/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already. What it throws becomes the task's
+/// error: one file must not stop the others.
+template <typename ResultType, typename Work>
+void attempt(Task<ResultType>& task, Work&& work)
+{
+    if (task.error)
+        return;
+    try
+    {
+        auto result = work();
+        if (result)
+            task.result = *result;
+        else
+            task.error = result.error();
+    }
+    catch (const std::bad_alloc&)
+    {
+        task.error = Error{ErrorCode::tooLarge, "", "needs more memory than there is; try it alone, with -j 1"};
+    }
+    catch (const std::exception& failure)
+    {
+        task.error = Error{ErrorCode::io, "", failure.what()};
+    }
+}
+
+/// The error of writing `output`, for a message that starts with the name of the input.
+[[nodiscard]] inline Error atOutput(const std::filesystem::path& output, Error error)
+{
+    error.where = output.string() + (error.where.empty() ? "" : ": " + error.where);
+    return error;
+}
+
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
 /// folders.
 template <typename ResultType>
@@ -44,7 +78,7 @@ template <typename ResultType>
         const auto target = outputFor(file, output, found.several, extension);
         if (!target)
             task.error = target.error();
-        else if (const auto [other, first] = taken.emplace(*target, file.path); !first)
+        else if (const auto [other, first] = taken.emplace(sameFileKey(*target), file.path); !first)
             task.error = Error{ErrorCode::invalidArgument, "",
                                "would be written to " + target->string() + ", as " + other->second.string() +
                                    " is; rename one of them"};

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace pacini::cli
 {
 
 /// Calls work(i, progress) for i = 0..count-1 on `threads` threads (0: as many as there are processors); makeWorker()
-/// makes each thread's own `work`. `nameOf(i)` is shown on the progress line.
+/// makes each thread's own `work`, neither may throw. `nameOf(i)` is shown on the progress line.
 template <typename MakeWorker>
 void runTasks(Console& console, std::size_t count, unsigned threads,
               const std::function<std::string(std::size_t)>& nameOf, MakeWorker&& makeWorker)
@@ -43,8 +44,15 @@ void runTasks(Console& console, std::size_t count, unsigned threads,
     };
     const std::size_t wanted = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::thread> others;
-    for (std::size_t t = 1; t < std::min(wanted, count); ++t)
-        others.emplace_back(loop);
+    try
+    {
+        for (std::size_t t = 1; t < std::min(wanted, count); ++t)
+            others.emplace_back(loop);
+    }
+    catch (const std::system_error&)
+    {
+        // No more threads are to be had: those that run do the work.
+    }
     loop();
     for (auto& thread : others)
         thread.join();

@@ -31,8 +31,11 @@ fs::path temporaryName(const fs::path& target, unsigned number)
 }
 } // namespace
 
-AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath) noexcept
-    : file(std::move(stream)), temporary(std::move(temporaryPath)), target(std::move(targetPath))
+AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath)
+    : file(std::move(stream)),
+      temporary(std::move(temporaryPath)),
+      target(std::move(targetPath)),
+      listed(temporary.empty() ? TemporaryEntry() : TemporaryEntry(temporary))
 {
 }
 

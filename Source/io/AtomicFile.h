@@ -3,6 +3,7 @@
 // Writes a file that is either complete or not there: into a temporary beside the target, renamed when it is done.
 
 #include "io/FileHandle.h"
+#include "io/TemporaryFiles.h"
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +14,8 @@ namespace pacini
 {
 
 /// A file being written. Until commit() the target is untouched; an AtomicFile that dies before commit() removes its
-/// temporary. A killed program leaves the temporary behind, named `.NAME.pacini-XXXX.tmp`.
+/// temporary. A killed program leaves the temporary behind, named `.NAME.pacini-XXXX.tmp`, unless
+/// removeTemporariesOnSignals() was called and the signal can be caught.
 ///
 /// There is no fsync: after a power cut the target may be empty, but a running system never shows it half-written.
 /// A target that exists and is neither file nor folder (/dev/null, a pipe) is written directly, since it cannot be
@@ -47,12 +49,13 @@ public:
     [[nodiscard]] Result<void> commit();
 
 private:
-    AtomicFile(FileHandle stream, std::filesystem::path temporaryPath, std::filesystem::path targetPath) noexcept;
+    AtomicFile(FileHandle stream, std::filesystem::path temporaryPath, std::filesystem::path targetPath);
     void removeTemporary() noexcept;
 
     FileHandle file;
     std::filesystem::path temporary; ///< empty when the target is written directly
     std::filesystem::path target;
+    TemporaryEntry listed;
     int firstErrno = 0;
 };
 

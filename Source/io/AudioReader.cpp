@@ -136,24 +136,30 @@ struct AudioReader::State
     /// Replaces or reports samples that are no numbers. `samples` starts at frame `delivered`.
     Result<void> checkFinite(std::span<float> samples)
     {
-        // All exponent bits set means NaN or infinite. One pass without branches, for the usual case that none is.
-        constexpr std::uint32_t exponent = 0x7F800000u;
+        // Without the sign, floats are ordered as their bits are, infinity and NaN above all. One pass without
+        // branches, for the usual case that all is well.
+        constexpr auto largest = std::bit_cast<std::uint32_t>(limits::sample);
         std::uint32_t bad = 0;
         for (float x : samples)
-            bad |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(x) & exponent) == exponent);
+            bad |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(x) & 0x7FFFFFFFu) > largest);
         if (bad == 0)
             return {};
         for (std::size_t i = 0; i < samples.size(); ++i)
         {
-            if (std::isfinite(samples[i]))
+            if (std::abs(samples[i]) <= limits::sample)
                 continue;
             const auto channels = static_cast<std::size_t>(info.channels);
             if (!options.allowNan)
                 return Error{ErrorCode::notFinite,
                              fmt::format("frame {}, channel {}", delivered + i / channels, i % channels),
-                             fmt::format("is {}, not a number (counted from 0); repair the file or allow NaN",
-                                         std::isnan(samples[i]) ? "NaN" : "infinite")};
-            samples[i] = 0.0f;
+                             std::isfinite(samples[i])
+                                 ? fmt::format("is {:g}, far beyond full scale (counted from 0); repair the file or "
+                                               "allow NaN",
+                                               samples[i])
+                                 : fmt::format("is {}, not a number (counted from 0); repair the file or allow NaN",
+                                               std::isnan(samples[i]) ? "NaN" : "infinite")};
+            if (!options.keepNan)
+                samples[i] = 0.0f;
             ++replaced;
         }
         return {};
@@ -214,9 +220,9 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
     if (info.channels < 1 || info.channels > limits::channels)
         return invalid(
             fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
-    if (info.samplerate < limits::lowestSampleRate || info.samplerate > limits::highestSampleRate)
+    if (info.samplerate < options.lowestSampleRate || info.samplerate > limits::highestSampleRate)
         return invalid(fmt::format("has a sample rate of {} Hz, {} to {} Hz are accepted; resample it", info.samplerate,
-                                   limits::lowestSampleRate, limits::highestSampleRate));
+                                   options.lowestSampleRate, limits::highestSampleRate));
     if (data && !options.allowTruncated)
         if (auto broken = brokenPromise(*data, info))
             return *broken;

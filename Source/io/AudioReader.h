@@ -15,20 +15,24 @@
 namespace pacini
 {
 
-/// What a reader lets pass instead of reporting it.
-struct AudioReadOptions
-{
-    bool allowTruncated = false; ///< deliver what is there of a file that was cut off
-    bool allowNan = false;       ///< replace NaN and infinite samples by 0 and count them
-};
-
 /// The range of files that are read and written.
 namespace limits
 {
 inline constexpr int channels = 64;
 inline constexpr int lowestSampleRate = 8000;    ///< Hz
 inline constexpr int highestSampleRate = 384000; ///< Hz
+inline constexpr float sample = 1e12f;           ///< magnitude: 1 is full scale, integers of 32 bits reach 2e9
+inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
+
+/// What a reader lets pass instead of reporting it.
+struct AudioReadOptions
+{
+    bool allowTruncated = false;                     ///< deliver what is there of a file that was cut off
+    bool allowNan = false;                           ///< replace NaN, infinite and absurd samples by 0 and count them
+    bool keepNan = false;                            ///< with allowNan: count them, but deliver them as they are
+    int lowestSampleRate = limits::lowestSampleRate; ///< Hz
+};
 
 /// An open audio file: WAV, RF64, AIFF, CAF, W64, AU, FLAC, Ogg (Vorbis, Opus) and, where libsndfile was built with it,
 /// MP3. The content decides the format, not the name. Memory does not grow with what a header claims.
@@ -36,8 +40,8 @@ class AudioReader
 {
 public:
     /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
-    /// channels outside 1-64, rate outside 8-384 kHz), truncated (the header promises more than is there; FLAC, Ogg and
-    /// MP3 show this only at their end, in read()).
+    /// channels outside 1-64, rate below options.lowestSampleRate or above 384 kHz), truncated (the header promises
+    /// more than is there; FLAC, Ogg and MP3 show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;
@@ -53,11 +57,12 @@ public:
 
     /// Fills `interleaved` (channels() samples per frame, full scale 1, float files may go beyond) with the next frames
     /// and returns how many frames came; fewer than fit only at the end, then 0. Precondition: room for whole frames.
-    /// Errors: notFinite with the first bad frame and channel, both counted from 0; truncated; invalidData (damaged);
-    /// io. After an Error the content of `interleaved` is unspecified and reading on is not possible.
+    /// Errors: notFinite (also beyond limits::sample) with the first bad frame and channel, both counted from 0;
+    /// truncated; invalidData (damaged); io. After an Error the content of `interleaved` is unspecified and reading on
+    /// is not possible.
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
 
-    /// Samples that allowNan has replaced so far.
+    /// Samples that allowNan has let pass so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 
 private:

@@ -83,9 +83,9 @@ Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
     const int mostChannels = flac ? 8 : limits::channels;
     if (params.channels < 1 || params.channels > mostChannels)
         return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, mostChannels));
-    if (params.sampleRate < limits::lowestSampleRate || params.sampleRate > limits::highestSampleRate)
+    if (params.sampleRate < limits::lowestWrittenRate || params.sampleRate > limits::highestSampleRate)
         return badArgument(fmt::format("a sample rate of {} Hz cannot be written, {} to {} Hz can", params.sampleRate,
-                                       limits::lowestSampleRate, limits::highestSampleRate));
+                                       limits::lowestWrittenRate, limits::highestSampleRate));
     if (flac && params.encoding == SampleEncoding::float32)
         return badArgument("FLAC holds no float samples; choose 16 or 24 bit, or write a .wav");
     const auto frameBytes = static_cast<std::uint64_t>(params.channels * bits(params.encoding) / 8);

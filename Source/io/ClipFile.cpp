@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace pacini
@@ -20,15 +21,43 @@ constexpr std::string_view packedMagic = "PACB";
 
 bool looksLikeJson(std::string_view bytes)
 {
+    // UTF-16 is refused by the reader of JSON, which says so.
+    if (bytes.starts_with(std::string_view("\xFF\xFE{\0", 4)) || bytes.starts_with(std::string_view("\xFE\xFF\0{", 4)))
+        return true;
     if (bytes.starts_with("\xEF\xBB\xBF"))
         bytes.remove_prefix(3);
     const auto first = bytes.find_first_not_of(" \t\r\n");
     return first != std::string_view::npos && bytes[first] == '{';
 }
+
+bool isBlank(std::string_view bytes)
+{
+    return bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+/// The first bytes of a file; empty when it cannot be read.
+std::string startOf(const std::filesystem::path& path)
+{
+    const auto file = openForReading(path);
+    std::string start(64, '\0');
+    start.resize(file ? std::fread(start.data(), 1, start.size(), file->get()) : 0);
+    return start;
+}
+
+Error notAClip()
+{
+    return {ErrorCode::invalidData, "", "is not a clip: neither JSON nor packed; encode audio to get a clip"};
+}
 } // namespace
 
 Result<Clip> readClip(const std::filesystem::path& path)
 {
+    // A recording of hundreds of megabytes is not read just to find that it is no clip. Pipes can be read only once.
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored))
+        if (const auto start = startOf(path);
+            !isBlank(start) && !start.starts_with(packedMagic) && !looksLikeJson(start))
+            return notAClip();
     const auto bytes = readWholeFile(path, largestClipText);
     if (!bytes)
         return bytes.error();
@@ -38,16 +67,12 @@ Result<Clip> readClip(const std::filesystem::path& path)
         return readClipJson(*bytes);
     if (bytes->empty())
         return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
-    return Error{ErrorCode::invalidData, "", "is not a clip: neither JSON nor packed; encode audio to get a clip"};
+    return notAClip();
 }
 
 bool isClipFile(const std::filesystem::path& path)
 {
-    const auto file = openForReading(path);
-    if (!file)
-        return false;
-    std::string start(64, '\0');
-    start.resize(std::fread(start.data(), 1, start.size(), file->get()));
+    const auto start = startOf(path);
     return start.starts_with(packedMagic) || looksLikeJson(start);
 }
 

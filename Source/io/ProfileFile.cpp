@@ -1,10 +1,13 @@
 #include "io/ProfileFile.h"
 
 #include "io/InputFile.h"
+#include "io/JsonTree.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -20,7 +23,6 @@ namespace
 using Json = nlohmann::json;
 
 constexpr std::size_t largestProfile = std::size_t(1) << 20;
-constexpr int deepest = 32;
 
 /// Reads members of one object and remembers the first thing that is wrong.
 class Members
@@ -92,26 +94,19 @@ EqualizerSection readSection(const Json& json, const std::string& where, std::op
     members.number("q", section.q, false);
     double order = section.order;
     members.number("order", order, false);
-    section.order = order >= 1.0 && order <= 100.0 ? static_cast<int>(order) : 0;
+    section.order = order >= 1.0 && order <= 100.0 && order == std::floor(order) ? static_cast<int>(order) : 0;
     return section;
 }
 } // namespace
 
 Result<Profile> readProfileJson(std::string_view text)
 {
-    if (text.size() > largestProfile)
-        return Error{ErrorCode::tooLarge, "", "is longer than a profile may be (1 MB)"};
-    bool tooDeep = false;
-    const auto watch = [&](int depth, Json::parse_event_t, Json&)
-    {
-        tooDeep = tooDeep || depth > deepest;
-        return !tooDeep;
-    };
-    const Json document = Json::parse(text.begin(), text.end(), watch, false);
-    if (tooDeep)
-        return Error{ErrorCode::tooLarge, "", "is nested deeper than 32"};
+    const auto read = readJsonTree(text, largestProfile);
+    if (!read)
+        return read.error();
+    const Json& document = *read;
     if (!document.is_object())
-        return Error{ErrorCode::invalidData, "", "is not a JSON object"};
+        return Error{ErrorCode::invalidData, "", "is not a profile, which is a JSON object"};
 
     std::optional<Error> error;
     Profile profile;
@@ -121,9 +116,11 @@ Result<Profile> readProfileJson(std::string_view text)
     double version = 0.0;
     members.number("version", version, true);
     if (!error && version > 1.0)
-        return Error{ErrorCode::unsupportedVersion, "version",
-                     "was written by a newer version (" + document["version"].dump() +
-                         ") of the format; this program reads version 1"};
+        return Error{
+            ErrorCode::unsupportedVersion, "version",
+            fmt::format("was written by a newer version ({}) of the format; this program reads version 1", version)};
+    if (version != 1.0)
+        members.fail("version", "must be 1");
     profile.name = members.text("name", true);
     if (const auto resonance = document.find("resonance"); resonance != document.end() && resonance->is_object())
         Members(*resonance, "resonance", error).number("frequency", profile.resonance, true);

@@ -37,8 +37,11 @@ SOURCE = {
 # What Core must never touch: files, threads, clocks, JSON, hosts, and process-wide state.
 CORE_FORBIDDEN = {
     "fstream", "iostream", "filesystem", "cstdio", "thread", "mutex", "shared_mutex", "condition_variable", "future",
-    "chrono", "ctime", "csignal", "random",
+    "chrono", "ctime", "csignal", "random", "istream", "ostream", "sstream", "iomanip", "syncstream", "stop_token",
+    "semaphore", "latch", "barrier", "locale", "clocale",
 }
+# Libraries that only one room of Source touches.
+ONLY_IN = {"sndfile": "io", "hidapi": "devices"}
 CORE_THIRD_PARTY = re.compile(r"^(Eigen/|kissfft)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
@@ -76,8 +79,11 @@ def violations(root):
             where = f"{path.relative_to(root)}:{number}"
             if name.startswith("pacini/") and name.split("/")[1] not in core:
                 yield f"{where}: no such room of Core"
-            if name.startswith("juce") and not juce:
+            if name.lower().startswith("juce") and not juce:
                 yield f"{where}: {room} may not include JUCE"
+            for library, owner in ONLY_IN.items():
+                if name.startswith(library) and room != owner:
+                    yield f"{where}: only {owner} may include <{name}>"
             if kind == '"':
                 other = name.split("/")[0] if "/" in name else room
                 if other not in rooms:
@@ -101,6 +107,12 @@ def selftest():
             "Core/pacini/nowhere/D.h": "\n",
             "Source/io/E.cpp": '#include "cli/Progress.h"\n',
             "Source/cli/F.cpp": "#include <juce_core/juce_core.h>\n",
+            "Source/io/G.h": '#include "JuceHeader.h"\n',
+            "Source/cli/H.cpp": "#include <sndfile.h>\n",
+            "Core/pacini/analysis/methods/I.h": "#include <pacini/synthesis/Decoder.h>\n",
+            "Core/pacini/synthesis/J.h": '#include "Decoder.h"\n',
+            "Core/pacini/realtime/K.h": "#include <sstream>\n",
+            "Source/nowhere/L.cpp": "\n",
         }
         for name, text in cases.items():
             path = root / name

@@ -106,10 +106,11 @@ public:
     {
     }
 
-    /// Frequencies at or below 0 have no pitch: they get the lowest code.
+    /// Frequencies at or below 0 have no pitch: they get the lowest code, as does NaN, which a damaged file can hold.
     [[nodiscard]] std::int64_t code(double hertz) const noexcept
     {
-        return static_cast<std::int64_t>(std::round(std::log2(std::clamp(hertz, lowest, highest)) * stepsPerOctave));
+        const double limited = hertz > lowest ? std::min(hertz, highest) : lowest;
+        return static_cast<std::int64_t>(std::round(std::log2(limited) * stepsPerOctave));
     }
     [[nodiscard]] double value(std::int64_t code) const noexcept
     {

@@ -13,7 +13,8 @@ namespace pacini
 {
 
 /// Power spectra |X[k]|^2 of real frames, two by one complex transform: the frames are its real and imaginary part, and
-/// the symmetry of real signals' spectra takes them apart again.
+/// the symmetry of real signals' spectra takes them apart again. In single precision: for measures of thousands of
+/// frames per second of run time. The analysis has forEachPowerSpectrum(), in double precision and on its own grid.
 class FrameSpectra
 {
 public:

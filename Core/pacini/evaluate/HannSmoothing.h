@@ -14,18 +14,28 @@
 namespace pacini
 {
 
+/// How much of the cell of a sample lies inside a signal of `length` unit-spaced samples (which cover -0.5 to
+/// length - 0.5). The cell is `spacing` wide around `position`. Weighting coarse samples by it keeps sums and smoothed
+/// values right where the signal begins and ends.
+[[nodiscard]] inline double coverage(double position, double spacing, std::size_t length) noexcept
+{
+    const double begin = std::max(position - spacing / 2.0, -0.5);
+    const double end = std::min(position + spacing / 2.0, static_cast<double>(length) - 0.5);
+    return std::max(end - begin, 0.0) / spacing;
+}
+
 /// A symmetric, unit-sum Hann kernel whose zeros lie `halfWidth` samples from its centre (halfWidth > 0, not
 /// necessarily whole): the same smoothing can so be done at different rates.
 class HannKernel
 {
 public:
     explicit HannKernel(double halfWidth)
-        : reach(static_cast<std::size_t>(std::ceil(halfWidth)) - 1), taps(2 * reach + 1)
+        : zero(halfWidth), reach(static_cast<std::size_t>(std::ceil(halfWidth)) - 1), taps(2 * reach + 1)
     {
         const auto value = [&](std::size_t i)
         {
-            const double distance = static_cast<double>(i) - static_cast<double>(reach);
-            return 0.5 + 0.5 * std::cos(std::numbers::pi * distance / halfWidth);
+            return 0.5 +
+                   0.5 * std::cos(std::numbers::pi * (static_cast<double>(i) - static_cast<double>(reach)) / zero);
         };
         double sum = 0.0;
         for (std::size_t i = 0; i < taps.size(); ++i)
@@ -45,19 +55,34 @@ public:
         return begin < end ? dotProduct(taps.data() + (begin + reach - centre), x.data() + begin, end - begin) : 0.0f;
     }
 
+    /// The factor that makes at() of coarse samples right near the ends of a signal of `length` samples: the value at
+    /// `position` has used every `spacing`-th sample weighted by coverage(), whose sum differs from the part of the
+    /// kernel that lies inside the signal as soon as the kernel is only a few coarse samples long. Exact for a signal
+    /// that is constant within the kernel; 1 far from the ends. `position` (samples) is inside the signal.
+    [[nodiscard]] double endCorrection(double position, double spacing, std::size_t length) const noexcept
+    {
+        double used = 0.0;
+        for (std::size_t i = 0; i < taps.size(); ++i)
+        {
+            const double offset = (static_cast<double>(i) - static_cast<double>(reach)) * spacing;
+            used += static_cast<double>(taps[i]) * coverage(position + offset, spacing, length);
+        }
+        const double inside = integralTo((static_cast<double>(length) - 0.5 - position) / spacing) -
+                              integralTo((-0.5 - position) / spacing);
+        return inside / used;
+    }
+
 private:
+    /// Of the continuous kernel from its start to `distance` beyond its centre.
+    [[nodiscard]] double integralTo(double distance) const noexcept
+    {
+        const double u = std::clamp(distance / zero, -1.0, 1.0);
+        return 0.5 + 0.5 * u + std::sin(std::numbers::pi * u) / (2.0 * std::numbers::pi);
+    }
+
+    double zero;
     std::size_t reach;
     std::vector<float> taps;
 };
-
-/// How much of the cell of a sample lies inside a signal of `length` unit-spaced samples (which cover -0.5 to
-/// length - 0.5). The cell is `spacing` wide around `position`. Weighting coarse samples by it keeps sums and smoothed
-/// values right where the signal begins and ends.
-[[nodiscard]] inline double coverage(double position, double spacing, std::size_t length) noexcept
-{
-    const double begin = std::max(position - spacing / 2.0, -0.5);
-    const double end = std::min(position + spacing / 2.0, static_cast<double>(length) - 0.5);
-    return std::max(end - begin, 0.0) / spacing;
-}
 
 } // namespace pacini

@@ -6,7 +6,8 @@
 #include <pacini/evaluate/HtsFeatures.h>
 #include <pacini/evaluate/PeakScale.h>
 #include <pacini/evaluate/PowerEnvelope.h>
-#include <pacini/evaluate/SecondOrderSections.h>
+#include <pacini/evaluate/SectionCascade.h>
+#include <pacini/filters/Butterworth.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
@@ -45,15 +46,15 @@ public:
                        [scale](Sample v)
                        { return std::isfinite(v) ? static_cast<float>(scale * static_cast<double>(v)) : 0.0f; });
 
-        detail::SectionCascade<1>({detail::highpassSection(20.0, fs)}).process(std::span(x));
+        SectionCascade<1>({designBiquad({BiquadType::highpass, Hertz(20.0)}, fs)}).process(std::span(x));
         if (role == HtsRole::source)
         {
             auto audible = powerEnvelopes.analyze(x);
             features.audible = std::move(audible.envelope);
             features.audibleEvents = std::move(audible.events);
         }
-        const auto lowpass = detail::lowpassSection(300.0, fs);
-        detail::SectionCascade<2>({lowpass, lowpass}).process(std::span(x));
+        const auto lowpass = designBiquad({BiquadType::lowpass, Hertz(300.0)}, fs);
+        SectionCascade<2>({lowpass, lowpass}).process(std::span(x));
         auto felt = powerEnvelopes.analyze(x);
         features.felt = std::move(felt.envelope);
         features.feltEvents = std::move(felt.events);
@@ -74,7 +75,9 @@ private:
         for (std::size_t b = 0; b < envelopes.size(); ++b)
         {
             std::copy(x.begin(), x.end(), y.begin());
-            detail::SectionCascade<2>(detail::bandpassSections(edges[b], edges[b + 1], fs)).process(std::span(y));
+            const auto design =
+                designButterworth({ButterworthType::bandpass, 2, Hertz(edges[b]), Hertz(edges[b + 1])}, fs);
+            SectionCascade<2>({design.sections[0], design.sections[1]}).process(std::span(y));
             for (float& v : y)
                 v *= v;
             const HannKernel kernel = htsHannKernel(Seconds(std::max(0.020, 1.0 / edges[b])));

@@ -73,18 +73,29 @@ struct EnvelopeSums
     }
 };
 
-/// Sums over one band in units of the 1 kHz grid that the measure is defined on. A value stands for the time around it
-/// up to the middle between values; the first and the last one up to half a millisecond beyond the grid's ends.
+/// Sums over one band in units of the 1 kHz grid that the measure is defined on, from coarser or finer samples. By the
+/// Euler-Maclaurin formula (F. Hildebrand, "Introduction to Numerical Analysis", 1956, section 5.8) two sums with
+/// different spacings of one smooth curve differ only by values and slopes at its ends. Envelopes begin and end steeply
+/// where a file is cut off, and short files consist of ends. The slopes are simple differences: with better ones some
+/// weights would be negative, and with them the energy of an error could be.
 [[nodiscard]] inline EnvelopeSums sumBand(const BandEnvelope& reference, const BandEnvelope& candidate,
                                           std::size_t gridFrames) noexcept
 {
     const std::span<const float> r(reference.values);
     const std::span<const float> c(candidate.values);
-    const double spacing = static_cast<double>(reference.spacing) / static_cast<double>(JudgeFeatures::envelopeSpacing);
-    const double last = static_cast<double>(r.size() - 1) * spacing;
-    EnvelopeSums sums = EnvelopeSums::of(r, c, spacing);
-    sums += EnvelopeSums::of(r.first(1), c.first(1), 0.5 - spacing / 2.0);
-    sums += EnvelopeSums::of(r.last(1), c.last(1), static_cast<double>(gridFrames) - 0.5 - last - spacing / 2.0);
+    const double s = static_cast<double>(reference.spacing) / static_cast<double>(JudgeFeatures::envelopeSpacing);
+    EnvelopeSums sums = EnvelopeSums::of(r, c, s);
+    if (r.size() < 2 || reference.spacing == JudgeFeatures::envelopeSpacing)
+        return sums;
+
+    // The grid ends this many of its frames after the last value.
+    const double rest = static_cast<double>(gridFrames - 1) - static_cast<double>(r.size() - 1) * s;
+    const double slope = (1.0 - s * s) / 12.0; // weight of the slope per grid frame
+    const double slopeAtEnd = slope + rest * (1.0 + rest) / 2.0;
+    sums += EnvelopeSums::of(r.first(1), c.first(1), 0.5 - s / 2.0 + slope / s);
+    sums += EnvelopeSums::of(r.subspan(1, 1), c.subspan(1, 1), -slope / s);
+    sums += EnvelopeSums::of(r.last(1), c.last(1), 0.5 - s / 2.0 + rest + slopeAtEnd / s);
+    sums += EnvelopeSums::of(r.last(2).first(1), c.last(2).first(1), -slopeAtEnd / s);
     return sums;
 }
 

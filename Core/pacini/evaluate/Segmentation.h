@@ -21,6 +21,12 @@ struct Segment
     std::ptrdiff_t begin = 0;
     std::size_t coreBegin = 0;
     std::size_t coreEnd = 0;
+
+    /// Index of the signal's sample `at` in a buffer of the segment that holds every `spacing`-th sample.
+    [[nodiscard]] std::size_t localIndex(std::size_t at, std::size_t spacing = 1) const noexcept
+    {
+        return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) - begin) / spacing;
+    }
 };
 
 /// How to cut; all lengths in samples, all multiples of `quantum`.

@@ -2,15 +2,16 @@
 
 // How a source sound is prepared before a haptic signal is compared with it.
 
-#include <pacini/evaluate/SecondOrderSections.h>
+#include <pacini/evaluate/SectionCascade.h>
+#include <pacini/filters/Butterworth.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/foundation/Result.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -30,15 +31,14 @@ template <typename Sample>
             return valid.error();
 
     const double fs = sampleRate;
-    using detail::SecondOrderSection;
-    // Q of the pole pairs of a fourth-order Butterworth filter: 1 / (2 cos(pi / 8)) and 1 / (2 cos(3 pi / 8)).
-    const bool limited = 1800.0 < 0.49 * fs;
-    const auto lowpass = [&](double angle)
+    const auto highpass = designBiquad({BiquadType::highpass, Hertz(5.0)}, fs);
+    std::array<BiquadCoefficients, 3> sections{highpass}; // the others pass everything
+    if (1800.0 < 0.49 * fs)
     {
-        return limited ? detail::lowpassSection(1800.0, fs, 0.5 / std::cos(angle * std::numbers::pi))
-                       : SecondOrderSection{};
-    };
-    detail::SectionCascade<3> filter({detail::highpassSection(5.0, fs), lowpass(0.125), lowpass(0.375)});
+        const auto lowpass = designButterworth({ButterworthType::lowpass, 4, Hertz(1800.0)}, fs);
+        std::copy(lowpass.sections.begin(), lowpass.sections.end(), sections.begin() + 1);
+    }
+    SectionCascade<3> filter(sections);
 
     const Resampler<Sample> resampler(sampleRate, outputRate);
     std::vector<Sample> out(resampler.outputFrames(samples.size()));

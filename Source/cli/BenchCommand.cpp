@@ -1,0 +1,189 @@
+#include "cli/BenchCommand.h"
+
+#include "cli/InputFiles.h"
+#include "cli/ProgramFolder.h"
+#include "cli/bench/BenchReport.h"
+#include "io/AtomicFile.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+namespace pacini::cli
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// The demo sounds: the nearest folder above the program that has them.
+std::string demoFolder()
+{
+    std::error_code error;
+    fs::path folder = programFolder();
+    for (;; folder = folder.parent_path())
+    {
+        if (const fs::path demo = folder / "Resources" / "demo"; fs::is_directory(demo, error))
+            return demo.string();
+        if (folder == folder.parent_path())
+            return {};
+    }
+}
+
+std::string compilerText()
+{
+#if defined(__clang__)
+    return fmt::format("Clang {}.{}", __clang_major__, __clang_minor__);
+#elif defined(__GNUC__)
+    return fmt::format("GCC {}.{}", __GNUC__, __GNUC_MINOR__);
+#elif defined(_MSC_VER)
+    return fmt::format("MSVC {}", _MSC_VER);
+#else
+    return "another compiler";
+#endif
+}
+
+std::string buildText()
+{
+#if defined(NDEBUG)
+    return "optimised";
+#else
+    return "with assertions: times are not those of a release build";
+#endif
+}
+} // namespace
+
+CLI::App* BenchCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("bench", "Measure error against run time");
+    std::string names = "all";
+    std::vector<std::string> allowed = {"all"};
+    for (const Bench& bench : allBenches())
+    {
+        names += ", " + bench.name;
+        allowed.push_back(bench.name);
+    }
+    command->add_option("what", what, "What to measure: " + names)
+        ->check(CLI::IsMember(allowed))
+        ->capture_default_str()
+        ->type_name("WHAT");
+    command->add_option("inputs", inputs, "Sounds, or folders of them [the demo sounds]")->type_name("IN");
+    command->add_option("-o,--output", output, "Folder for the tables and charts")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command->add_option("--repeat", settings.repeats, "Runs of which the fastest counts; long ones are not repeated")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_flag("--sweep", settings.sweep, "methods: also Pacini's own at many settings");
+    command->add_option("--format", format, "Format of the charts")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"svg", "png"}));
+    command->add_option("--markdown", markdown, "Also write all tables into one Markdown page")->type_name("FILE");
+    command->add_flag("--json", json, "Print everything as one JSON object instead of tables");
+    command->footer("Errors and times come from the same runs, one at a time on one processor. Times differ between\n"
+                    "computers; compare ratios.\n"
+                    "Examples:\n  pacini bench simplify                         the demo sounds, into pacini-bench/\n"
+                    "  pacini bench methods sounds/ --sweep -o out   all methods over a folder\n"
+                    "  pacini bench all sounds/ --markdown measurements.md");
+    return command;
+}
+
+Exit BenchCommand::run(Console& console)
+{
+    const bool demo = inputs.empty();
+    if (demo)
+    {
+        inputs.push_back(demoFolder());
+        if (inputs.front().empty())
+        {
+            console.error("", {ErrorCode::io, "", "finds no demo sounds beside this program; name a folder of sounds"});
+            return Exit::failed;
+        }
+    }
+    bool failed = false;
+    InputFiles found = findInputs(inputs, audioExtensions());
+    for (const InputFailure& failure : found.failures)
+    {
+        console.error(failure.path.string(), failure.error);
+        failed = true;
+    }
+
+    std::vector<BenchReport> reports;
+    for (const Bench& bench : allBenches())
+        if (what == "all" || what == bench.name)
+            reports.emplace_back(bench);
+    for (std::size_t i = 0; i < found.files.size(); ++i)
+    {
+        const auto& file = found.files[i];
+        const auto sound = readBenchSound(file.path);
+        if (!sound)
+        {
+            console.endProgress();
+            console.error(file.path.string(), sound.error());
+            failed = true;
+            continue;
+        }
+        for (std::size_t b = 0; b < reports.size(); ++b)
+        {
+            const double done = static_cast<double>(b) / static_cast<double>(reports.size());
+            console.progress(
+                (static_cast<double>(i) + done) / static_cast<double>(found.files.size()),
+                fmt::format("{} of {}  {}  {}", i + 1, found.files.size(), sound->name, reports[b].bench.name));
+            reports[b].measure(*sound, settings);
+        }
+    }
+    console.endProgress();
+    if (std::all_of(reports.begin(), reports.end(), [](const BenchReport& report) { return report.sounds == 0; }))
+        return Exit::failed;
+
+    nlohmann::ordered_json object{{"compiler", compilerText()},
+                                  {"build", buildText()},
+                                  {"repeat", settings.repeats},
+                                  {"benches", nlohmann::ordered_json::array()}};
+    std::string page = fmt::format("# Measurements\n\nMade by\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
+                                   "with {}, {}. Times are of one processor and differ between computers; ratios "
+                                   "hardly do.\n",
+                                   what, demo ? "" : fmt::format(" {}", fmt::join(inputs, " ")), settings.repeats,
+                                   settings.sweep ? " --sweep" : "", fs::path(markdown).filename().string(),
+                                   compilerText(), buildText());
+    std::vector<fs::path> written;
+    for (BenchReport& report : reports)
+    {
+        report.means = report.rows.overSounds();
+        if (!json)
+            console.print(
+                fmt::format("{}, means over {} sounds\n{}", report.bench.title, report.sounds, report.means.aligned()));
+        object["benches"].push_back(toJson(report));
+        page += "\n" + toMarkdown(report);
+        auto files = writeReport(report, output, format);
+        if (!files)
+        {
+            console.error(output, files.error());
+            return Exit::failed;
+        }
+        std::move(files->begin(), files->end(), std::back_inserter(written));
+    }
+    if (!markdown.empty())
+    {
+        if (const auto bytes = writeFileAtomically(markdown, page); !bytes)
+        {
+            console.error(markdown, bytes.error());
+            return Exit::failed;
+        }
+        written.push_back(markdown);
+    }
+    for (const fs::path& path : written)
+        object["files"].push_back(path.string());
+    if (json)
+        console.print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+        for (const fs::path& path : written)
+            console.print("wrote " + path.string());
+    return failed ? Exit::failed : Exit::ok;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,209 @@
+#include "cli/CompareCommand.h"
+
+#include "cli/ComparePairs.h"
+#include "cli/CompareReport.h"
+#include "cli/TaskRunner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// The list of doubtful onsets that belongs to X.json, X_ambiguous.json, when there is one.
+fs::path ambiguousBeside(const fs::path& onsets)
+{
+    fs::path path = onsets;
+    path.replace_filename(onsets.stem().string() + "_ambiguous" + onsets.extension().string());
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) ? path : fs::path();
+}
+
+/// Reads what --onsets names; a failure is reported and gives false.
+bool readOnsetFiles(Console& console, const std::string& path, const ComparePairs& found, CompareSettings& settings)
+{
+    const auto read = [&](const fs::path& file, Onsets& target)
+    {
+        auto onsets = readOnsets(file);
+        if (onsets)
+            target = std::move(*onsets);
+        else
+            console.error(file.string(), onsets.error());
+        return onsets.ok();
+    };
+    if (!read(path, settings.onsets.emplace()))
+        return false;
+    if (const fs::path beside = ambiguousBeside(path); !beside.empty() && !read(beside, settings.ambiguous))
+        return false;
+    if (!settings.onsets->namesFiles && found.pairs.size() > 1)
+    {
+        console.error(path, {ErrorCode::invalidData, "",
+                             "has onsets of one sound, but there are several; write {\"door.wav\": [0.12, 0.8], ...}"});
+        return false;
+    }
+    const auto isNamed = [&](const ComparePair& pair)
+    {
+        return settings.onsets->find(pair.reference) != nullptr;
+    };
+    if (!found.pairs.empty() && std::none_of(found.pairs.begin(), found.pairs.end(), isNamed))
+    {
+        console.error(path, {ErrorCode::invalidData, "",
+                             "has no onsets of " + found.pairs.front().reference.filename().string() +
+                                 (found.pairs.size() > 1 ? " or any other reference" : "")});
+        return false;
+    }
+    return true;
+}
+
+/// Runs the job; what it throws becomes the failure of this pair, so that the others go on.
+void compareOne(CompareJob& job, CompareTask& task, const std::function<void(double)>& progress)
+{
+    const auto fail = [&](Error error)
+    {
+        task.failure = InputFailure{task.pair.reference, std::move(error)};
+    };
+    try
+    {
+        auto outcome = job.run(task.pair, progress);
+        if (auto* failure = std::get_if<InputFailure>(&outcome))
+            task.failure = std::move(*failure);
+        else
+            task.result = std::move(std::get<CompareResult>(outcome));
+    }
+    catch (const std::bad_alloc&)
+    {
+        fail({ErrorCode::tooLarge, "", "needs more memory than there is; compare it alone, with -j 1"});
+    }
+    catch (const std::exception& error)
+    {
+        fail({ErrorCode::io, "", error.what()});
+    }
+}
+
+void report(Console& console, const CompareTask& task)
+{
+    if (task.failure)
+    {
+        console.error(task.failure->path.string(), task.failure->error);
+        return;
+    }
+    const CompareResult& r = *task.result;
+    if (std::abs(r.duration - r.candidateDuration) > 0.05)
+        console.warning(task.pair.candidate.string(),
+                        fmt::format("lasts {:.3f} s and its reference {:.3f} s; compared over the reference's length, "
+                                    "what is missing as silence",
+                                    r.candidateDuration, r.duration));
+    if (r.notFinite > 0)
+        console.warning(
+            task.pair.candidate.string(),
+            fmt::format("{} samples of it or its reference were not finite and count as silence", r.notFinite));
+    if (r.measures.silentReference)
+        console.warning(task.pair.reference.string(), "is silent between 30 and 1000 Hz; only HTS says something");
+}
+} // namespace
+
+CLI::App* CompareCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("compare", "Measure how much of a sound a haptic signal keeps");
+    command->add_option("reference", reference, "The sound: an audio file, or a folder of them")
+        ->required()
+        ->type_name("REF");
+    command
+        ->add_option("candidate", candidate,
+                     "What it became, such as a rendered clip: an audio file, or a folder of files with the same names")
+        ->required()
+        ->type_name("CAND");
+    auto* onsetOption =
+        command
+            ->add_option("--onsets", onsets,
+                         "Known onsets of the sound: JSON, {\"door.wav\": [0.12, 0.8]} in seconds, or text with one "
+                         "time per line. FILE_ambiguous.json beside FILE.json lists events that count neither way")
+            ->type_name("FILE");
+    command
+        ->add_option("--events", events,
+                     "Clip whose transients are the candidate's events, or folder of clips "
+                     "[events are detected in the candidate]")
+        ->needs(onsetOption)
+        ->type_name("CLIP");
+    command->add_flag("--allow-truncated", allowTruncated, "Compare what is there of a file that was cut off");
+    command->add_option("-j,--jobs", jobs, "Pairs to work on at a time [number of processors]")
+        ->check(CLI::Range(1u, 256u))
+        ->type_name("N");
+    command->add_flag("--json", json, "Print a report as one JSON object");
+    command->footer(
+        "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
+        "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
+        "  HTS-F           the same, comparing only what is felt on both sides\n"
+        "  LSD             log-spectral distance in third octaves; 0 is equal\n"
+        "  wide SNR        of the envelope of the whole band; 60 is equal\n"
+        "  band SNR        of the envelopes of 12 bands; 60 is equal\n"
+        "  centroid error  median error of the spectral centroid\n"
+        "  F1              events within 25 ms of the onsets: 2 hits / (2 hits + spurious + missed)\n"
+        "Sample rates from 2 to 384 kHz; channels are mixed down. Signals are not aligned in time.\n\n"
+        "Examples:\n"
+        "  pacini compare door.wav door_haptic.wav\n"
+        "  pacini compare sounds/ rendered/ --json -j 4\n"
+        "  pacini compare door.wav door_haptic.wav --onsets onsets.json --events door.pacb");
+    return command;
+}
+
+Exit CompareCommand::run(Console& console)
+{
+    const auto paired = pairFiles(reference, candidate, events);
+    if (!paired)
+    {
+        console.error("", paired.error());
+        return Exit::usage;
+    }
+    CompareSettings settings;
+    settings.allowTruncated = allowTruncated;
+    if (!onsets.empty() && !readOnsetFiles(console, onsets, *paired, settings))
+        return Exit::failed;
+    for (const InputFailure& failure : paired->failures)
+        console.error(failure.path.string(), failure.error);
+    for (const fs::path& file : paired->leftOver)
+        console.warning(file.string(), "has no reference and is not compared");
+
+    std::vector<CompareTask> tasks;
+    for (const ComparePair& pair : paired->pairs)
+        tasks.push_back({pair, {}, {}});
+    const auto nameOf = [&](std::size_t i)
+    {
+        return tasks[i].pair.name.string();
+    };
+    runTasks(console, tasks.size(), jobs, nameOf,
+             [&]
+             {
+                 return
+                     [&, job = CompareJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
+                 {
+                     compareOne(job, tasks[i], progress);
+                     report(console, tasks[i]);
+                 };
+             });
+
+    const bool anyDone = std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.result; });
+    const bool anyFailed = !paired->failures.empty() ||
+                           std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.failure; });
+    if (json)
+        console.print(compareJson(tasks, paired->failures));
+    else
+    {
+        if (anyDone)
+            console.print(compareTable(tasks));
+        console.print(compareSummary(tasks, paired->failures.size()));
+    }
+    return anyFailed ? Exit::failed : Exit::ok;
+}
+
+} // namespace pacini::cli

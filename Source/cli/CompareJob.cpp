@@ -1,0 +1,150 @@
+#include "cli/CompareJob.h"
+
+#include "cli/Stopwatch.h"
+#include "io/ClipFile.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// A sound mixed down to one channel.
+struct MonoSound
+{
+    int sampleRate = 0;
+    std::vector<float> samples;
+    std::uint64_t notFinite = 0;
+
+    [[nodiscard]] double duration() const { return static_cast<double>(samples.size()) / sampleRate; }
+};
+
+void appendMean(std::span<const float> interleaved, std::size_t channels, std::vector<float>& mono)
+{
+    if (channels == 1)
+    {
+        mono.insert(mono.end(), interleaved.begin(), interleaved.end());
+        return;
+    }
+    for (std::size_t i = 0; i < interleaved.size(); i += channels)
+    {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < channels; ++c)
+            sum += static_cast<double>(interleaved[i + c]);
+        mono.push_back(static_cast<float>(sum / static_cast<double>(channels)));
+    }
+}
+
+/// Mixes while reading, so that the channels are never in memory all at once.
+Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options, Stopwatch& work)
+{
+    auto reader = AudioReader::open(path, options);
+    if (!reader)
+        return reader.error();
+    MonoSound sound;
+    sound.sampleRate = reader->sampleRate();
+    const auto channels = static_cast<std::size_t>(reader->channels());
+    std::vector<float> buffer(channels * (65536 / channels));
+    for (;;)
+    {
+        const auto got = reader->read(buffer);
+        if (!got)
+            return got.error();
+        if (*got == 0)
+            break;
+        work.run([&] { appendMean(std::span(buffer).first(*got * channels), channels, sound.samples); });
+        if (sound.duration() > limits::duration)
+            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
+    }
+    sound.notFinite = reader->replacedSamples();
+    return sound;
+}
+
+/// What both measures need of one sound.
+struct Features
+{
+    HtsFeatures hts;
+    JudgeFeatures judge;
+};
+} // namespace
+
+CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted) {}
+
+std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pair,
+                                                          const std::function<void(double)>& progress)
+{
+    // The judge counts what is not finite as silence after resampling, so it must come through.
+    const AudioReadOptions reading{.allowTruncated = settings.allowTruncated,
+                                   .allowNan = true,
+                                   .keepNan = true,
+                                   .lowestSampleRate = lowestResamplerRate};
+    CompareResult result;
+    Stopwatch work;
+    std::optional<JudgeAnalyzer> judge;
+    const auto analyze = [&](const fs::path& path, HtsRole role) -> std::variant<Features, InputFailure>
+    {
+        const auto sound = readMono(path, reading, work);
+        if (!sound)
+            return InputFailure{path, sound.error()};
+        (role == HtsRole::source ? result.duration : result.candidateDuration) = sound->duration();
+        result.notFinite += sound->notFinite;
+        const std::span<const float> samples(sound->samples);
+        Features features;
+        work.run(
+            [&]
+            {
+                // The reader has checked the rate, the only thing that can be wrong here.
+                if (role == HtsRole::source)
+                    judge.emplace(judgeLength(samples.size(), sound->sampleRate));
+                features.judge = judgeFeatures(*judge, samples, sound->sampleRate).value();
+                features.hts = role == HtsRole::source ? htsSourceFeatures(hts, samples, sound->sampleRate).value()
+                                                       : htsCandidateFeatures(hts, samples, sound->sampleRate).value();
+            });
+        return features;
+    };
+    const auto reference = analyze(pair.reference, HtsRole::source);
+    if (const auto* failure = std::get_if<InputFailure>(&reference))
+        return *failure;
+    progress(0.5);
+    const auto candidate = analyze(pair.candidate, HtsRole::candidate);
+    if (const auto* failure = std::get_if<InputFailure>(&candidate))
+        return *failure;
+    const auto& [referenceHts, referenceJudge] = std::get<Features>(reference);
+    const auto& [candidateHts, candidateJudge] = std::get<Features>(candidate);
+
+    std::vector<double> events = candidateJudge.onsets;
+    if (!pair.events.empty())
+    {
+        const auto clip = readClip(pair.events);
+        if (!clip)
+            return InputFailure{pair.events, clip.error()};
+        events.clear();
+        for (const Transient& transient : clip->transients)
+            events.push_back(transient.time);
+    }
+    work.run(
+        [&]
+        {
+            result.hts = compare(referenceHts, candidateHts, HtsMode::translation);
+            result.htsFidelity = compare(referenceHts, candidateHts, HtsMode::fidelity);
+            result.measures = compare(referenceJudge, candidateJudge);
+            const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;
+            if (onsets == nullptr)
+                return;
+            const auto* ambiguous = settings.ambiguous.find(pair.reference);
+            const auto others = ambiguous != nullptr ? std::span(*ambiguous) : std::span<const double>();
+            result.events = scoreEvents(*onsets, events, 0.025, others);
+            result.eventsNarrow = scoreEvents(*onsets, events, 0.010, others);
+        });
+    result.seconds = work.seconds();
+    return result;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+// Compares one candidate with its reference.
+
+#include "cli/ComparePairs.h"
+#include "io/AudioReader.h"
+#include "io/OnsetFile.h"
+
+#include <pacini/evaluate/EventMatching.h>
+#include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/Judge.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <variant>
+
+namespace pacini::cli
+{
+
+struct CompareSettings
+{
+    bool allowTruncated = false;
+    std::optional<Onsets> onsets;
+    Onsets ambiguous; ///< events that count neither for nor against
+};
+
+/// What came of one pair.
+struct CompareResult
+{
+    double duration = 0.0;          ///< s of the reference
+    double candidateDuration = 0.0; ///< s
+    double seconds = 0.0;           ///< s of work, without access to files
+    std::uint64_t notFinite = 0;    ///< samples of both files that were NaN or infinite
+    HtsScore hts;
+    HtsScore htsFidelity;
+    JudgeMeasures measures;
+    std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only
+    std::optional<EventScore> eventsNarrow; ///< within 10 ms
+};
+
+/// Compares pairs one after another; keeps transforms between them. One thread at a time.
+class CompareJob
+{
+public:
+    explicit CompareJob(const CompareSettings& settings);
+
+    /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 384 kHz.
+    /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
+    /// hours, and of readClip.
+    [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,
+                                                                const std::function<void(double)>& progress);
+
+private:
+    CompareSettings settings;
+    HtsAnalyzer hts;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+// Which files are compared with which.
+
+#include "cli/InputFiles.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// A reference, its candidate, and the clip that states the candidate's events (may be empty). `name` is the
+/// reference's path below the folder that the user named, or just its name.
+struct ComparePair
+{
+    std::filesystem::path name;
+    std::filesystem::path reference;
+    std::filesystem::path candidate;
+    std::filesystem::path events;
+};
+
+struct ComparePairs
+{
+    std::vector<ComparePair> pairs;
+    std::vector<InputFailure> failures;          ///< references without a counterpart, unreadable folders
+    std::vector<std::filesystem::path> leftOver; ///< candidates without a reference
+};
+
+/// Two files are a pair. Of two folders (with all below them) the files whose paths agree but for their extensions are;
+/// `events` is then a folder of clips, matched alike, else one clip, or empty. ErrorCode::invalidArgument for a folder
+/// with a file.
+[[nodiscard]] Result<ComparePairs> pairFiles(const std::string& reference, const std::string& candidate,
+                                             const std::string& events);
+
+} // namespace pacini::cli

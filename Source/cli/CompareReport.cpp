@@ -1,0 +1,252 @@
+#include "cli/CompareReport.h"
+
+#include "cli/Console.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// A figure of one pair; `heading` is empty for what only the JSON has.
+struct Column
+{
+    const char* key;
+    const char* heading;
+    int decimals;
+    std::optional<double> (*value)(const CompareResult&);
+};
+
+/// A measure of the judge, which a silent reference has not.
+template <double JudgeMeasures::*member>
+std::optional<double> judged(const CompareResult& r)
+{
+    return r.measures.silentReference ? std::nullopt : std::optional(r.measures.*member);
+}
+
+template <std::optional<EventScore> CompareResult::*member>
+std::optional<double> scored(const CompareResult& r)
+{
+    return (r.*member) ? std::optional((r.*member)->f) : std::nullopt;
+}
+
+constexpr std::array<Column, 10> columns{{
+    {"hts", "HTS", 1,
+     [](const CompareResult& r)
+     {
+         return std::optional(r.hts.score);
+     }},
+    {"htsF", "HTS-F", 1,
+     [](const CompareResult& r)
+     {
+         return std::optional(r.htsFidelity.score);
+     }},
+    {"lsd", "LSD dB", 2, judged<&JudgeMeasures::logSpectralDistance>},
+    {"wideSnr", "wide SNR dB", 2, judged<&JudgeMeasures::wideSnr>},
+    {"bandSnr", "band SNR dB", 2, judged<&JudgeMeasures::envelopeSnr>},
+    {"bandSnrPerBand", "", 2, judged<&JudgeMeasures::envelopeSnrPerBand>},
+    {"centroidError", "centroid error %", 1, judged<&JudgeMeasures::centroidError>},
+    {"centroidBias", "", 1, judged<&JudgeMeasures::centroidBias>},
+    {"f1", "F1", 3, scored<&CompareResult::events>},
+    {"f1Within10ms", "", 3, scored<&CompareResult::eventsNarrow>},
+}};
+
+std::optional<double> mean(const std::vector<CompareTask>& tasks, const Column& column)
+{
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const CompareTask& task : tasks)
+        if (task.result)
+            if (const auto value = column.value(*task.result))
+            {
+                sum += *value;
+                ++count;
+            }
+    return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
+/// Counts over all files, with the F-measure of the counts.
+std::optional<EventScore> pooledEvents(const std::vector<CompareTask>& tasks)
+{
+    std::optional<EventScore> pooled;
+    for (const CompareTask& task : tasks)
+        if (task.result && task.result->events)
+        {
+            if (!pooled)
+                pooled.emplace();
+            pooled->truePositives += task.result->events->truePositives;
+            pooled->falsePositives += task.result->events->falsePositives;
+            pooled->falseNegatives += task.result->events->falseNegatives;
+        }
+    if (pooled)
+    {
+        const auto twice = static_cast<double>(2 * pooled->truePositives);
+        const auto wrong = static_cast<double>(pooled->falsePositives + pooled->falseNegatives);
+        pooled->f = twice + wrong > 0.0 ? twice / (twice + wrong) : 1.0;
+    }
+    return pooled;
+}
+
+template <typename Value>
+Json orNull(const std::optional<Value>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json toJson(const EventScore& score)
+{
+    return {{"f1", score.f},
+            {"hits", score.truePositives},
+            {"spurious", score.falsePositives},
+            {"missed", score.falseNegatives}};
+}
+
+Json toJson(const HtsScore& score)
+{
+    return {{"wide", score.wide}, {"band", score.band}, {"spectrum", score.spectrum}, {"event", score.event}};
+}
+
+Json toJson(const CompareTask& task)
+{
+    const CompareResult& r = *task.result;
+    Json json{{"reference", task.pair.reference.string()},
+              {"candidate", task.pair.candidate.string()},
+              {"duration", r.duration},
+              {"candidateDuration", r.candidateDuration}};
+    for (const Column& column : columns)
+        json[column.key] = orNull(column.value(r));
+    json["htsParts"] = toJson(r.hts);
+    json["htsFParts"] = toJson(r.htsFidelity);
+    json["lag"] = orNull(r.measures.lag);
+    json["gain"] = orNull(r.measures.gain);
+    json["outOfBand"] = orNull(r.measures.outOfBand);
+    json["notFinite"] = r.notFinite;
+    json["silentReference"] = r.measures.silentReference;
+    json["events"] = r.events ? toJson(*r.events) : Json(nullptr);
+    json["seconds"] = r.seconds;
+    json["timesRealTime"] = r.seconds > 0.0 ? r.duration / r.seconds : 0.0;
+    return json;
+}
+
+/// Sums over what was done.
+struct Totals
+{
+    std::size_t done = 0;
+    double duration = 0.0;
+    double seconds = 0.0;
+
+    explicit Totals(const std::vector<CompareTask>& tasks)
+    {
+        for (const CompareTask& task : tasks)
+            if (task.result)
+            {
+                ++done;
+                duration += task.result->duration;
+                seconds += task.result->seconds;
+            }
+    }
+    [[nodiscard]] double timesRealTime() const { return seconds > 0.0 ? duration / seconds : 0.0; }
+};
+
+/// Characters, not bytes: what counts for columns.
+std::size_t widthOf(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+
+/// Rows of cells as lines; the first column flush left, the others flush right.
+std::string aligned(const std::vector<std::vector<std::string>>& rows)
+{
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], widthOf(row[i]));
+    std::string lines;
+    for (const auto& row : rows)
+    {
+        lines += lines.empty() ? "" : "\n";
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+            const std::string gap(widths[i] - widthOf(row[i]), ' ');
+            lines += i == 0 ? row[i] + gap : "  " + gap + row[i];
+        }
+    }
+    return lines;
+}
+} // namespace
+
+std::string compareTable(const std::vector<CompareTask>& tasks)
+{
+    std::vector<const Column*> shown;
+    for (const Column& column : columns)
+        if (*column.heading != '\0' && (column.value != scored<&CompareResult::events> || mean(tasks, column)))
+            shown.push_back(&column);
+    std::vector<std::vector<std::string>> rows(1, {"file"});
+    for (const Column* column : shown)
+        rows.front().emplace_back(column->heading);
+    const auto addRow = [&](const std::string& name, auto&& valueOf)
+    {
+        rows.push_back({name});
+        for (const Column* column : shown)
+        {
+            const std::optional<double> value = valueOf(*column);
+            rows.back().push_back(value ? fmt::format("{:.{}f}", *value, column->decimals) : "-");
+        }
+    };
+    for (const CompareTask& task : tasks)
+        if (task.result)
+            addRow(task.pair.name.string(), [&](const Column& column) { return column.value(*task.result); });
+    addRow("mean", [&](const Column& column) { return mean(tasks, column); });
+    return aligned(rows);
+}
+
+std::string compareJson(const std::vector<CompareTask>& tasks, const std::vector<InputFailure>& failures)
+{
+    const Totals totals(tasks);
+    Json report{{"files", Json::array()}, {"mean", Json::object()}};
+    for (const Column& column : columns)
+        report["mean"][column.key] = orNull(mean(tasks, column));
+    const auto events = pooledEvents(tasks);
+    report["events"] = events ? toJson(*events) : Json(nullptr);
+    report["duration"] = totals.duration;
+    report["seconds"] = totals.seconds;
+    report["timesRealTime"] = totals.timesRealTime();
+    report["failures"] = Json::array();
+    const auto addFailure = [&](const InputFailure& failure)
+    {
+        report["failures"].push_back(
+            {{"input", failure.path.string()}, {"where", failure.error.where}, {"message", failure.error.message}});
+    };
+    for (const CompareTask& task : tasks)
+        if (task.result)
+            report["files"].push_back(toJson(task));
+        else if (task.failure)
+            addFailure(*task.failure);
+    for (const InputFailure& failure : failures)
+        addFailure(failure);
+    return report.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string compareSummary(const std::vector<CompareTask>& tasks, std::size_t failures)
+{
+    const Totals totals(tasks);
+    std::string text = fmt::format("{} compared", totals.done);
+    if (const auto failed = tasks.size() - totals.done + failures; failed > 0)
+        text += fmt::format(", {} failed", failed);
+    if (totals.seconds > 0.0)
+        text += fmt::format(": {}, {:.0f} times real time", durationText(totals.duration), totals.timesRealTime());
+    if (const auto events = pooledEvents(tasks))
+        text += fmt::format("; F1 of all events {:.3f} ({} hits, {} spurious, {} missed)", events->f,
+                            events->truePositives, events->falsePositives, events->falseNegatives);
+    return text;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+// What the comparison of many pairs comes to, as a table and as JSON.
+
+#include "cli/CompareJob.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// One pair: has a result or a failure once it is done.
+struct CompareTask
+{
+    ComparePair pair;
+    std::optional<CompareResult> result;
+    std::optional<InputFailure> failure;
+};
+
+/// Aligned columns of the pairs that have results, and the means of every column in the last row; "-" where a measure
+/// says nothing. The column of F1 is there when any pair has one.
+[[nodiscard]] std::string compareTable(const std::vector<CompareTask>& tasks);
+
+/// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime", "failures": [...]}: the same figures
+/// and more. What says nothing is null and not in the means; "events" counts over all files.
+[[nodiscard]] std::string compareJson(const std::vector<CompareTask>& tasks, const std::vector<InputFailure>& failures);
+
+/// One line about the whole work.
+[[nodiscard]] std::string compareSummary(const std::vector<CompareTask>& tasks, std::size_t failures);
+
+} // namespace pacini::cli

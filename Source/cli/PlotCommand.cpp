@@ -1,0 +1,232 @@
+#include "cli/PlotCommand.h"
+
+#include "cli/EncodeJob.h"
+#include "cli/InputFiles.h"
+#include "cli/ProgramFolder.h"
+#include "cli/RenderJob.h"
+#include "cli/plot/ClipFigure.h"
+#include "io/AudioReader.h"
+#include "io/ClipFile.h"
+#include "io/ProfileFile.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Progress = std::function<void(double)>;
+
+constexpr int smallestSide = 200; // pixels
+constexpr int largestSide = 10000;
+
+/// "1600x1000" as a size.
+std::optional<plot::PictureSize> parseSize(const std::string& text)
+{
+    plot::PictureSize size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x')
+        return std::nullopt;
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    if (height.ec != std::errc() || height.ptr != end)
+        return std::nullopt;
+    const auto allowed = [](int side)
+    {
+        return side >= smallestSide && side <= largestSide;
+    };
+    return allowed(size.width) && allowed(size.height) ? std::optional(size) : std::nullopt;
+}
+
+/// The clip in a file, or what `pacini encode` makes of a sound.
+Result<Clip> clipOf(const std::string& file, bool isClip, const Progress& progress)
+{
+    if (isClip)
+        return readClip(file);
+    return EncodeJob(EncodeSettings{}).encode(file, progress);
+}
+
+Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plot::TimeRange range, std::size_t columns)
+{
+    auto reader = AudioReader::open(file);
+    if (!reader)
+        return reader.error();
+    const auto channels = static_cast<std::size_t>(reader->channels());
+    plot::Waveform waveform(range, columns, reader->sampleRate(), channels);
+    std::vector<float> buffer(4096 * channels);
+    for (;;)
+    {
+        const auto got = reader->read(buffer);
+        if (!got)
+            return got.error();
+        if (*got == 0)
+            break;
+        waveform.push(std::span(buffer).first(*got * channels));
+    }
+    return plot::NamedWaveform{fmt::format("Sound: {}{}", file.filename().string(),
+                                           channels > 1 ? fmt::format(" (mean of {} channels)", channels) : ""),
+                               waveform.points()};
+}
+
+/// The drive signal as `pacini render` makes it, for long clips at a lower rate: a pixel is much longer than a sample.
+plot::NamedWaveform driveWaveform(const Clip& clip, const std::optional<Profile>& profile, plot::TimeRange range,
+                                  std::size_t columns, const Progress& progress)
+{
+    constexpr double longClip = 300.0; // s
+    constexpr std::size_t blockFrames = 4096;
+    RenderSettings settings;
+    settings.profile = profile;
+    if (clip.duration > longClip)
+        settings.decoder.sampleRate = 8000.0;
+    const double fs = settings.decoder.sampleRate;
+    Decoder decoder(clip, decoderParamsFor(clip, settings));
+    Equalizer equalizer;
+    if (profile)
+    {
+        equalizer.prepare({fs, blockFrames});
+        equalizer.setParams(profile->equalizer);
+    }
+    plot::Waveform waveform(range, columns, fs, 1);
+    std::vector<float> block(blockFrames);
+    const auto last = std::min(decoder.totalFrames(), static_cast<std::int64_t>(range.to * fs) + 2);
+    for (std::int64_t done = 0; done < last;)
+    {
+        const auto part = std::span(block).first(
+            static_cast<std::size_t>(std::min(last - done, static_cast<std::int64_t>(blockFrames))));
+        decoder.process(part);
+        if (profile)
+            equalizer.process(part, part);
+        waveform.push(part);
+        done += static_cast<std::int64_t>(part.size());
+        progress(static_cast<double>(done) / static_cast<double>(last));
+    }
+    return {profile ? fmt::format("Drive signal for {} (1 = full drive)", profile->name)
+                    : "Drive signal rendered from the clip (1 = full drive)",
+            waveform.points()};
+}
+} // namespace
+
+CLI::App* PlotCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("plot", "Draw a clip, or a sound and the clip it becomes");
+    command->add_option("input", input, "Clip (JSON or packed) or sound, which is encoded first")
+        ->required()
+        ->type_name("IN");
+    command->add_option("-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]")
+        ->type_name("OUT");
+    command->add_option("--sound", sound, "Sound to show above the clip instead of its drive signal")
+        ->type_name("FILE");
+    command
+        ->add_option("--profile", profile,
+                     "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it")
+        ->type_name("P");
+    command->add_option("--size", size, "Size of the picture in pixels")
+        ->capture_default_str()
+        ->check(CLI::Validator(
+            [](const std::string& text)
+            {
+                return parseSize(text) ? std::string()
+                                       : fmt::format("must be WIDTHxHEIGHT, each {} to {}", smallestSide, largestSide);
+            },
+            "", "size"))
+        ->type_name("WxH");
+    command->add_option("--from", from, "Start of what is shown, s")->check(CLI::Range(0.0, limits::duration));
+    command->add_option("--to", to, "End of what is shown, s")->check(CLI::Range(0.0, limits::duration));
+    command->add_flag("--dark", dark, "On a dark ground");
+    command->add_flag("--json", json, "Print a report as one JSON object");
+    command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
+                    "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5");
+    return command;
+}
+
+Exit PlotCommand::run(Console& console)
+{
+    const auto fail = [&console](const std::string& file, const Error& error, Exit exit = Exit::failed)
+    {
+        console.endProgress();
+        console.error(file, error);
+        return exit;
+    };
+    const Progress progress = [&](double share)
+    {
+        console.progress(share, input);
+    };
+
+    const std::filesystem::path path(input);
+    const auto target = outputFor({path, path.filename()}, output, false, ".png");
+    if (!target)
+        return fail(output, target.error());
+    if (!plot::pictureFormatOf(*target))
+        return fail(target->string(),
+                    {ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"}, Exit::usage);
+    if (from && to && *from >= *to)
+        return fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
+    if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
+        return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
+
+    std::optional<Profile> actuator;
+    if (!profile.empty())
+    {
+        const auto found = findProfile(profile, programFolder());
+        if (!found)
+            return fail(profile, found.error());
+        auto read = readProfile(*found);
+        if (!read)
+            return fail(found->string(), read.error());
+        actuator = *read;
+    }
+
+    const bool isClip = isClipFile(path);
+    const auto clip = clipOf(input, isClip, progress);
+    if (!clip)
+        return fail(input, clip.error());
+    const double end = clip->duration > 0.0 ? clip->duration : 1.0;
+    const plot::TimeRange range{from.value_or(0.0), std::min(to.value_or(end), end)};
+    if (range.from >= range.to)
+        return fail(input, {ErrorCode::invalidArgument, "--from",
+                            fmt::format("is not before the end of the clip, {:.3f} s", clip->duration)});
+
+    const plot::FigureStyle style{*parseSize(size), dark};
+    const auto columns = static_cast<std::size_t>(style.size.width);
+    std::vector<plot::NamedWaveform> waveforms;
+    const std::string heard = !isClip && sound.empty() ? input : sound;
+    if (!heard.empty())
+    {
+        auto waveform = soundWaveform(heard, range, columns);
+        if (!waveform)
+            return fail(heard, waveform.error());
+        waveforms.push_back(std::move(waveform.value()));
+    }
+    if (heard.empty() || actuator)
+        waveforms.push_back(driveWaveform(*clip, actuator, range, columns, progress));
+    console.endProgress();
+
+    const std::string title = clip->name.empty() ? path.filename().string() : clip->name;
+    const auto written = plot::writeFigure(*target, makeClipFigure(*clip, title, waveforms, range, style), style);
+    if (!written)
+        return fail(target->string(), written.error());
+    if (json)
+        console.print(nlohmann::ordered_json{
+            {"input", input},
+            {"output", target->string()},
+            {"width", style.size.width},
+            {"height", style.size.height},
+            {"bytes",
+             *written}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+        console.print(fmt::format("{}: {} x {} pixels, {}", target->string(), style.size.width, style.size.height,
+                                  bytesText(static_cast<double>(*written))));
+    return Exit::ok;
+}
+
+} // namespace pacini::cli

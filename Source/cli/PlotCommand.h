@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cli/Command.h"
+
+#include <optional>
+#include <string>
+
+namespace pacini::cli
+{
+
+/// `pacini plot`: a clip, or a sound and the clip it becomes, as a picture.
+class PlotCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::string input;
+    std::string output;
+    std::string sound;
+    std::string profile;
+    std::string size = "1600x1000";
+    std::optional<double> from;
+    std::optional<double> to;
+    bool dark = false;
+    bool json = false;
+};
+
+} // namespace pacini::cli

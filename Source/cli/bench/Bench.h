@@ -1,0 +1,65 @@
+#pragma once
+
+// The measurements that `pacini bench` can make: what each does with a sound, and what its columns mean.
+
+#include "cli/bench/BenchSound.h"
+#include "cli/bench/BenchTable.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+struct BenchSettings
+{
+    int repeats = 3;    ///< see timed()
+    bool sweep = false; ///< also Pacini's own method at many settings
+};
+
+/// A chart of a bench's table over all sounds: one line for every text in the column `series`.
+struct BenchFigure
+{
+    std::string name; ///< of the file, after the bench's
+    std::string title;
+    std::string series;
+    std::string x, y;        ///< columns
+    std::string label;       ///< column that tells the points of a line apart
+    std::string filter = {}; ///< column, may be empty
+    std::string value = {};  ///< only rows with this text in that column
+    bool joined = true;      ///< points of a line are joined
+};
+
+struct Bench
+{
+    std::string name;
+    std::string title;
+    std::string note; ///< how the numbers are formed: whole sentences
+    std::vector<BenchColumn> columns;
+    std::vector<BenchFigure> figures;
+    std::vector<std::string> perSound; ///< Markdown shows each sound's row that agrees in these keys with the first row
+    /// Adds the rows of one sound.
+    void (*measure)(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows);
+};
+
+/// The RMS error that a signal-to-noise ratio (dB) means, in % of the signal.
+[[nodiscard]] inline double errorShare(double snr)
+{
+    return 100.0 * std::pow(10.0, -snr / 20.0);
+}
+
+[[nodiscard]] Bench simplifyBench();
+[[nodiscard]] Bench analysisBench();
+[[nodiscard]] Bench decimateBench();
+[[nodiscard]] Bench methodsBench();
+[[nodiscard]] Bench stagesBench();
+[[nodiscard]] Bench synthesisBench();
+
+/// All of them.
+[[nodiscard]] inline std::vector<Bench> allBenches()
+{
+    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(), stagesBench(), methodsBench()};
+}
+
+} // namespace pacini::cli

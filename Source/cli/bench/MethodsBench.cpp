@@ -1,0 +1,247 @@
+#include "cli/RenderJob.h"
+#include "cli/bench/Bench.h"
+#include "cli/bench/BenchEncode.h"
+#include "cli/bench/Timed.h"
+
+#include <pacini/analysis/MonoMix.h>
+#include <pacini/analysis/methods/Method.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/Judge.h>
+#include <pacini/synthesis/Decoder.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <tuple>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// A sound with all that candidates are compared with.
+class Judges
+{
+public:
+    explicit Judges(const BenchSound& soundToJudge)
+        : sound(soundToJudge),
+          judge(judgeLength(sound.mono.size(), sound.sampleRate)),
+          judged(judgeFeatures(judge, std::span(sound.mono), sound.sampleRate).value()),
+          felt(htsSourceFeatures(hts, std::span(sound.mono), sound.sampleRate).value())
+    {
+    }
+
+    struct Verdict
+    {
+        double hts = 0.0;
+        JudgeMeasures measures;
+        std::vector<double> detected; ///< s, events in the candidate by the neutral detector
+    };
+
+    [[nodiscard]] Verdict of(std::span<const float> candidate, int sampleRate)
+    {
+        auto found = judgeFeatures(judge, candidate, sampleRate).value();
+        const auto feltCandidate = htsCandidateFeatures(hts, candidate, sampleRate).value();
+        return {compare(felt, feltCandidate, HtsMode::translation).score, compare(judged, found),
+                std::move(found.onsets)};
+    }
+
+private:
+    const BenchSound& sound;
+    JudgeAnalyzer judge;
+    HtsAnalyzer hts;
+    JudgeFeatures judged;
+    HtsFeatures felt;
+};
+
+/// Hits twice, and events that are there or claimed: F-measure over any number of sounds is the ratio of the sums.
+struct EventCounts
+{
+    BenchCell agreeing, all;
+};
+
+EventCounts countEvents(const BenchSound& sound, const std::vector<double>& detections)
+{
+    if (!sound.events)
+        return {};
+    const EventScore score = scoreEvents(sound.events->onsets, detections, 0.025, sound.events->ambiguous);
+    const auto agreeing = static_cast<double>(2 * score.truePositives);
+    return {agreeing, agreeing + static_cast<double>(score.falsePositives + score.falseNegatives)};
+}
+
+struct PackedSound
+{
+    Clip clip;
+    std::vector<std::byte> bytes;
+};
+
+/// Names the clip as `pacini encode` does and packs it.
+PackedSound packed(Clip clip, const BenchSound& sound)
+{
+    clip.source = {sound.name, static_cast<double>(sound.sampleRate), sound.channels};
+    clip.name = sound.path.stem().string();
+    PackedSound result{std::move(clip), {}};
+    result.bytes = packClip(result.clip, packParamsFor(result.clip));
+    return result;
+}
+
+constexpr int candidateRate = 8000; // Hz, of the judge
+
+std::vector<float> decoded(const Clip& clip)
+{
+    RenderSettings settings;
+    settings.decoder.sampleRate = candidateRate;
+    Decoder decoder(clip, decoderParamsFor(clip, settings));
+    std::vector<float> signal(static_cast<std::size_t>(decoder.totalFrames()));
+    decoder.process(signal);
+    return signal;
+}
+
+class Measurement
+{
+public:
+    Measurement(const BenchSound& soundToMeasure, const BenchSettings& benchSettings, BenchTable& table)
+        : sound(soundToMeasure), settings(benchSettings), rows(table), judges(soundToMeasure)
+    {
+    }
+
+    void clip(const std::string& method, const std::string& variant, const std::function<Clip()>& encode)
+    {
+        const auto encoded = timed(settings.repeats, [&] { return packed(encode(), sound); });
+        const Clip clip = unpackClip(encoded.result.bytes).value();
+        const auto rendered = timed(settings.repeats, [&] { return decoded(clip); });
+        std::vector<double> stated;
+        for (const Transient& transient : clip.transients)
+            stated.push_back(transient.time);
+        const auto bytes = static_cast<double>(encoded.result.bytes.size());
+        add(method, variant, bytes / sound.duration(), static_cast<double>(breakpointCount(clip)) / sound.duration(),
+            encoded.seconds, rendered.seconds, judges.of(rendered.result, candidateRate), countEvents(sound, stated));
+    }
+
+    void signal(const std::string& method, const std::function<std::vector<float>()>& translate)
+    {
+        const auto translated = timed(settings.repeats, translate);
+        add(method, "", {}, {}, translated.seconds, {}, judges.of(translated.result, sound.sampleRate), {});
+    }
+
+private:
+    void add(const std::string& method, const std::string& variant, BenchCell bytesPerSecond, BenchCell pointsPerSecond,
+             double encodeSeconds, BenchCell renderSeconds, const Judges::Verdict& verdict, const EventCounts& stated)
+    {
+        const EventCounts detected = countEvents(sound, verdict.detected);
+        const JudgeMeasures& m = verdict.measures;
+        // Against silence only the level of the candidate means anything.
+        const auto measure = [&m](double value)
+        {
+            BenchCell cell;
+            if (!m.silentReference)
+                cell = value;
+            return cell;
+        };
+        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, renderSeconds,
+                  std::move(bytesPerSecond), std::move(pointsPerSecond), verdict.hts, measure(m.logSpectralDistance),
+                  measure(m.wideSnr), measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing,
+                  detected.all});
+    }
+
+    const BenchSound& sound;
+    const BenchSettings& settings;
+    BenchTable& rows;
+    Judges judges;
+};
+
+std::string settingText(const EncoderParams& params)
+{
+    return fmt::format("{} bands, {:g}/s, {} bit", params.bands, params.breakpoints, params.quantise);
+}
+
+void measureOwn(Measurement& measurement, const BenchSound& sound, const EncoderParams& params)
+{
+    Encoder encoder(params); // kept between sounds by `pacini encode`, so its making is not timed
+    measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params),
+                     [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
+}
+
+void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+{
+    Measurement measurement(sound, settings, rows);
+    const EncoderParams usual;
+    measureOwn(measurement, sound, usual);
+    for (const MethodInfo& info : methodTable)
+    {
+        const std::string name(info.name);
+        const double fs = sound.sampleRate;
+        const auto mix = [&sound]
+        {
+            return monoMix(sound.interleaved, static_cast<std::size_t>(sound.channels));
+        };
+        if (info.output == MethodOutput::signal)
+            measurement.signal(name, [&] { return translateToSignal(info.method, mix(), fs); });
+        else if (info.method != Method::a2vt)
+            measurement.clip(name, "", [&] { return translateToClip(info.method, mix(), fs); });
+    }
+    if (!settings.sweep)
+        return;
+    for (const int bands : {6, 12, 24})
+        for (const double breakpoints : {5.0, 10.0, 20.0, 40.0})
+            for (const int quantise : {5, 6, 8, 12})
+            {
+                EncoderParams params;
+                params.bands = bands;
+                params.breakpoints = breakpoints;
+                params.quantise = quantise;
+                // All numbers of bands and points at the usual bits, all bits at the usual bands and points.
+                const bool usualPlace = bands == usual.bands && breakpoints == usual.breakpoints;
+                if (params != usual && (quantise == usual.quantise || usualPlace))
+                    measureOwn(measurement, sound, params);
+            }
+}
+} // namespace
+
+Bench methodsBench()
+{
+    const auto figure = [](std::string name, std::string title, std::string x, std::string y)
+    {
+        return BenchFigure{
+            std::move(name), std::move(title), "method", std::move(x), std::move(y), "variant", {}, {}, false};
+    };
+    return {
+        "methods",
+        "Translation methods",
+        "Each sound is encoded, packed, unpacked and rendered at 8 kHz; quality and time come from the same run. "
+        "Means over the sounds, times real time as total over total. B/s is the size of the file; signals have none. "
+        "HTS: haptic translation similarity, 0 to 100. LSD: log spectral distance. Events F1 (within 25 ms of the "
+        "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
+        "neutral detector finds in the rendered signal.",
+        {{"clip", "", Reduction::sound},
+         {"method", "", Reduction::key},
+         {"variant", "", Reduction::key},
+         summed("duration", "s"),
+         summed("encodeSeconds", "s"),
+         summed("renderSeconds", "s"),
+         {"bytesPerSecond", "B/s"},
+         {"pointsPerSecond", "1/s"},
+         {"hts", ""},
+         {"lsd", "dB"},
+         {"wideSnr", "dB"},
+         {"centroidError", "%"},
+         summed("statedAgreeing"),
+         summed("statedAll"),
+         summed("detectedAgreeing"),
+         summed("detectedAll"),
+         {"statedF1", "", Reduction::ratio, "statedAgreeing", "statedAll"},
+         {"detectedF1", "", Reduction::ratio, "detectedAgreeing", "detectedAll"},
+         {"encodeTimesRealTime", "", Reduction::ratio, "duration", "encodeSeconds"},
+         {"renderTimesRealTime", "", Reduction::ratio, "duration", "renderSeconds"},
+         {"encodeTime", "ms/s", Reduction::ratio, "encodeSeconds", "duration", 1000.0, false},
+         {"relativeTime", "", Reduction::relative, "encodeTime"}},
+        {figure("", "Log spectral distance against encoding time", "encodeTime", "lsd"),
+         figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd")},
+        {"method", "variant"},
+        measure};
+}
+
+} // namespace pacini::cli

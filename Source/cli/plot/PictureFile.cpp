@@ -1,0 +1,54 @@
+#include "cli/plot/PictureFile.h"
+
+#include "cli/InputFiles.h"
+#include "cli/plot/CairoCanvas.h"
+#include "cli/plot/SvgCanvas.h"
+#include "io/AtomicFile.h"
+
+namespace pacini::plot
+{
+
+namespace
+{
+std::unique_ptr<Canvas> makeCanvas(PictureFormat format, PictureSize size, const std::string& title)
+{
+    switch (format)
+    {
+    case PictureFormat::svg:
+        return std::make_unique<SvgCanvas>(size.width, size.height, title);
+    case PictureFormat::pdf:
+        return CairoCanvas::pdf(size.width, size.height, title);
+    case PictureFormat::png:
+        break;
+    }
+    return CairoCanvas::png(size.width, size.height);
+}
+} // namespace
+
+std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path)
+{
+    const std::string extension = cli::lowerExtension(path);
+    if (extension == ".png")
+        return PictureFormat::png;
+    if (extension == ".svg")
+        return PictureFormat::svg;
+    if (extension == ".pdf")
+        return PictureFormat::pdf;
+    return std::nullopt;
+}
+
+Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size, const std::string& title,
+                                 const std::function<void(Canvas&)>& draw)
+{
+    const auto format = pictureFormatOf(path);
+    if (!format)
+        return Error{ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"};
+    const auto canvas = makeCanvas(*format, size, title);
+    draw(*canvas);
+    const auto bytes = canvas->finish();
+    if (!bytes)
+        return bytes.error();
+    return writeFileAtomically(path, std::string_view(*bytes));
+}
+
+} // namespace pacini::plot

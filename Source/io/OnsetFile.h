@@ -1,0 +1,35 @@
+#pragma once
+
+// Annotated onsets of sounds, as JSON or plain text.
+
+#include <pacini/foundation/Result.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+/// Onset times in seconds, ascending, of one sound or of several.
+struct Onsets
+{
+    std::map<std::string, std::vector<double>> byFile; ///< by the sound's file name, without folders
+    std::vector<double> ofAny;                         ///< when the file names no sounds
+    bool namesFiles = false;                           ///< byFile is meant, not ofAny
+
+    /// The onsets of a sound: by its file name, else by its name without extension. Null when it is not named.
+    [[nodiscard]] const std::vector<double>* find(const std::filesystem::path& sound) const;
+};
+
+/// Reads `{"door.wav": [0.12, 0.8], ...}`, a list `[0.12, 0.8]`, or text with one time per line (what follows it after
+/// a blank, a tab, a comma or a semicolon is a label; empty lines and lines that begin with # are passed over). Errors:
+/// invalidData for other content, with its place, and for times below 0; those of parseJson.
+[[nodiscard]] Result<Onsets> readOnsetText(std::string_view text);
+
+/// The same from a file of at most 64 MB. Errors also: io.
+[[nodiscard]] Result<Onsets> readOnsets(const std::filesystem::path& path);
+
+} // namespace pacini

@@ -1,0 +1,136 @@
+"""End to end: sounds that are damaged, hostile or odd."""
+import array
+import json
+import math
+import shutil
+import struct
+import unittest
+
+from command import SANITIZED, SOURCE, CommandTest, float_wav, noise, sine, wav, wav_header
+
+TEST_SOUNDS = SOURCE / "Tests/io/audio"
+
+
+class BadSounds(CommandTest):
+    def refused(self, name, content, *says, options=()):
+        """encode and info refuse it in one line each, and no clip appears."""
+        path = self.put(name, content)
+        self.fails(1, ["encode", name, *options], f"pacini: {name}: ", *says)
+        if not options:
+            self.fails(1, ["info", name], f"pacini: {name}: ", *says)
+        self.assertEqual(self.names(), [name])
+        path.unlink()
+
+    def test_files_that_are_no_sound(self):
+        self.refused("a.wav", b"", "is empty")
+        self.refused("a.wav", b"This is text, not sound.\n" * 100, "is not audio in a known format")
+        self.refused("a.wav", bytes(range(256)) * 40, "is not audio in a known format")
+        self.refused("a.flac", b"fLaC", "")
+        self.refused("a.wav", b"RIFF", "")
+        self.refused("a.wav", wav([])[:30], "")
+
+    def test_files_that_are_cut_off(self):
+        whole = wav(sine(100, 0.5))
+        self.refused("a.wav", whole[:10000], "is cut off: ", "were promised")
+        for name in ("tone.flac", "tone.ogg"):
+            content = (TEST_SOUNDS / name).read_bytes()
+            for part in (0.3, 0.9):
+                self.refused(name, content[:int(part * len(content))], "")
+        self.put("a.wav", whole[:10000])
+        report = self.report("encode", "a.wav", "--allow-truncated")
+        self.assertAlmostEqual(report["files"][0]["duration"], (10000 - 44) / 2 / 48000, delta=1e-9)
+
+    def test_samples_that_are_no_numbers_are_named_by_frame(self):
+        for value, name in ((math.nan, "NaN"), (math.inf, "infinite"), (-math.inf, "infinite")):
+            samples = sine(100, 0.5)
+            samples[1001] = value
+            samples[1500] = value
+            content = float_wav(samples, channels=2)
+            self.refused("a.wav", content, "frame 500, channel 1: is " + name)
+            self.put("a.wav", content)
+            self.fails(0, ["encode", "a.wav", "--allow-nan"], "a.wav: warning: 2 samples were no numbers")
+            self.assertNotIn("nan", (self.folder / "a.json").read_text().lower())
+            (self.folder / "a.json").unlink()
+        self.refused("a.wav", float_wav([0.5, 1e30, 1e30]), "frame 1, channel 0: is 1e+30, far beyond full scale")
+
+    def test_headers_that_lie(self):
+        data = bytes(2000)
+        self.refused("a.wav", wav_header(2000, channels=10_000_000) + data, "")
+        self.refused("a.wav", wav_header(2000, channels=65535) + data, "")
+        self.refused("a.wav", wav_header(2000, channels=65) + data, "has 65 channels, 1 to 64 are accepted")
+        self.refused("a.wav", wav_header(2000, channels=0) + data, "")
+        self.refused("a.wav", wav_header(2 ** 32 - 46) + data, "is cut off: 1000 frames are there, 2147483625 were")
+        self.refused("a.wav", wav_header(2000, rate=0) + data, "")
+        self.refused("a.wav", wav_header(2000, rate=10 ** 9) + data, "8000 to 384000 Hz")
+        self.refused("a.wav", wav_header(2000, rate=7999) + data, "has a sample rate of 7999 Hz, 8000 to 384000 Hz")
+        self.refused("a.wav", wav_header(2000, rate=384001) + data, "8000 to 384000 Hz")
+        self.refused("a.wav", wav_header(2000, bits=0) + data, "")
+        aiff = b"FORM" + struct.pack(">I", 2 ** 31) + b"AIFFCOMM" + struct.pack(">IhIh", 18, 1, 2 ** 31, 16)
+        self.refused("a.aiff", aiff + bytes([0x40, 0x0E, 0xAC, 0x44] + [0] * 6) + b"SSND" + struct.pack(">III", 2 ** 31, 0, 0)
+                     + data, "")
+
+    def test_every_byte_of_a_header_may_be_wrong(self):
+        # No crash and no hang, whatever comes of it.
+        whole = wav(sine(100, 0.02, rate=8000), rate=8000)
+        for place in range(44):
+            for value in (0x00, 0x7F, 0xFF):
+                changed = bytearray(whole)
+                changed[place] = value
+                self.put(f"{place}-{value}.wav", bytes(changed))
+        done = self.run_command("encode", ".", "-o", "out", "--json")
+        self.assertIn(done.returncode, (0, 1))
+        report = json.loads(done.stdout)
+        self.assertEqual(len(report["files"]) + len(report["failures"]), 3 * 44)
+        self.assertEqual(len(done.stderr.decode().splitlines()), len(report["failures"]))
+
+
+class OddSounds(CommandTest):
+    def clip_of(self, content, *options, name="a.wav"):
+        self.put(name, content)
+        self.succeeds("encode", name, "-o", "a.json", "--force", *options)
+        clip = json.loads((self.folder / "a.json").read_text())
+        self.succeeds("render", "a.json", "-o", "a-out.wav", "--rate", "8000")
+        return clip
+
+    def loudest(self, clip):
+        return max((point["amplitude"] for point in clip["envelope"]), default=0)
+
+    def test_no_sound_at_all_and_one_sample(self):
+        self.assertEqual(self.clip_of(wav([]))["duration"], 0)
+        for value in (0.5, 0.0):
+            clip = self.clip_of(wav([value]))
+            self.assertAlmostEqual(clip["duration"], 1 / 48000, delta=1e-4)
+
+    def test_silence_and_a_constant_have_their_duration_and_nothing_to_feel(self):
+        for value in (0.0, 0.9):
+            clip = self.clip_of(wav([value] * 48000), "--keep-level")
+            self.assertEqual(clip["duration"], 1.0)
+            self.assertEqual(clip["transients"] if value == 0.0 else [], [])
+            middle = [point["amplitude"] for point in clip["envelope"] if 0.3 < point["time"] < 0.7]
+            self.assertLess(max(middle, default=0), 0.01)
+
+    def test_a_clipped_square_stays_within_full_drive(self):
+        clip = self.clip_of(wav([1.0 if (i // 400) % 2 else -1.0 for i in range(48000)]))
+        self.assertLessEqual(self.loudest(clip), 1.001)
+        self.assertGreater(self.loudest(clip), 0.5)
+
+    def test_samples_far_beyond_full_scale_and_far_below(self):
+        for level in (9e11, 1e-4):
+            clip = self.clip_of(float_wav(sine(100, 0.5, level=level)))
+            self.assertGreater(self.loudest(clip), 0.5)
+            self.assertLessEqual(self.loudest(clip), 1.001)
+        self.clip_of(float_wav([1e-42] * 4800))
+
+    def test_the_lowest_and_highest_rates_and_64_channels(self):
+        for rate in (8000, 384000):
+            clip = self.clip_of(wav(sine(100, 0.5, rate=rate), rate=rate))
+            self.assertEqual(clip["duration"], 0.5)
+            loud = max(clip["bands"], key=lambda band: max((p["amplitude"] for p in band["amplitude"]), default=0))
+            self.assertLess(loud["lowFrequency"], 100)
+            self.assertGreater(loud["highFrequency"], 100)
+        clip = self.clip_of(wav([x for x in sine(100, 0.2, level=0.1) for _ in range(64)], channels=64))
+        self.assertEqual((clip["duration"], clip["source"]["channels"]), (0.2, 64))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,40 @@
+"""End to end: memory must not grow with the length of a sound, but only, slowly, with what the clip keeps of it."""
+import os
+import subprocess
+import sys
+import unittest
+
+from command import COMMAND, SANITIZED, CommandTest, wav_header
+
+
+@unittest.skipIf(SANITIZED, "sanitizers need memory of their own")
+class Memory(CommandTest):
+    def peak(self, *arguments):
+        """The largest resident size of the command in bytes."""
+        process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0, arguments)
+        return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+    def test_a_sound_five_times_as_long_needs_hardly_more(self):
+        peaks = {}
+        for minutes in (1, 5):
+            name = f"{minutes}.wav"
+            second = os.urandom(48000 * 4)  # noise in stereo: all bands have much to keep
+            with open(self.folder / name, "wb") as file:
+                file.write(wav_header(minutes * 60 * len(second), channels=2))
+                for _ in range(minutes * 60):
+                    file.write(second)
+            peaks[minutes] = [self.peak("encode", name, "-o", f"{minutes}.pacb"),
+                              self.peak("info", f"{minutes}.wav"),
+                              self.peak("info", f"{minutes}.pacb"),
+                              self.peak("render", f"{minutes}.pacb", "-o", "out.wav")]
+        for work, short, long in zip(("encode", "info sound", "info clip", "render"), peaks[1], peaks[5]):
+            # An hour must stay below 300 MB: at most 4 MB for each of its minutes.
+            self.assertLess(long - short, 4 * 4_000_000, work)
+            self.assertLess(long, 100_000_000, work)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,156 @@
+"""End to end: pacini render."""
+import json
+import math
+import unittest
+
+from command import SOURCE, CommandTest, read_float_wav, rms
+
+
+def level_at(samples, rate, frequency):
+    """The amplitude of the sine of `frequency` in `samples`, by correlation under a Hann window."""
+    n = len(samples)
+    real = imag = weight = 0.0
+    for i, x in enumerate(samples):
+        w = 0.5 - 0.5 * math.cos(2 * math.pi * i / n)
+        phase = 2 * math.pi * frequency * i / rate
+        real += w * x * math.cos(phase)
+        imag += w * x * math.sin(phase)
+        weight += w
+    return 2 * math.hypot(real, imag) / weight
+
+
+class Render(CommandTest):
+    def steady(self, **changes):
+        """A clip of one steady band at 100 Hz without events."""
+        curve = [{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}]
+        band = {"lowFrequency": 80, "centreFrequency": 100, "highFrequency": 125, "priority": 0, "amplitude": curve,
+                "pitch": []}
+        return self.clip(envelope=curve, bands=[band], transients=[], **changes)
+
+    def rendered(self, *options, name="out.wav"):
+        self.succeeds("render", "clip.json", "-o", name, *options)
+        return read_float_wav(self.folder / name)
+
+    def test_the_result_lies_beside_the_clip_and_is_as_long(self):
+        self.clip(seconds=1.5)
+        text = self.succeeds("render", "clip.json")
+        self.assertRegex(text, r"^1 rendered: 1\.50 s, \d+ times real time\n$")
+        rate, samples = read_float_wav(self.folder / "clip.wav")
+        self.assertEqual((rate, len(samples)), (48000, 72000))
+        self.assertGreater(rms(samples), 0.05)
+
+    def test_every_rate_of_the_range_gives_the_same_signal(self):
+        self.steady()
+        for rate in (2000, 8000, 44100, 48000, 192000):
+            got, samples = self.rendered("--rate", str(rate))
+            self.assertEqual((got, len(samples)), (rate, rate))
+            self.assertAlmostEqual(level_at(samples, rate, 100.0), 0.5, delta=0.02)
+
+    def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
+        self.clip()
+        bytes_of = lambda *options: (self.rendered(*options), (self.folder / "out.wav").read_bytes())[1]
+        plain = bytes_of()
+        self.assertEqual(plain, bytes_of())
+        self.assertEqual(plain, bytes_of("--seed", "7"))
+        seven = bytes_of("--variation", "0.5", "--seed", "7")
+        self.assertEqual(seven, bytes_of("--variation", "0.5", "--seed", "7"))
+        self.assertNotEqual(seven, bytes_of("--variation", "0.5", "--seed", "8"))
+        self.assertNotEqual(seven, plain)
+        bytes_of("--seed", str(2 ** 64 - 1))
+
+    def test_transposing_moves_pitch_and_stretching_moves_time(self):
+        self.steady()
+        _, samples = self.rendered("--rate", "4000", "--transpose", "12")
+        self.assertEqual(len(samples), 4000)
+        self.assertGreater(level_at(samples, 4000, 200.0), 0.4)
+        self.assertLess(level_at(samples, 4000, 100.0), 0.02)
+        _, samples = self.rendered("--rate", "4000", "--stretch", "2.5")
+        self.assertEqual(len(samples), 10000)
+        self.assertGreater(level_at(samples, 4000, 100.0), 0.4)
+        _, samples = self.rendered("--rate", "4000", "--delay", "0.25")
+        self.assertEqual(rms(samples[:990]), 0.0)
+
+    def test_a_profile_is_found_by_name_and_by_path_and_changes_the_signal(self):
+        self.clip()
+        flat = self.rendered()[1]
+        by_name = self.rendered("--profile", "l5-wristband")[1]
+        by_path = self.rendered("--profile", str(SOURCE / "profiles/l5-wristband.json"))[1]
+        self.assertEqual(by_name, by_path)
+        self.assertNotEqual(by_name, flat)
+        self.fails(1, ["render", "clip.json", "--profile", "l6"], "pacini: l6: is neither a file nor a shipped profile",
+                   "l5-wristband")
+
+    def test_a_folder_of_clips_of_both_formats_is_rendered(self):
+        self.clip("in/a.json")
+        self.clip("b.json")
+        self.succeeds("convert", "b.json", "in/b.pacb")
+        report = self.report("render", "in", "-o", "out", "-j", "2", "--rate", "8000")
+        self.assertEqual([file["output"] for file in report["files"]], ["out/a.wav", "out/b.wav"])
+        for file in report["files"]:
+            self.assertEqual(file["bytes"], (self.folder / file["output"]).stat().st_size)
+            self.assertEqual(file["duration"], 1.0)
+            self.assertGreater(file["seconds"], 0)
+            self.assertGreater(file["timesRealTime"], 0)
+
+    def test_integer_samples_and_flac_are_written_and_clipping_is_told(self):
+        self.steady()
+        self.succeeds("render", "clip.json", "-o", "out.flac", "--encoding", "pcm16")
+        self.assertEqual((self.folder / "out.flac").read_bytes()[:4], b"fLaC")
+        sound = self.report("info", "out.flac")
+        self.assertEqual((sound["frames"], sound["sampleRate"]), (48000, 48000))
+        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--encoding", "pcm16", "--gain", "20"],
+                   "warning: ", "samples were clipped", "--gain")
+
+    def test_explain_names_what_is_left_out(self):
+        self.clip()
+        text = self.succeeds("render", "clip.json", "--explain")
+        self.assertIn("silent bands", text)
+        self.assertIn("1 rendered", text)
+
+    def test_a_bad_clip_does_not_stop_the_others(self):
+        self.clip("a.json")
+        self.put("b.json", "{}")
+        self.put("c.json", "")
+        self.clip("d.json")
+        done = self.fails(1, ["render", "a.json", "b.json", "c.json", "d.json", "-o", "out", "--json"],
+                          "pacini: b.json: ", "pacini: c.json: is empty", lines=2)
+        report = json.loads(done.stdout)
+        self.assertEqual([file["output"] for file in report["files"]], ["out/a.wav", "out/d.wav"])
+        self.assertEqual([failure["input"] for failure in report["failures"]], ["b.json", "c.json"])
+
+    def test_empty_and_shortest_clips_render(self):
+        for seconds, frames in ((0, 0), (1 / 48000, 1), (1e-9, None)):
+            self.clip(seconds=seconds, envelope=[], bands=[], transients=[])
+            _, samples = self.rendered()
+            if frames is not None:
+                self.assertEqual(len(samples), frames)
+            self.assertEqual(rms(samples), 0.0)
+
+    def test_wrong_options_are_usage_errors_that_name_the_range(self):
+        self.clip()
+        for option, value, says in (("--rate", "1999", "2000 to 192000"), ("--rate", "192001", "2000 to 192000"),
+                                    ("--rate", "nan", "2000 to 192000"), ("--stretch", "nan", "0.01 to 100"),
+                                    ("--stretch", "0", "0.01 to 100"), ("--gain", "inf", "-120 to 60"),
+                                    ("--transpose", "nan", "-96 to 96"), ("--delay", "-1", "0 to 3600"),
+                                    ("--variation", "1.01", "0 to 1"), ("--seed", "-1", "0 to 18446744073709551615"),
+                                    ("--seed", "1e3", "0 to 18446744073709551615"), ("--seed", str(2 ** 64), "--seed"),
+                                    ("--encoding", "mp3", "pcm16"), ("--pulse-frequency", "0", "1 to 2000")):
+            self.fails(2, ["render", "clip.json", option, value], option, says, "pacini render --help")
+        self.assertEqual(self.names(), ["clip.json"])
+
+    def test_a_signal_of_days_is_refused_instead_of_filling_the_disk(self):
+        self.clip(seconds=86400)
+        self.fails(1, ["render", "clip.json", "--stretch", "100", "--rate", "2000"], "clip.json: would last 2400.0 hours",
+                   "--stretch")
+        self.assertEqual(self.names(), ["clip.json"])
+
+    def test_wrong_outputs_are_named(self):
+        self.clip()
+        self.fails(1, ["render", "clip.json", "-o", "out.mp3"], "pacini: clip.json: out.mp3: ", ".wav or .flac")
+        self.fails(1, ["render", "clip.json", "-o", "out.flac"], "out.flac: FLAC holds no float samples")
+        self.fails(1, ["render", "clip.json", "-o", "clip.json"], "would be overwritten")
+        self.assertEqual(self.names(), ["clip.json"])
+
+
+if __name__ == "__main__":
+    unittest.main()

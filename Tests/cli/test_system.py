@@ -1,0 +1,214 @@
+"""End to end: what the system does to the command. Full disks, closed streams, signals, rights, strange names."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from command import COMMAND, SANITIZED, CommandTest, noise, sine, wav, wav_header
+
+NOBODY = 65534
+
+
+class Streams(CommandTest):
+    def test_a_full_standard_output_is_an_error(self):
+        self.clip()
+        for arguments in (["info", "clip.json"], ["info", "clip.json", "--json"], ["--help"], ["--version"],
+                          ["encode", "--help"], ["render", "clip.json"], ["convert", "clip.json", "x.pacb", "--json"]):
+            with open("/dev/full", "w") as full:
+                self.fails(1, arguments, "pacini: standard output: the disk is full", stdout=full)
+
+    def test_a_closed_standard_output_is_an_error_and_no_file_takes_its_place(self):
+        self.clip()
+        self.put("a.wav", wav(sine(100, 0.2)))
+        for arguments in ("info clip.json", "--version", "render clip.json -o out.wav", "encode a.wav --json --force"):
+            done = subprocess.run(["bash", "-c", f'"$0" {arguments} >&-', COMMAND], cwd=self.folder, timeout=60,
+                                  stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, b"pacini: standard output: is closed; open it or send it to a file\n"), arguments)
+        self.assertNotIn(b"files", (self.folder / "a.json").read_bytes())
+
+    def test_messages_never_land_in_a_file_when_standard_error_is_closed(self):
+        self.put("a.wav", wav(sine(100, 0.2)))
+        for i in range(20):
+            self.put(f"bad{i}.wav", "no sound")
+        done = subprocess.run(["bash", "-c", '"$0" encode . -o out <&- 2>&-', COMMAND], cwd=self.folder, timeout=60,
+                              stdout=subprocess.PIPE)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(json.loads((self.folder / "out/a.json").read_text())["format"], "pacini.clip")
+
+    def test_a_reader_that_went_away_is_an_error_not_a_sudden_end(self):
+        self.clip()
+        for command in ("info clip.json", "render clip.json -o out.wav"):
+            done = subprocess.run(["bash", "-c", f'(sleep 0.3; "$0" {command}; echo "$?" >&2) | true', COMMAND],
+                                  cwd=self.folder, timeout=60, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            self.assertEqual(done.stderr, b"pacini: standard output: the reader of the pipe has gone away\n1\n")
+        self.assertEqual(self.names(), ["clip.json", "out.wav"])
+
+    def test_a_clip_goes_through_a_pipe(self):
+        self.clip()
+        done = subprocess.run(["bash", "-c", '"$0" convert <(cat clip.json) /dev/stdout --format json --quiet | '
+                               '"$0" info /dev/stdin --json', COMMAND],
+                              cwd=self.folder, timeout=60, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.stderr, b"")
+        self.assertEqual(json.loads(done.stdout)["duration"], 1.0)
+
+
+class Disks(CommandTest):
+    def test_a_disk_that_fills_up_leaves_the_old_file_and_no_other(self):
+        self.clip()
+        self.put("a.wav", wav(noise(48000)))
+        self.put("out.wav", "old")
+        self.put("a.json", "old")
+        self.put("x.json", "old")
+        for arguments, output in ((["render", "clip.json", "-o", "out.wav"], "out.wav"),
+                                  (["encode", "a.wav"], "a.json"),
+                                  (["convert", "clip.json", "x.json"], "x.json")):
+            self.fails(1, arguments, f"{output}: the file would be larger than the system allows", file_limit=500)
+            self.assertEqual((self.folder / output).read_text(), "old")
+        self.fails(1, ["convert", "clip.json", "/dev/full", "--format", "json"], "/dev/full: the disk is full")
+
+    @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
+    def test_a_small_disk_that_is_really_full(self):
+        self.clip(seconds=60)
+        small = self.folder / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(small)],
+                          stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("mounting is not allowed here")
+        try:
+            self.fails(1, ["render", "clip.json", "-o", "small/out.wav"],
+                       "pacini: clip.json: small/out.wav: the disk is full; free some space")
+            self.assertEqual(os.listdir(small), [])
+        finally:
+            subprocess.run(["umount", str(small)], check=True)
+
+    def test_outputs_that_cannot_be_are_named(self):
+        self.put("a.wav", wav(sine(100, 0.2)))
+        self.put("file", "kept")
+        (self.folder / "dir").mkdir()
+        self.fails(1, ["encode", "a.wav", "-o", "no/where/a.json"], "pacini: a.wav: no/where/a.json: ",
+                   "create the folder first")
+        self.fails(1, ["encode", "a.wav", "-o", "file/a.json"], "pacini: a.wav: file/a.json: ", "is not a folder")
+        self.fails(1, ["encode", "a.wav", "-o", "file/"], "the folder file", "name another with -o")
+        self.fails(1, ["encode", "a.wav", "a.wav", ".", "-o", "file"], "name another with -o")
+        self.assertEqual((self.folder / "file").read_text(), "kept")
+        self.clip()
+        self.fails(1, ["convert", "clip.json", "dir", "--format", "json"], "dir: is a folder")
+        self.fails(1, ["render", "clip.json", "--profile", "dir"], "dir: is neither a file nor a shipped profile")
+        os.chmod(self.folder / "file", 0o444)
+        self.fails(1, ["convert", "clip.json", "file", "--format", "json"], "file: is marked read-only")
+
+    def test_inputs_that_cannot_be_are_named(self):
+        os.mkdir(self.folder / "empty")
+        os.symlink("nowhere", self.folder / "dangling.wav")
+        os.symlink("loop.wav", self.folder / "loop.wav")
+        os.mkfifo(self.folder / "pipe.wav")
+        for name, says in (("empty", "holds no files that this command reads"), ("dangling.wav", "does not exist"),
+                           ("loop.wav", "symbolic links"), ("pipe.wav", "is a pipe or a device"),
+                           ("/dev/null", "is a pipe or a device"), ("x" * 300 + ".wav", "name is too long"),
+                           ("", "no file name")):
+            self.fails(1, ["encode", name, "-o", "out.json"], says)
+        self.fails(1, ["info", "empty"], "pacini: empty: is a folder")
+
+    def test_rights_are_respected_and_told(self):
+        if os.geteuid() == 0 and subprocess.run([COMMAND, "--version"], user=NOBODY, group=NOBODY, cwd="/",
+                                                capture_output=True).returncode != 0:
+            self.skipTest("the command lies where only root can run it")
+        other = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
+        self.put("closed.wav", wav(sine(100, 0.2)))
+        self.put("in/a.wav", wav(sine(100, 0.2)))
+        self.put("locked/a.wav", wav(sine(100, 0.2)))
+        (self.folder / "kept").mkdir()
+        os.chmod(self.folder, 0o755)
+        os.chmod(self.folder / "closed.wav", 0)
+        os.chmod(self.folder / "locked", 0)
+        os.chmod(self.folder / "kept", 0o555)
+        try:
+            self.fails(1, ["encode", "closed.wav", "-o", "kept/x.json"], "closed.wav: permission denied", **other)
+            self.fails(1, ["encode", "locked", "-o", "kept"], "locked: cannot be listed: ", "permissions", **other)
+            self.fails(1, ["encode", "in", "-o", "kept"], "in/a.wav: kept/a.json: permission denied", **other)
+            self.fails(1, ["encode", "locked/a.wav", "-o", "kept/x.json"], "locked/a.wav: permission denied", **other)
+        finally:
+            os.chmod(self.folder / "locked", 0o755)
+
+
+class Names(CommandTest):
+    def test_any_name_that_the_system_allows_works_through_all_commands(self):
+        sound = wav(sine(100, 0.2))
+        for name in ("two words", "häptik ☃ 触覚", "-dash", "--json", "new\nline", "quote'\"$(x)`", "a.b.c", "x" * 240,
+                     b"lat\xe9in", "tab\t\x1b[31mred", "%s%n{}", " "):
+            stem = os.fsencode(name)
+            path = os.path.join(os.fsencode(self.folder), stem + b".wav")
+            with open(path, "wb") as file:
+                file.write(sound)
+            self.succeeds("encode", "-o", b"./" + stem + b".pacb", "--", stem + b".wav")
+            self.succeeds("convert", "--", stem + b".pacb", stem + b".json")
+            self.succeeds("render", "-q", "--", stem + b".pacb")
+            text = self.succeeds("info", "--", stem + b".pacb")
+            self.assertEqual(text.count("haptic clip"), 1)
+            self.assertNotIn("\x1b", text)
+            self.assertIsInstance(self.report("info", b"./" + stem + b".json"), dict)
+            self.assertIsInstance(self.report("render", b"./" + stem + b".json"), dict)
+
+    def test_messages_about_strange_names_stay_on_one_line(self):
+        self.put("new\nline \x1b[31m.wav", "no sound")
+        self.fails(1, ["encode", "."], "pacini: ./new\\nline \\x1b[31m.wav: ")
+        self.fails(2, ["encode", "x", "--bad\noption"], "--bad\\noption")
+
+    def test_links_are_followed_and_stay_links(self):
+        self.put("real/a.wav", wav(sine(100, 0.2)))
+        os.symlink("real/a.wav", self.folder / "link.wav")
+        self.put("real/a.json", "{}")
+        os.symlink("real/a.json", self.folder / "out.json")
+        self.succeeds("encode", "link.wav", "-o", "out.json")
+        self.assertTrue((self.folder / "out.json").is_symlink())
+        self.assertIn("pacini.clip", (self.folder / "real/a.json").read_text())
+
+
+class Signals(CommandTest):
+    def interrupted(self, number, start=None):
+        """Renders for long, sends the signal once the temporary is there; returns the exit code."""
+        process = subprocess.Popen([COMMAND, "render", "clip.json", "-o", "out.wav"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=start)
+        until = time.monotonic() + 60
+        while not any(".pacini-" in name for name in os.listdir(self.folder)):
+            self.assertLess(time.monotonic(), until, "nothing is being written")
+            self.assertIsNone(process.poll(), "ended too early")
+            time.sleep(0.002)
+        process.send_signal(number)
+        try:
+            process.communicate(timeout=60)
+        finally:
+            process.kill()
+        return process.returncode
+
+    def test_a_signal_leaves_the_old_file_and_no_other(self):
+        self.clip(seconds=600)
+        self.put("out.wav", "old")
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            self.assertEqual(self.interrupted(number), -number)
+            self.assertEqual(self.names(), ["clip.json", "out.wav"])
+            self.assertEqual((self.folder / "out.wav").read_text(), "old")
+
+    def test_a_kill_leaves_the_old_file_and_a_hidden_temporary_that_folders_pass_over(self):
+        self.clip(seconds=600)
+        self.put("out.wav", "old")
+        self.assertEqual(self.interrupted(signal.SIGKILL), -signal.SIGKILL)
+        self.assertEqual((self.folder / "out.wav").read_text(), "old")
+        rest = [name for name in os.listdir(self.folder) if ".pacini-" in name]
+        self.assertTrue(all(name.startswith(".out.wav.pacini-") and name.endswith(".tmp") for name in rest), rest)
+        for name in rest:
+            os.unlink(self.folder / name)
+
+    def test_a_signal_that_was_to_be_ignored_is_ignored(self):
+        self.clip(seconds=60)
+        ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        self.assertEqual(self.interrupted(signal.SIGHUP, ignore), 0)
+        self.assertEqual(self.names(), ["clip.json", "out.wav"])
+
+
+if __name__ == "__main__":
+    unittest.main()

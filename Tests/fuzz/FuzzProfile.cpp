@@ -1,0 +1,23 @@
+// Any bytes are either refused with a proper error or are a valid profile, read the same twice.
+
+#include "FuzzCheck.h"
+#include "io/ProfileFile.h"
+
+#include <string_view>
+
+using namespace pacini;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto profile = readProfileJson(text);
+    if (!profile)
+    {
+        FUZZ_CHECK(!profile.error().message.empty());
+        FUZZ_CHECK(profile.error().text().find('\n') == std::string::npos);
+        return 0;
+    }
+    FUZZ_CHECK(validate(*profile).ok());
+    FUZZ_CHECK(*readProfileJson(text) == *profile);
+    return 0;
+}
