@@ -46,6 +46,25 @@ TEST_CASE("A steady tone is one event at most", "[analysis][onsets]")
             }
 }
 
+TEST_CASE("The edges of a low saw wave are no events", "[analysis][onsets]")
+{
+    const double fs = 44100.0;
+    for (const double f : {20.0, 25.0, 33.0, 40.0, 50.0, 60.0, 80.0})
+    {
+        auto saw = silence(4.0, fs);
+        for (std::size_t n = 0; n < saw.size(); ++n)
+        {
+            // Harmonics up to 8 kHz, so that no edge folds back.
+            double sum = 0.0;
+            for (double h = 1.0; h * f < 8000.0; h += 1.0)
+                sum += std::sin(2.0 * std::numbers::pi * std::fmod(h * f * static_cast<double>(n) / fs, 1.0)) / h;
+            saw[n] = static_cast<float>(0.3 * sum);
+        }
+        CAPTURE(f);
+        CHECK(onsetsOf(saw, fs).size() <= 2);
+    }
+}
+
 TEST_CASE("Noise that swells four times a second is one event at most", "[analysis][onsets]")
 {
     for (const double fs : rates)
@@ -169,6 +188,17 @@ TEST_CASE("Strokes on one channel of several are found", "[analysis][onsets]")
     for (const float v : kicks)
         four.insert(four.end(), {0.0f, 0.0f, v, 0.0f});
     CHECK(detectOnsets(four, 4, fs).size() == 8);
+}
+
+TEST_CASE("A louder stroke soon after does not count for the one before", "[analysis][onsets]")
+{
+    const double fs = 44100.0;
+    auto sound = silence(1.0, fs);
+    addClick(sound, 0.3, fs, 0.4);
+    addClick(sound, 0.318, fs, 0.8);
+    const auto onsets = onsetsOf(sound, fs);
+    REQUIRE(onsets.size() == 2);
+    CHECK(onsets[0].amplitude == Approx(0.5 * onsets[1].amplitude).epsilon(0.1));
 }
 
 TEST_CASE("More sensitivity never loses events, and finds weaker ones", "[analysis][onsets]")

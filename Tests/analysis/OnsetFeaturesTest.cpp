@@ -104,6 +104,17 @@ TEST_CASE("Power is the mean square, lowPower that of the part below 1800 Hz", "
         }
 }
 
+TEST_CASE("The highest band hears 6.5 kHz about as loud at every rate", "[analysis][onsets]")
+{
+    for (const double fs : {20000.0, 22050.0, 32000.0, 39999.0, 44100.0, 64000.0, 79000.0, 96000.0, 384000.0})
+    {
+        const auto means = meansOf(framesOf(sine(static_cast<std::size_t>(0.5 * fs), 6500.0, fs, 0.5), fs), 150, 350);
+        CAPTURE(fs);
+        CHECK(decibels(means[6] / 0.125) > -1.0);
+        CHECK(decibels(means[6] / 0.125) < 5.0);
+    }
+}
+
 TEST_CASE("Frames tell the same at every sample rate", "[analysis][onsets]")
 {
     const auto soundAt = [](double fs)

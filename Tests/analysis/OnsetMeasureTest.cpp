@@ -54,6 +54,17 @@ TEST_CASE("The start of a sudden onset is exact to a fraction of a frame", "[ana
         }
 }
 
+TEST_CASE("A loud background does not draw the start forward", "[analysis][onsets]")
+{
+    // 15 dB below the event.
+    const auto powerAt = [](std::ptrdiff_t k)
+    {
+        return k < 50 ? 6e-4 : 0.02;
+    };
+    for (std::ptrdiff_t index = 47; index <= 55; ++index)
+        CHECK(measured(index, 1000, powerAt).time == Approx(seconds(50.0)).margin(seconds(0.1)));
+}
+
 TEST_CASE("The start of a gradual attack lies where it leaves the background", "[analysis][onsets]")
 {
     // A linear rise of amplitude over 10 frames.

@@ -26,6 +26,23 @@ TEST_CASE("The centroid of a tone becomes a pitch on a logarithmic scale", "[met
     }
 }
 
+TEST_CASE("Centroids outside 100 Hz to 10 kHz have the lowest and the highest pitch", "[methods]")
+{
+    const double fs = 44100.0;
+    for (const auto& [f, pitch] : {std::pair(50.0, 40.0), std::pair(15000.0, 400.0)})
+    {
+        const Clip clip = centroidFlatnessClip(sine(44100, f, fs), fs);
+        CAPTURE(f);
+        REQUIRE(!clip.bands[0].pitch.empty());
+        for (const Breakpoint& point : clip.bands[0].pitch)
+        {
+            CHECK(point.value >= 39.999);
+            CHECK(point.value <= 400.001);
+        }
+        CHECK(valueAt(clip.bands[0].pitch, 0.5) == Approx(pitch).epsilon(0.01));
+    }
+}
+
 TEST_CASE("A tone plays as a square wave, noise as a sine", "[methods]")
 {
     const double fs = 16000.0;

@@ -92,11 +92,29 @@ TEST_CASE("Priorities rank the bands of every clip by energy", "[methods]")
     {
         const Clip clip = translateToClip(method, sound, fs);
         CAPTURE(std::string(methodInfo(method).name));
+        std::set<int> priorities;
+        for (const Band& band : clip.bands)
+            priorities.insert(band.priority);
+        CHECK(priorities.size() == clip.bands.size());
         for (const Band& a : clip.bands)
             for (const Band& b : clip.bands)
                 if (a.priority < b.priority)
                     CHECK(curveEnergy(a.amplitude, clip.duration) >= curveEnergy(b.amplitude, clip.duration));
     }
+}
+
+TEST_CASE("The gain on record is what raised the sound to full drive", "[methods]")
+{
+    for (const double amplitude : {0.01, 0.25, 4.0})
+        for (const Method method : methodsThatMake(MethodOutput::clip))
+        {
+            const Clip clip = translateToClip(method, sine(8000, 300.0, 16000.0, amplitude), 16000.0);
+            const auto gain = std::find_if(clip.encoder.begin(), clip.encoder.end(),
+                                           [](const EncoderParameter& p) { return p.name == "gain"; });
+            CAPTURE(amplitude, std::string(methodInfo(method).name));
+            REQUIRE(gain != clip.encoder.end());
+            CHECK(std::get<double>(gain->value) == Approx(1.0 / amplitude).epsilon(0.1)); // the high-pass rings
+        }
 }
 
 TEST_CASE("Silence costs no breakpoint and plays as silence", "[methods]")

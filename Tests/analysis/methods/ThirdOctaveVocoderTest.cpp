@@ -64,8 +64,8 @@ TEST_CASE("All channels play on one carrier of 100 Hz and stay within full drive
 
 TEST_CASE("Channels that do not fit below 0.45 of the sample rate are left out", "[methods]")
 {
-    for (const auto& [fs, channels] : {std::pair(8000.0, 13), std::pair(11025.0, 14), std::pair(16000.0, 16),
-                                       std::pair(44100.0, 16), std::pair(384000.0, 16)})
+    for (const auto& [fs, channels] : {std::pair(8000.0, 13), std::pair(9600.0, 13), std::pair(11025.0, 14),
+                                       std::pair(16000.0, 16), std::pair(44100.0, 16), std::pair(384000.0, 16)})
     {
         const Clip clip = thirdOctaveVocoderClip(noise(2000, 1), fs);
         CAPTURE(fs);

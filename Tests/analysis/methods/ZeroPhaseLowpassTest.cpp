@@ -43,9 +43,22 @@ TEST_CASE("The ends of a signal are filtered as if silence lay beyond", "[method
     const auto sound = noise(3000, 5);
     std::vector<float> padded(9000, 0.0f);
     std::copy(sound.begin(), sound.end(), padded.begin() + 3000);
-    const auto alone = zeroPhaseLowpass(sound, 44100.0);
-    const auto within = zeroPhaseLowpass(padded, 44100.0);
-    REQUIRE(alone.size() == sound.size());
-    for (std::size_t i = 0; i < sound.size(); ++i)
-        REQUIRE(std::abs(alone[i] - within[i + 3000]) < 2e-6f);
+    for (const double fs : {8000.0, 44100.0, 384000.0})
+    {
+        const auto alone = zeroPhaseLowpass(sound, fs);
+        const auto within = zeroPhaseLowpass(padded, fs);
+        CAPTURE(fs);
+        REQUIRE(alone.size() == sound.size());
+        for (std::size_t i = 0; i < sound.size(); ++i)
+            REQUIRE(std::abs(alone[i] - within[i + 3000]) < 2e-6f);
+    }
+}
+
+TEST_CASE("Without parameters the low-pass halves 1 kHz", "[methods]")
+{
+    const double fs = 16000.0;
+    const auto response = zeroPhaseLowpass(impulse(4001, 2000), fs);
+    CHECK(std::abs(spectrumAt<float>(response, 1000.0, fs)) == Approx(0.5).epsilon(1e-4));
+    CHECK(std::abs(spectrumAt<float>(response, 500.0, fs)) > 0.99);
+    CHECK(std::abs(spectrumAt<float>(response, 2000.0, fs)) < 0.004);
 }

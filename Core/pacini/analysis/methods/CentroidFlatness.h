@@ -93,7 +93,6 @@ inline constexpr std::array<double, 4> squarePartials{1.0, 3.0, 5.0, 7.0};
 
     SpectralCentroidParams centroid;
     centroid.frames = powerOfTwoFrames(fs);
-    centroid.high = Hertz(std::min(highCentroid, 0.45 * fs));
     Curve pitch = spectralCentroid(sound.samples, fs, centroid);
     for (Breakpoint& point : pitch)
     {
@@ -102,7 +101,8 @@ inline constexpr std::array<double, 4> squarePartials{1.0, 3.0, 5.0, 7.0};
             lowPitch * std::pow(highPitch / lowPitch, std::min(1.0, position / std::log(highCentroid / lowCentroid)));
     }
     pitch = methodCurve(pitch, sound, params.curves);
-    const Curve flatness = spectralFlatness(sound.samples, fs, {centroid.frames, Hertz(lowCentroid), centroid.high});
+    const Curve flatness = spectralFlatness(
+        sound.samples, fs, {centroid.frames, Hertz(lowCentroid), Hertz(std::min(highCentroid, 0.45 * fs))});
 
     std::array<Curve, 4> tracks;
     CurveReader pitches(pitch);
