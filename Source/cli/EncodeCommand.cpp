@@ -9,6 +9,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
 namespace pacini::cli
 {
 
@@ -58,16 +65,61 @@ std::string summary(const std::vector<EncodeTask>& tasks)
         text += fmt::format(", {:.0f} times real time", worked / seconds);
     return text;
 }
+
+/// Options that only some methods have.
+constexpr const char* tunedOptions[] = {"--bands", "--breakpoints", "--quantise",    "--low",
+                                        "--high",  "--spacing",     "--sensitivity", "--keep-level"};
+
+bool hasOption(const MethodInfo& method, std::string_view option)
+{
+    if (method.method == Method::a2vt)
+        return true;
+    if (method.method == Method::thesis)
+        return option != "--spacing" && option != "--sensitivity" && option != "--keep-level";
+    return method.output == MethodOutput::clip && option == "--breakpoints";
+}
+
+std::string methodNames(MethodOutput output)
+{
+    std::string names;
+    for (const MethodInfo& info : methodTable)
+        if (info.output == output)
+            names += (names.empty() ? "" : ", ") + std::string(info.name);
+    return names;
+}
+
+std::string methodList()
+{
+    std::string lines;
+    for (const MethodInfo& info : methodTable)
+        lines += fmt::format("{}{:<18} {}{}", lines.empty() ? "" : "\n", info.name, info.description,
+                             info.output == MethodOutput::signal ? " (writes a WAV file)" : "");
+    return lines;
+}
+
+Error wrongUsage(std::string where, std::string message)
+{
+    return {ErrorCode::invalidArgument, std::move(where), std::move(message)};
+}
 } // namespace
 
 CLI::App* EncodeCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("encode", "Turn recordings into haptic clips");
+    command = app.add_subcommand("encode", "Turn recordings into haptic clips");
+    std::vector<std::string> names;
+    for (const MethodInfo& info : methodTable)
+        names.emplace_back(info.name);
     command->add_option("inputs", inputs, "Audio files, or folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...)")
-        ->required()
         ->type_name("IN");
     command->add_option("-o,--output", output, "File, or folder for several inputs [beside each input]")
         ->type_name("OUT|DIR");
+    command
+        ->add_option("--method", methodName,
+                     "How sound is translated, see --list-methods; lowpass and pitch-shift write drive signals as WAV")
+        ->capture_default_str()
+        ->check(CLI::IsMember(names))
+        ->type_name("NAME");
+    command->add_flag("--list-methods", listMethods, "Say what the methods are and do nothing else");
     command
         ->add_option("--format", format,
                      "json (to read and edit) or packed (small) [by the extension of OUT, else json]")
@@ -92,6 +144,11 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_option("--spacing", spacing, "log or linear bands")
         ->capture_default_str()
         ->check(CLI::IsMember({"log", "linear"}));
+    command
+        ->add_option("--sensitivity", params.onsets.sensitivity,
+                     "Above 1 more and weaker events become transients, below 1 fewer")
+        ->capture_default_str()
+        ->check(numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan,
                       "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
@@ -103,28 +160,87 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
-                    "  pacini encode sounds/ -o clips/ --format packed -j 8");
+                    "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
+                    "  pacini encode door.wav --method thesis --bands 8\n"
+                    "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
     return command;
+}
+
+MethodChoices EncodeCommand::choices() const
+{
+    // Only what the user said: each method has defaults of its own.
+    const auto said = [this]<typename T>(const char* option, T value)
+    {
+        return command->count(option) > 0 ? std::optional<T>(value) : std::nullopt;
+    };
+    MethodChoices chosen;
+    chosen.breakpoints = said("--breakpoints", params.breakpoints);
+    chosen.bands = said("--bands", static_cast<std::size_t>(params.bands));
+    chosen.lowFrequency = said("--low", params.lowFrequency);
+    chosen.highFrequency = said("--high", params.highFrequency);
+    chosen.quantise = said("--quantise", params.quantise);
+    return chosen;
+}
+
+Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
+{
+    if (inputs.empty())
+        return wrongUsage("", "encode: name one or more recordings or folders; 'pacini encode --help' explains");
+    for (const char* option : tunedOptions)
+        if (command->count(option) > 0 && !hasOption(method, option))
+            return wrongUsage(option, fmt::format("is no option of the method {}; leave it out", method.name));
+    if (method.output == MethodOutput::signal)
+    {
+        const std::string clips = methodNames(MethodOutput::clip);
+        if (!format.empty())
+            return wrongUsage("--format", fmt::format("is for clips, but {} writes a WAV file; clips come from {}",
+                                                      method.name, clips));
+        if (const auto extension = lowerExtension(output);
+            std::find(clipExtensions().begin(), clipExtensions().end(), extension) != clipExtensions().end())
+            return wrongUsage(
+                "--output",
+                fmt::format("is named like a clip, but {} writes a WAV file; clips come from {}", method.name, clips));
+        // Results between the recordings would be taken for recordings the next time.
+        const auto isFolder = [](const std::string& input)
+        {
+            std::error_code ignored;
+            return std::filesystem::is_directory(input, ignored);
+        };
+        if (output.empty() && std::any_of(inputs.begin(), inputs.end(), isFolder))
+            return wrongUsage("--output", "is needed: name a folder for the signals");
+    }
+    return validate(params);
 }
 
 Exit EncodeCommand::run(Console& console)
 {
+    if (listMethods)
+    {
+        console.print(methodList());
+        return Exit::ok;
+    }
+    const MethodInfo& method = methodInfo(methodNamed(methodName).value_or(Method::a2vt));
     params.spacing = spacing == "log" ? BandSpacing::logarithmic : BandSpacing::linear;
     params.normalise = !keepLevel;
-    if (auto valid = validate(params); !valid)
+    if (auto valid = checkOptions(method); !valid)
     {
         console.error("", valid.error());
         return Exit::usage;
     }
     EncodeSettings settings;
+    settings.method = method.method;
     settings.params = params;
+    settings.choices = choices();
     settings.reading = {allowTruncated, allowNan};
     settings.force = force;
     const bool packedName = lowerExtension(output) == ".pacb";
     settings.format = format == "packed" || (format.empty() && packedName) ? ClipFormat::packed : ClipFormat::json;
+    std::string extension = settings.format == ClipFormat::packed ? ".pacb" : ".json";
+    if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
+        extension = output.empty() ? fmt::format(".{}.wav", method.name) : ".wav";
 
     const InputFiles found = findInputs(inputs, audioExtensions());
-    auto tasks = makeTasks<EncodeResult>(found, output, settings.format == ClipFormat::packed ? ".pacb" : ".json");
+    auto tasks = makeTasks<EncodeResult>(found, output, extension);
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();

@@ -3,6 +3,7 @@
 #include "cli/Command.h"
 
 #include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/methods/Method.h>
 
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace pacini::cli
 {
 
-/// `pacini encode`: recordings become clips.
+/// `pacini encode`: recordings become clips, or drive signals by methods that make no clip.
 class EncodeCommand : public Command
 {
 public:
@@ -18,7 +19,14 @@ public:
     Exit run(Console& console) override;
 
 private:
+    /// Complains of options that the method does not have.
+    [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
+    [[nodiscard]] MethodChoices choices() const;
+
+    CLI::App* command = nullptr;
     std::vector<std::string> inputs;
+    std::string methodName = "a2vt";
+    bool listMethods = false;
     std::string output;
     std::string format;
     EncoderParams params;

@@ -1,54 +1,134 @@
 #include "cli/EncodeJob.h"
 
-#include "cli/Stopwatch.h"
 #include "cli/Task.h"
 #include "io/AtomicFile.h"
+#include "io/AudioWriter.h"
+
+#include <pacini/analysis/MonoMix.h>
 
 #include <algorithm>
+#include <span>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 namespace pacini::cli
 {
 
 namespace fs = std::filesystem;
 
+namespace
+{
+/// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
+template <typename Visit>
+Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
+{
+    const auto channels = static_cast<std::size_t>(reader.channels());
+    const double expected = static_cast<double>(reader.frames().value_or(0));
+    std::vector<float> buffer(channels * std::max<std::size_t>(1, 65536 / channels));
+    std::uint64_t frames = 0;
+    for (;;)
+    {
+        const auto got = reader.read(buffer);
+        if (!got)
+            return got.error();
+        if (*got == 0)
+            return {};
+        frames += *got;
+        if (static_cast<double>(frames) / reader.sampleRate() > limits::duration)
+            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
+        visit(std::span<const float>(buffer).first(*got * channels));
+        if (expected > 0.0)
+            progress(static_cast<double>(frames) / expected);
+    }
+}
+
+Result<std::vector<float>> readMono(AudioReader& reader, const std::function<void(double)>& progress, Stopwatch& work)
+{
+    std::vector<float> samples;
+    const auto read = forEachPiece(reader, progress,
+                                   [&samples](std::span<const float> piece)
+                                   { samples.insert(samples.end(), piece.begin(), piece.end()); });
+    if (!read)
+        return read.error();
+    work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(reader.channels())); });
+    return samples;
+}
+
+/// Encoder parameters that follow from the sound.
+bool dependsOnSound(const EncoderParameter& parameter)
+{
+    return parameter.name == "gain" || parameter.name == "channelGain";
+}
+} // namespace
+
 EncodeJob::EncodeJob(const EncodeSettings& wanted) : settings(wanted), encoder(wanted.params) {}
 
-Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& output,
-                                    const std::function<void(double)>& progress)
+Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& output, const Progress& progress)
 {
+    const bool makesClip = methodInfo(settings.method).output == MethodOutput::clip;
     EncodeResult result;
-    if (!settings.force && isUpToDate(input, output, result))
+    if (makesClip && !settings.force && isUpToDate(input, output, result))
         return result;
 
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
         return reader.error();
-    const auto channels = static_cast<std::size_t>(reader->channels());
-    const double expected = static_cast<double>(reader->frames().value_or(0));
-
+    const double sampleRate = reader->sampleRate();
     Stopwatch work;
-    work.run([&] { encoder.start(reader->sampleRate(), reader->channels()); });
-    std::vector<float> buffer(channels * std::max<std::size_t>(1, 65536 / channels));
-    std::uint64_t frames = 0;
-    for (;;)
+    Result<void> written;
+    if (settings.method == Method::a2vt)
     {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        frames += *got;
-        if (static_cast<double>(frames) / reader->sampleRate() > limits::duration)
-            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
-        work.run([&] { encoder.push(std::span(buffer).first(*got * channels)); });
-        if (expected > 0.0)
-            progress(static_cast<double>(frames) / expected);
+        auto clip = encodeInPieces(*reader, progress, work);
+        if (!clip)
+            return clip.error();
+        written = writeEncoded(std::move(clip).value(), input, output, work, result);
     }
+    else
+    {
+        const auto mono = readMono(*reader, progress, work);
+        if (!mono)
+            return mono.error();
+        if (makesClip)
+        {
+            Clip clip;
+            work.run([&] { clip = translateToClip(settings.method, *mono, sampleRate, settings.choices); });
+            clip.source.sampleRate = sampleRate;
+            clip.source.channels = reader->channels();
+            written = writeEncoded(std::move(clip), input, output, work, result);
+        }
+        else
+        {
+            std::vector<float> signal;
+            work.run([&] { signal = translateToSignal(settings.method, *mono, sampleRate); });
+            result.duration = static_cast<double>(signal.size()) / sampleRate;
+            const auto report = writeAudio(output, signal, {.sampleRate = reader->sampleRate()});
+            if (!report)
+                return atOutput(output, report.error());
+            result.bytes = static_cast<std::size_t>(report->bytes);
+        }
+    }
+    if (!written)
+        return written.error();
+    result.seconds = work.seconds();
+    result.replacedSamples = reader->replacedSamples();
+    return result;
+}
 
+Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work)
+{
+    work.run([&] { encoder.start(reader.sampleRate(), reader.channels()); });
+    const auto read =
+        forEachPiece(reader, progress, [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
+    if (!read)
+        return read.error();
     Clip clip;
     work.run([&] { clip = encoder.finish(); });
+    return clip;
+}
+
+Result<void> EncodeJob::writeEncoded(Clip clip, const fs::path& input, const fs::path& output, Stopwatch& work,
+                                     EncodeResult& result) const
+{
     clip.source.file = input.filename().string();
     clip.name = input.stem().string();
     // Both formats hold the same data: what lies on the grids of `quantise` bits.
@@ -59,14 +139,21 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
                                                                : writeClip(output, clip, settings.format);
     if (!written)
         return atOutput(output, written.error());
-
     result.bytes = *written;
     result.duration = clip.duration;
-    result.seconds = work.seconds();
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    result.replacedSamples = reader->replacedSamples();
-    return result;
+    return {};
+}
+
+std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
+{
+    if (settings.method == Method::a2vt)
+        return encoderRecord(settings.params);
+    // A method's record depends on its choices and the sample rate, not on the sound: an empty one will do.
+    auto record = translateToClip(settings.method, {}, clip.source.sampleRate, settings.choices).encoder;
+    std::erase_if(record, dependsOnSound);
+    return record;
 }
 
 bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, EncodeResult& result) const
@@ -78,10 +165,12 @@ bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, Encode
     const auto clip = readClip(output);
     if (!clip || clip->source.file != input.filename().string())
         return false;
-    // The gain depends on the sound; everything else must be as it would be written now.
-    for (const EncoderParameter& parameter : encoderRecord(settings.params))
-        if (std::find(clip->encoder.begin(), clip->encoder.end(), parameter) == clip->encoder.end())
-            return false;
+    if (clip->source.sampleRate < limits::lowestSampleRate || clip->source.sampleRate > limits::highestSampleRate)
+        return false;
+    auto record = clip->encoder;
+    std::erase_if(record, dependsOnSound);
+    if (record != expectedRecord(*clip))
+        return false;
     result.upToDate = true;
     result.bytes = static_cast<std::size_t>(fs::file_size(output, error));
     result.duration = clip->duration;

@@ -2,26 +2,31 @@
 
 // Encodes one file into another.
 
+#include "cli/Stopwatch.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 
 #include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/methods/Method.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pacini::cli
 {
 
 struct EncodeSettings
 {
-    EncoderParams params;
+    Method method = Method::a2vt;
+    EncoderParams params;  ///< of a2vt
+    MethodChoices choices; ///< of the other methods
     ClipFormat format = ClipFormat::json;
     AudioReadOptions reading;
-    bool force = false; ///< encode even what is up to date
+    bool force = false; ///< encode even what is up to date; signals, which have no record of their method, always are
 };
 
 /// What came of one file.
@@ -36,20 +41,32 @@ struct EncodeResult
     bool upToDate = false;             ///< nothing was done
 };
 
-/// Encodes files one after another with one set of parameters; keeps filters and transforms between them. One thread
-/// at a time.
+/// Encodes files one after another with one set of parameters; keeps filters and transforms between them. The output is
+/// a clip or, for methods that make signals, a WAV file of 32-bit float samples. a2vt reads a sound piece by piece; the
+/// other methods hold all of it. One thread at a time.
 class EncodeJob
 {
 public:
     explicit EncodeJob(const EncodeSettings& settings);
 
-    /// `progress(share)` is called now and then. Errors: those of AudioReader and writeClip, without the file's name.
+    /// `progress(share)` is called now and then. Errors: those of AudioReader, writeClip and AudioWriter, without the
+    /// file's name; tooLarge beyond 24 hours.
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
                                            const std::function<void(double)>& progress);
 
 private:
+    using Progress = std::function<void(double)>;
+
     [[nodiscard]] bool isUpToDate(const std::filesystem::path& input, const std::filesystem::path& output,
                                   EncodeResult& result) const;
+
+    /// What a clip made now would say of its encoder, without what depends on the sound.
+    [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
+
+    [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work);
+    [[nodiscard]] Result<void> writeEncoded(Clip clip, const std::filesystem::path& input,
+                                            const std::filesystem::path& output, Stopwatch& work,
+                                            EncodeResult& result) const;
 
     EncodeSettings settings;
     Encoder encoder;

@@ -36,6 +36,7 @@ nlohmann::ordered_json toJson(const RenderTask& task)
              {{"innerRate", r.report.innerRate},
               {"carriers", r.report.carriers},
               {"silentBands", r.report.silentBands},
+              {"noiseBands", r.report.noiseBands},
               {"levelled", r.report.levelled},
               {"pulses", r.report.pulses},
               {"maskedTransients", r.report.maskedTransients}}}};
@@ -45,10 +46,10 @@ std::string explanation(const RenderTask& task)
 {
     const DecoderReport& plan = task.result->report;
     return fmt::format("{}:\n"
-                       "  {} sinusoids at an inner rate of {:.0f} Hz{}\n"
+                       "  {} sinusoids and {} bands of noise at an inner rate of {:.0f} Hz{}\n"
                        "  left out: {} silent bands, {} events that the bands reach by themselves\n"
                        "  {} pulses",
-                       printable(task.input.string()), plan.carriers, plan.innerRate,
+                       printable(task.input.string()), plan.carriers, plan.noiseBands, plan.innerRate,
                        plan.levelled ? ", levelled to the envelope" : "", plan.silentBands, plan.maskedTransients,
                        plan.pulses);
 }

@@ -68,7 +68,7 @@ public:
     }
 
     /// Adds a block whose first sample is number `position` (negative before the sound's start).
-    void add(std::int64_t position, std::span<const std::complex<double>> block)
+    void add(std::int64_t position, std::span<const std::complex<float>> block)
     {
         if (samples.empty())
             start = std::min(start, position);
@@ -76,7 +76,7 @@ public:
         if (samples.size() < offset + block.size())
             samples.resize(offset + block.size());
         for (std::size_t i = 0; i < block.size(); ++i)
-            samples[offset + i] += std::complex<float>(block[i]);
+            samples[offset + i] += block[i];
     }
 
     /// Calls `emit(AnalyticFrame)` for every frame whose window ends before sample number `complete`, at most up to

@@ -4,6 +4,9 @@
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/CurveFitter.h>
+#include <pacini/analysis/EventTransients.h>
+#include <pacini/analysis/OnsetDetector.h>
+#include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/filters/RationalDecimator.h>
@@ -30,6 +33,7 @@ struct EncoderParams
     double breakpoints = 20.0; ///< at most this many per second of sound and band, all curves together
     int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive
+    OnsetParams onsets;        ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
 
@@ -48,6 +52,8 @@ struct EncoderParams
         return wrong("breakpoints", "must be 0.5 to 1000 per second and band");
     if (params.quantise < 4 || params.quantise > 16)
         return wrong("quantise", "must be 4 to 16 bits");
+    if (!(params.onsets.sensitivity >= 0.25 && params.onsets.sensitivity <= 4.0))
+        return wrong("sensitivity", "must be 0.25 to 4");
     return {};
 }
 
@@ -65,6 +71,8 @@ struct EncoderParams
         record.push_back({"high", params.highFrequency});
     if (params.spacing != usual.spacing)
         record.push_back({"spacing", std::string("linear")});
+    if (params.onsets.sensitivity != usual.onsets.sensitivity)
+        record.push_back({"sensitivity", params.onsets.sensitivity});
     if (params.normalise != usual.normalise)
         record.push_back({"normalise", params.normalise});
     return record;
@@ -97,6 +105,8 @@ public:
         for (RationalDecimator& decimator : decimators)
             decimator.reset();
         analysis.reset(channelCount);
+        features.emplace(fs, channelCount);
+        detector.emplace(settings.onsets);
     }
 
     /// Takes interleaved samples, whole frames, all finite.
@@ -104,6 +114,8 @@ public:
     {
         const std::size_t count = interleaved.size() / channelCount;
         frames += count;
+        features->push(interleaved);
+        detectOnsets();
         for (std::size_t c = 0; c < channelCount; ++c)
         {
             decimated.resize(channelCount);
@@ -121,7 +133,7 @@ public:
         pushDecimated();
     }
 
-    /// Completes the clip; its curves lie on the grids of `quantise` bits.
+    /// Completes the clip. Packing rounds its values to the grids of `quantise` bits.
     [[nodiscard]] Clip finish()
     {
         for (std::size_t c = 0; c < channelCount; ++c)
@@ -131,17 +143,25 @@ public:
             decimators[c].finish(decimated[c]);
         }
         pushDecimated();
-        return makeClip(analysis.finish());
+        features->finish();
+        detectOnsets();
+        return makeClip(analysis.finish(), detector->finish());
     }
 
 private:
+    void detectOnsets()
+    {
+        detector->push(features->frames());
+        features->drop(features->frames().size());
+    }
+
     void pushDecimated()
     {
         views.assign(decimated.begin(), decimated.end());
         analysis.push(views);
     }
 
-    [[nodiscard]] Clip makeClip(const BandAnalysisResult& found)
+    [[nodiscard]] Clip makeClip(BandAnalysisResult found, const std::vector<Onset>& onsets)
     {
         Clip clip;
         clip.duration = static_cast<double>(frames) / fs;
@@ -155,6 +175,8 @@ private:
         if (found.peak <= silence)
             return clip;
 
+        clip.transients = transientsFrom(onsets, gain);
+        holdDownBetween(onsets, 0.045, BandAnalysisResult::envelopeStep, found.envelope);
         double price = std::pow(20.0 / settings.breakpoints, 1.56);
         fitCurves(clip, found, gain, price);
         const double most = settings.breakpoints * settings.bands * std::max(activeSeconds(found, gain), 0.1);
@@ -255,6 +277,8 @@ private:
     BandAnalysis analysis;
     std::vector<BandEdges> edges;
     CurveFitter fitter;
+    std::optional<OnsetFeatures> features;
+    std::optional<OnsetDetector> detector;
     int fs = 0;
     std::size_t channelCount = 1;
     std::size_t frames = 0;

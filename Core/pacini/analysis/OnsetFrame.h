@@ -13,7 +13,7 @@ namespace pacini
 ///
 /// The bands are octaves below 1800 Hz and two wide bands above: up to 112, 225, 450, 900, 1800 and about 3600 Hz, and
 /// all above. They overlap (12 dB per octave near the edges); only their changes matter here. For a steady tone of any
-/// frequency from 12 Hz up their sum is steady too, within 1.5 dB: no half wave shows as an event.
+/// frequency from 12 Hz up their sum is steady too, within 1.5 dB of its mean: no half wave shows as an event.
 struct OnsetFrame
 {
     static constexpr double rate = 900.0; ///< frames per second, at every sample rate

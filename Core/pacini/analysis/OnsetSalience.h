@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Turns OnsetFrames into a salience per frame; 1 is the threshold of an event.
+/// Turns OnsetFrames into a salience per frame; 1 is the threshold of an event, and what is clearly below it is 0.
 ///
 /// Two measures, the larger counts:
 /// - bands: each band's loudness in the 9 ms from the frame on, less its loudness in the 9 ms before, summed over the

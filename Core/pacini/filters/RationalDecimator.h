@@ -2,6 +2,7 @@
 
 // Streaming conversion of a sound of any rate to a fixed lower rate, for analysis.
 
+#include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
@@ -126,7 +127,7 @@ private:
         {
             const auto phase = static_cast<std::size_t>(produced * step % phases);
             output.push_back(
-                dot(history.data() + (first - historyStart), coefficients.data() + phase * length, length));
+                dotProduct(history.data() + (first - historyStart), coefficients.data() + phase * length, length));
             ++produced;
             first = firstInput();
         }
@@ -137,19 +138,6 @@ private:
 
     /// The first input that frame number `produced` needs.
     [[nodiscard]] std::int64_t firstInput() const noexcept { return produced * step / phases - (taps - 1) / 2; }
-
-    /// Eight partial sums: the order of additions is fixed, and the compiler may use vector registers.
-    static float dot(const float* a, const float* b, std::size_t n) noexcept
-    {
-        float s[8] = {};
-        std::size_t i = 0;
-        for (; i + 8 <= n; i += 8)
-            for (std::size_t k = 0; k < 8; ++k)
-                s[k] += a[i + k] * b[i + k];
-        for (; i < n; ++i)
-            s[0] += a[i] * b[i];
-        return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
-    }
 
     std::int64_t inRate;
     std::int64_t outRate;

@@ -6,6 +6,7 @@
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
+#include <pacini/synthesis/NoiseBank.h>
 #include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/Variation.h>
 
@@ -52,6 +53,7 @@ struct DecoderReport
     double innerRate = 0.0; ///< Hz at which the sinusoids are summed
     std::size_t carriers = 0;
     std::size_t silentBands = 0; ///< left out
+    std::size_t noiseBands = 0;
     bool levelled = false;
     std::size_t pulses = 0;
     std::size_t maskedTransients = 0; ///< left out: the bands reach their level
@@ -92,6 +94,7 @@ public:
         innerRate = fs / static_cast<double>(ratio);
         plan.innerRate = innerRate;
         carriers = CarrierBank(makeCarriers(varied, transposition));
+        noise = NoiseBank(makeNoise(varied, transposition), params.variation.seed);
         if (params.followEnvelope && !varied.envelope.empty())
         {
             leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames);
@@ -118,6 +121,7 @@ public:
     void reset() noexcept
     {
         carriers.reset();
+        noise.reset();
         if (leveller)
             leveller->reset();
         for (CurveReader& reader : envelopeReaders)
@@ -180,6 +184,8 @@ private:
     [[nodiscard]] double highestFrequency(const Clip& clip) const
     {
         double highest = 50.0;
+        for (const NoiseBand& band : clip.noise)
+            highest = std::max(highest, band.highFrequency);
         for (const Band& band : clip.bands)
         {
             highest = std::max(highest, band.centreFrequency);
@@ -237,22 +243,46 @@ private:
         return result;
     }
 
+    [[nodiscard]] std::vector<NoiseCarrier> makeNoise(const Clip& clip, double transposition)
+    {
+        std::vector<NoiseCarrier> result;
+        for (const NoiseBand& band : clip.noise)
+        {
+            const double most = 0.45 * params.sampleRate;
+            const double low = std::min(band.lowFrequency * transposition, most);
+            const double high = std::min(band.highFrequency * transposition, most);
+            NoiseCarrier carrier{{}, 0.5 * (low + high) / innerRate, 0.5 * (high - low) / innerRate};
+            for (const Breakpoint& point : band.amplitude)
+                carrier.amplitude.push_back({point.time * params.stretch * innerRate, point.value * params.gain});
+            if (carrier.amplitude.empty())
+                ++plan.silentBands;
+            else
+                result.push_back(std::move(carrier));
+        }
+        plan.noiseBands = result.size();
+        return result;
+    }
+
     void makeEvents(const Clip& clip, double transposition)
     {
         const double fs = params.sampleRate;
         for (std::size_t i = 0; i < clip.transients.size(); ++i)
         {
             const Transient& transient = clip.transients[i];
-            const double gap = i + 1 < clip.transients.size()
-                                   ? (clip.transients[i + 1].time - transient.time) * params.stretch
-                                   : std::numeric_limits<double>::infinity();
+            double gap = std::numeric_limits<double>::infinity();
+            if (i > 0)
+                gap = transient.time - clip.transients[i - 1].time;
+            if (i + 1 < clip.transients.size())
+                gap = std::min(gap, clip.transients[i + 1].time - transient.time);
+            gap *= params.stretch;
             double level = transient.amplitude;
             if (leveller)
             {
-                // What the bands reach by themselves around the event needs no pulse.
+                // What the bands reach by themselves around the event needs no pulse. The envelope is a mean over 10
+                // ms: they peak at up to twice its value.
                 double reached = 0.0;
                 for (const double after : {0.0, 0.005, 0.010})
-                    reached = std::max(reached, valueAt(clip.envelope, transient.time + after));
+                    reached = std::max(reached, 2.0 * valueAt(clip.envelope, transient.time + after));
                 level = std::sqrt(std::max(level * level - reached * reached, 0.0));
             }
             if (level <= 0.0)
@@ -276,6 +306,7 @@ private:
             std::fill(re.begin(), re.end(), 0.0);
             std::fill(im.begin(), im.end(), 0.0);
             carriers.process(re, im);
+            noise.process(re, im);
             if (leveller)
                 leveller->process(re, im, [this](std::size_t pass) { return envelopeOf(pass); });
             for (std::size_t n = 0; n < hopFrames; ++n)
@@ -317,6 +348,7 @@ private:
     std::size_t ratio = 1;
     double innerRate = 48000.0;
     CarrierBank carriers;
+    NoiseBank noise;
     std::unique_ptr<EnvelopeLeveller> leveller;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
     Curve envelope; // time in inner frames

@@ -124,6 +124,8 @@ private:
 
     const BandLayout layout = designBandLayout(params.layout);
     clip.encoder.push_back({"bands", static_cast<double>(layout.bands())});
+    clip.encoder.push_back({"low", roundedToDigits(layout.centres.front().value, 9)});
+    clip.encoder.push_back({"high", roundedToDigits(layout.centres.back().value, 9)});
     const std::vector<Curve> envelopes = detail::bandEnvelopeTracks(sound, params);
     for (std::size_t k = 0; k < layout.bands(); ++k)
         clip.bands.push_back({layout.lowerEdge(k).value,

@@ -1,0 +1,243 @@
+#include "support/Catch.h"
+#include "support/Measure.h"
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/foundation/Random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace pacini;
+
+namespace
+{
+Clip encode(std::span<const float> interleaved, int fs, int channels = 1, const EncoderParams& params = {},
+            std::size_t block = 65536)
+{
+    Encoder encoder(params);
+    encoder.start(fs, channels);
+    block *= static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; i < interleaved.size(); i += block)
+        encoder.push(interleaved.subspan(i, std::min(block, interleaved.size() - i)));
+    return encoder.finish();
+}
+
+std::vector<float> noise(std::size_t frames, double amplitude, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<float> x(frames);
+    for (float& v : x)
+        v = static_cast<float>(amplitude * random.uniform(-1.0, 1.0));
+    return x;
+}
+
+/// A drum: a sine that falls from 150 to 50 Hz and dies away.
+void addKick(std::vector<float>& x, std::size_t at, double fs, double amplitude)
+{
+    double phase = 0.0;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(0.3 * fs) && at + n < x.size(); ++n)
+    {
+        const double t = static_cast<double>(n) / fs;
+        phase += 2.0 * std::numbers::pi * (50.0 + 100.0 * std::exp(-t / 0.02)) / fs;
+        x[at + n] += static_cast<float>(amplitude * std::exp(-t / 0.06) * std::sin(phase));
+    }
+}
+
+const Band& loudestBand(const Clip& clip, double time)
+{
+    return *std::max_element(clip.bands.begin(), clip.bands.end(),
+                             [&](const Band& a, const Band& b)
+                             { return valueAt(a.amplitude, time) < valueAt(b.amplitude, time); });
+}
+} // namespace
+
+TEST_CASE("A steady tone becomes a level and a pitch", "[analysis][encoder]")
+{
+    for (const double f : {45.0, 110.0, 390.0})
+    {
+        CAPTURE(f);
+        EncoderParams params;
+        params.normalise = false;
+        const Clip clip = encode(test::sine(4 * 44100, f, 44100.0, 0.25), 44100, 1, params);
+        REQUIRE(validate(clip).ok());
+        CHECK(clip.duration == 4.0);
+        CHECK(valueAt(clip.envelope, 2.0) == Approx(0.25).epsilon(0.02));
+        CHECK(valueAt(loudestBand(clip, 2.0).pitch, 2.0) == Approx(f).epsilon(0.01));
+        CHECK(valueAt(clip.centroid, 2.0) == Approx(f).epsilon(0.03));
+        // The cap is 960; each of 14 curves has its ends, and a few points for the start.
+        CHECK(breakpointCount(clip) < 100);
+    }
+}
+
+TEST_CASE("Normalising raises the loudest moment to full drive", "[analysis][encoder]")
+{
+    auto x = test::sine(44100, 100.0, 44100.0, 0.02);
+    for (std::size_t n = 0; n < 8820; ++n) // a sudden start or end would be the loudest moment
+    {
+        x[n] *= static_cast<float>(n) / 8820.0f;
+        x[x.size() - 1 - n] *= static_cast<float>(n) / 8820.0f;
+    }
+    const Clip clip = encode(x, 44100);
+    CHECK(valueAt(clip.envelope, 0.5) == Approx(1.0).epsilon(0.03));
+    const auto gain = std::find_if(clip.encoder.begin(), clip.encoder.end(),
+                                   [](const EncoderParameter& p) { return p.name == "gain"; });
+    REQUIRE(gain != clip.encoder.end());
+    CHECK(std::get<double>(gain->value) == Approx(50.0).epsilon(0.02));
+}
+
+TEST_CASE("Clips do not depend on how the sound is cut into calls", "[analysis][encoder]")
+{
+    auto x = noise(2 * 50000, 0.1, 3);
+    for (std::size_t at : {20000u, 60000u})
+        addKick(x, at, 44100.0, 0.8);
+    const Clip whole = encode(x, 44100, 2);
+    CHECK(encode(x, 44100, 2, {}, 1) == whole);
+    CHECK(encode(x, 44100, 2, {}, 777) == whole);
+    CHECK(whole.transients.size() >= 2);
+}
+
+TEST_CASE("An encoder forgets the sound before", "[analysis][encoder]")
+{
+    const auto tone = test::sine(30000, 70.0, 44100.0, 0.5);
+    Encoder encoder{EncoderParams{}};
+    encoder.start(44100, 1);
+    encoder.push(tone);
+    const Clip first = encoder.finish();
+    encoder.start(96000, 3);
+    encoder.push(noise(90000, 1.0, 5));
+    (void)encoder.finish();
+    encoder.start(44100, 1);
+    encoder.push(tone);
+    CHECK(encoder.finish() == first);
+}
+
+TEST_CASE("Nothing cancels in the mix of channels", "[analysis][encoder]")
+{
+    const auto mono = test::sine(44100, 80.0, 44100.0, 0.5);
+    std::vector<float> antiphase, one;
+    for (float v : mono)
+    {
+        antiphase.insert(antiphase.end(), {v, -v});
+        one.insert(one.end(), {v, 0.0f});
+    }
+    EncoderParams params;
+    params.normalise = false;
+    const double level = valueAt(encode(mono, 44100, 1, params).envelope, 0.5);
+    CHECK(valueAt(encode(antiphase, 44100, 2, params).envelope, 0.5) == Approx(level).epsilon(0.02));
+    CHECK(valueAt(encode(one, 44100, 2, params).envelope, 0.5) == Approx(level / 2.0).epsilon(0.05));
+}
+
+TEST_CASE("Silence, one sample, DC and extreme rates give valid clips", "[analysis][encoder]")
+{
+    for (const int fs : {8000, 11025, 44100, 192000, 384000})
+    {
+        CAPTURE(fs);
+        const std::vector<float> silent(static_cast<std::size_t>(fs) / 2, 0.0f);
+        const Clip silence = encode(silent, fs);
+        CHECK(validate(silence).ok());
+        CHECK(silence.duration == static_cast<double>(fs / 2) / fs);
+        CHECK(breakpointCount(silence) == 0);
+        CHECK(silence.transients.empty());
+
+        const Clip one = encode(std::vector<float>{0.5f}, fs);
+        CHECK(validate(one).ok());
+        CHECK(one.duration == 1.0 / fs);
+
+        const std::vector<float> constant(static_cast<std::size_t>(fs), 0.7f);
+        EncoderParams params;
+        params.normalise = false;
+        const Clip dc = encode(constant, fs, 1, params);
+        CHECK(validate(dc).ok());
+        CHECK(valueAt(dc.envelope, 0.5) < 0.01);
+
+        const Clip tone = encode(test::sine(static_cast<std::size_t>(fs), 100.0, fs, 0.3), fs, 1, params);
+        CHECK(valueAt(tone.envelope, 0.5) == Approx(0.3).epsilon(0.02));
+        CHECK(valueAt(loudestBand(tone, 0.5).pitch, 0.5) == Approx(100.0).epsilon(0.01));
+    }
+    CHECK(encode({}, 44100).duration == 0.0);
+}
+
+TEST_CASE("64 channels and full-scale garbage give valid clips", "[analysis][encoder]")
+{
+    CHECK(validate(encode(noise(64 * 4000, 1.0, 9), 48000, 64)).ok());
+    auto x = noise(44100, 3.0e38, 10);
+    CHECK(validate(encode(x, 44100)).ok());
+    for (float& v : x)
+        v = v > 0.0f ? 1.0f : -1.0f;
+    CHECK(validate(encode(x, 44100)).ok());
+}
+
+TEST_CASE("Every number of bands and both spacings give valid clips within the cap of breakpoints",
+          "[analysis][encoder]")
+{
+    auto x = noise(3 * 44100, 0.3, 21);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] *= static_cast<float>(1.0 + std::sin(0.002 * static_cast<double>(n)));
+    for (const BandSpacing spacing : {BandSpacing::logarithmic, BandSpacing::linear})
+        for (const int bands : {1, 2, 6, 12, 32})
+            for (const double breakpoints : {1.0, 20.0})
+            {
+                CAPTURE(bands, breakpoints);
+                EncoderParams params;
+                params.bands = bands;
+                params.breakpoints = breakpoints;
+                params.spacing = spacing;
+                const Clip clip = encode(x, 44100, 1, params);
+                CHECK(validate(clip).ok());
+                CHECK(clip.bands.size() == static_cast<std::size_t>(bands));
+                // Each curve has two ends whatever the cap.
+                CHECK(static_cast<double>(breakpointCount(clip)) <=
+                      breakpoints * bands * 3.0 + 2.0 * (2.0 * bands + 2.0));
+            }
+}
+
+TEST_CASE("More breakpoints describe a sound better", "[analysis][encoder]")
+{
+    auto x = noise(2 * 44100, 0.3, 4);
+    std::size_t before = 0;
+    for (const double breakpoints : {2.0, 8.0, 20.0, 60.0})
+    {
+        EncoderParams params;
+        params.breakpoints = breakpoints;
+        const std::size_t count = breakpointCount(encode(x, 44100, 1, params));
+        CHECK(count > before);
+        before = count;
+    }
+}
+
+TEST_CASE("Eight identical kicks give eight equal events, loud or quiet", "[analysis][encoder]")
+{
+    for (const double amplitude : {0.9, 0.09})
+    {
+        std::vector<float> x(5 * 44100, 0.0f);
+        for (std::size_t k = 0; k < 8; ++k)
+            addKick(x, 4410 + k * 22050, 44100.0, amplitude);
+        const Clip clip = encode(x, 44100);
+        REQUIRE(clip.transients.size() == 8);
+        for (std::size_t k = 0; k < 8; ++k)
+        {
+            CHECK(clip.transients[k].time == Approx(0.1 + 0.5 * static_cast<double>(k)).margin(0.003));
+            CHECK(clip.transients[k].amplitude == Approx(clip.transients[0].amplitude).epsilon(0.03));
+            CHECK(clip.transients[k].sharpness == Approx(clip.transients[0].sharpness).margin(0.05));
+        }
+    }
+}
+
+TEST_CASE("Wrong parameters are refused by name", "[analysis][encoder]")
+{
+    EncoderParams params;
+    CHECK(validate(params).ok());
+    params.bands = 33;
+    CHECK(validate(params).error().where == "bands");
+    params = {};
+    params.quantise = 3;
+    CHECK(validate(params).error().where == "quantise");
+    params = {};
+    params.breakpoints = std::nan("");
+    CHECK(validate(params).error().where == "breakpoints");
+    params = {};
+    params.lowFrequency = 500.0;
+    params.highFrequency = 100.0;
+    CHECK_FALSE(validate(params).ok());
+}
