@@ -87,10 +87,15 @@ int runCommandLine(int argc, const char* const* argv)
     auto commands = allCommands();
     std::vector<CLI::App*> declared;
     bool quiet = false;
+    const auto addQuiet = [&](CLI::App& where)
+    {
+        where.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+    };
+    addQuiet(app);
     for (auto& command : commands)
     {
         declared.push_back(command->declare(app));
-        declared.back()->add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+        addQuiet(*declared.back());
     }
     try
     {

@@ -148,7 +148,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->add_option("--sensitivity", params.onsets.sensitivity,
                      "Above 1 more and weaker events become transients, below 1 fewer")
         ->capture_default_str()
-        ->check(CLI::Range(0.25, 4.0));
+        ->check(numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan,
                       "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");

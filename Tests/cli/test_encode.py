@@ -99,6 +99,7 @@ class Encode(CommandTest):
     def test_quiet_leaves_only_results_and_errors(self):
         self.put("a.wav", wav(sine(100, 0.2)))
         self.assertEqual(self.succeeds("encode", "a.wav", "--quiet"), "")
+        self.assertEqual(self.succeeds("-q", "encode", "a.wav"), "")
         self.assertEqual(len(self.report("encode", "a.wav", "-q")["files"]), 1)
         self.fails(1, ["encode", "missing.wav", "-q"], "missing.wav: does not exist")
 
@@ -171,8 +172,10 @@ class CommandLine(CommandTest):
         self.fails(2, [], "a command is missing", "encode render info convert", "pacini --help")
         self.fails(2, ["frobnicate"], "'frobnicate' is not a command", "encode render info convert")
         self.fails(2, ["--frobnicate"], "pacini --help")
-        for command in ("encode", "render", "info", "convert"):
+        self.fails(2, ["encode"], "encode: name one or more recordings", "pacini encode --help")
+        for command in ("render", "info", "convert"):
             self.fails(2, [command], command + ": a file to work on is missing", f"pacini {command} --help")
+        for command in ("encode", "render", "info", "convert"):
             self.fails(2, [command, "x", "y", "--frobnicate"], "--frobnicate", f"pacini {command} --help")
 
 

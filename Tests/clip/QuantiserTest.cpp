@@ -3,6 +3,8 @@
 
 #include <pacini/clip/Quantiser.h>
 
+#include <limits>
+
 using namespace pacini;
 
 TEST_CASE("The uniform quantiser gives the golden codes and values", "[clip][golden]")
@@ -53,6 +55,15 @@ TEST_CASE("Levels outside the range saturate instead of wrapping", "[clip]")
     CHECK(levels.code(1e-30) == 0);
     CHECK(levels.code(1e300) > levels.topCode());
     CHECK(levels.value(levels.code(4.0)) == Approx(4.0).epsilon(0.07));
+}
+
+TEST_CASE("Pitches that are none get the lowest code", "[clip]")
+{
+    const PitchQuantiser pitches(6);
+    const auto lowest = pitches.code(PitchQuantiser::lowest);
+    for (double hertz : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})
+        CHECK(pitches.code(hertz) == lowest);
+    CHECK(pitches.code(std::numeric_limits<double>::infinity()) == pitches.code(PitchQuantiser::highest));
 }
 
 TEST_CASE("Codes far outside the range come back as the limits", "[clip]")

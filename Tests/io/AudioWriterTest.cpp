@@ -190,7 +190,7 @@ TEST_CASE("Parameters that no file can hold are refused before anything is writt
     refused("x.wav", {.sampleRate = 384001});
     CHECK(folder.entries() == 0);
     for (int channels : {1, 64})
-        for (int rate : {8000, 384000})
+        for (int rate : {2000, 384000})
             CHECK(writeAudio(folder / "y.wav", samples, {.sampleRate = rate, .channels = channels}).ok());
     CHECK(
         writeAudio(folder / "y.flac", samples, {.sampleRate = 384000, .channels = 8, .encoding = SampleEncoding::pcm24})
