@@ -119,10 +119,10 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     const auto candidate = analyze(pair.candidate, HtsRole::candidate);
     if (const auto* failure = std::get_if<InputFailure>(&candidate))
         return *failure;
-    const auto& [referenceHts, referenceJudge] = std::get<Features>(reference);
-    const auto& [candidateHts, candidateJudge] = std::get<Features>(candidate);
+    const Features& source = std::get<Features>(reference);
+    const Features& target = std::get<Features>(candidate);
 
-    std::vector<double> events = candidateJudge.onsets;
+    std::vector<double> events = target.judge.onsets;
     if (!pair.events.empty())
     {
         const auto clip = readClip(pair.events);
@@ -135,9 +135,9 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     work.run(
         [&]
         {
-            result.hts = compare(referenceHts, candidateHts, HtsMode::translation);
-            result.htsFidelity = compare(referenceHts, candidateHts, HtsMode::fidelity);
-            result.measures = compare(referenceJudge, candidateJudge);
+            result.hts = compare(source.hts, target.hts, HtsMode::translation);
+            result.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
+            result.measures = compare(source.judge, target.judge);
             const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;
             if (onsets == nullptr)
                 return;
