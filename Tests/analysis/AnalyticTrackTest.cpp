@@ -8,7 +8,7 @@ using namespace pacini;
 namespace
 {
 
-using Samples = std::vector<std::complex<double>>;
+using Samples = std::vector<std::complex<float>>;
 
 template <FrameContent content>
 std::vector<AnalyticFrame> drained(AnalyticTrack& track, std::int64_t complete, std::int64_t frames)
@@ -29,7 +29,7 @@ TEST_CASE("The frames of a phasor have its magnitude, power and frequency", "[an
     {
         Samples z(1000);
         for (std::size_t n = 0; n < z.size(); ++n)
-            z[n] = std::polar(0.3, 2.0 * std::numbers::pi * f * static_cast<double>(n) / rate);
+            z[n] = std::complex<float>(std::polar(0.3, 2.0 * std::numbers::pi * f * static_cast<double>(n) / rate));
         AnalyticTrack magnitudes(rate, 0.04, 0.005);
         magnitudes.add(0, z);
         const auto a = drained<FrameContent::magnitude>(magnitudes, everything, 300);
@@ -56,7 +56,7 @@ TEST_CASE("Frames stand where they should, on samples and between them", "[analy
     const int rate = 250;
     Samples ramp(500);
     for (std::size_t n = 0; n < ramp.size(); ++n)
-        ramp[n] = static_cast<double>(n);
+        ramp[n] = static_cast<float>(n);
     for (const double step : {0.004, 0.006, 0.020, 0.030})
     {
         AnalyticTrack track(rate, 0.040, step);
@@ -78,8 +78,8 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
     Random random(7);
     Samples whole(2000);
     for (auto& z : whole)
-        z = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-    whole.back() = 0.0; // the rotation from the last sample on is unknown, so it does not count
+        z = std::complex<float>(std::complex(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+    whole.back() = 0.0f; // the rotation from the last sample on is unknown, so it does not count
     AnalyticTrack once(1000, 0.02, 0.005);
     once.add(-100, whole);
     const auto expected = drained<FrameContent::powerAndRotation>(once, everything, 380);
@@ -94,7 +94,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
         {
             const double rise = (static_cast<double>(i % 200) + 0.5) / 200.0;
             const double weight = i >= 200 ? 1.0 - rise : begin == 0 ? 1.0 : rise;
-            block[i] = weight * whole[begin + i];
+            block[i] = static_cast<float>(weight) * whole[begin + i];
         }
         track.add(static_cast<std::int64_t>(begin) - 100, block);
         const auto more =
@@ -122,7 +122,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
 TEST_CASE("Samples outside the blocks count as silence", "[analysis]")
 {
     AnalyticTrack track(1000, 0.02, 0.005);
-    track.add(0, Samples(100, 1.0));
+    track.add(0, Samples(100, 1.0f));
     const auto frames = drained<FrameContent::magnitude>(track, everything, 40);
     REQUIRE(frames.size() == 40);
     CHECK(frames[0].magnitude == Approx(0.5).margin(0.06)); // half of the window is before the start
