@@ -261,6 +261,21 @@ TEST_CASE("Samples that are no numbers are named by frame and channel, or replac
     }
 }
 
+TEST_CASE("Samples far beyond any full scale are damage, not sound", "[io][audio]")
+{
+    const TempFolder folder;
+    const auto file = [](float value)
+    {
+        return wavBytes({.bits = 32, .tag = 3}, float32(std::vector<float>{0.5f, value}));
+    };
+    const auto error = failureOf(folder, file(-1e30f));
+    CHECK(error.code == ErrorCode::notFinite);
+    CHECK(error.where == "frame 1, channel 0");
+    CHECK(error.message == "is -1e+30, far beyond full scale (counted from 0); repair the file or allow NaN");
+    CHECK(readAudio(put(folder / "x", file(-1e30f)), nanAllowed)->replacedSamples == 1);
+    CHECK(readAudio(put(folder / "x", file(limits::sample)))->samples[1] == limits::sample);
+}
+
 TEST_CASE("More frames than allowed are refused", "[io][audio]")
 {
     const TempFolder folder;

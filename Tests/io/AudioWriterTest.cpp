@@ -35,7 +35,7 @@ TEST_CASE("Float samples come back bit by bit, beyond full scale too", "[io][aud
 {
     const TempFolder folder;
     auto samples = ramp(6000);
-    samples[0] = 1e11f;
+    samples[0] = limits::sample;
     samples[1] = -3.25f;
     samples[2] = std::numeric_limits<float>::denorm_min();
     const auto report = writeAudio(folder / "x.wav", samples, {.sampleRate = 44100, .channels = 3});
