@@ -155,8 +155,7 @@ Exit BenchCommand::run(Console& console)
     {
         report.means = report.rows.overSounds();
         if (!json)
-            console.print(
-                fmt::format("{}, means over {} sounds\n{}", report.bench.title, report.sounds, report.means.aligned()));
+            console.print(fmt::format("{}, {}\n{}", report.bench.title, overText(report), report.means.aligned()));
         object["benches"].push_back(toJson(report));
         page += "\n" + toMarkdown(report);
         auto files = writeReport(report, output, format);

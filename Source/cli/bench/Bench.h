@@ -14,7 +14,7 @@ namespace pacini::cli
 
 struct BenchSettings
 {
-    int repeats = 3;    ///< see timed()
+    int repeats = 5;    ///< see timed()
     bool sweep = false; ///< also Pacini's own method at many settings
 };
 

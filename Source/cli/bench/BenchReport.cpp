@@ -28,7 +28,7 @@ plot::WorkPrecisionFigure makeFigure(const BenchReport& report, const BenchFigur
     const BenchTable table = wanted.filter.empty() ? report.means : report.means.where(wanted.filter, wanted.value);
     plot::WorkPrecisionFigure figure;
     figure.title = wanted.title;
-    figure.subtitle = fmt::format("pacini bench {}, means over {} sounds", report.bench.name, report.sounds);
+    figure.subtitle = fmt::format("pacini bench {}, {}", report.bench.name, overText(report));
     figure.workTitle = titleOf(table, wanted.x);
     figure.errorTitle = titleOf(table, wanted.y);
     for (std::size_t r = 0; r < table.rows(); ++r)
@@ -44,6 +44,11 @@ plot::WorkPrecisionFigure makeFigure(const BenchReport& report, const BenchFigur
     return figure;
 }
 } // namespace
+
+std::string overText(const BenchReport& report)
+{
+    return report.sounds == 1 ? "one sound" : fmt::format("means over {} sounds", report.sounds);
+}
 
 nlohmann::ordered_json toJson(const BenchReport& report)
 {
@@ -95,7 +100,9 @@ Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report
     const std::string& name = report.bench.name;
     if (const auto done = write(name + ".csv", report.rows.csv()); !done)
         return done.error();
-    if (const auto done = write(name + ".json", toJson(report).dump(1) + "\n"); !done)
+    if (const auto done =
+            write(name + ".json", toJson(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        !done)
         return done.error();
     for (const BenchFigure& figure : report.bench.figures)
     {

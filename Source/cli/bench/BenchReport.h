@@ -36,6 +36,9 @@ struct BenchReport
     std::size_t sounds = 0;
 };
 
+/// "one sound" or "means over 8 sounds".
+[[nodiscard]] std::string overText(const BenchReport& report);
+
 /// {"bench", "title", "note", "sounds", "units", "means": [...], "rows": [...]}.
 [[nodiscard]] nlohmann::ordered_json toJson(const BenchReport& report);
 

@@ -108,17 +108,23 @@ public:
     {
     }
 
-    void clip(const std::string& method, const std::string& variant, const std::function<Clip()>& encode)
+    void clip(const std::string& method, const std::string& variant, bool statesEvents,
+              const std::function<Clip()>& encode)
     {
         const auto encoded = timed(settings.repeats, [&] { return packed(encode(), sound); });
         const Clip clip = unpackClip(encoded.result.bytes).value();
         const auto rendered = timed(settings.repeats, [&] { return decoded(clip); });
-        std::vector<double> stated;
-        for (const Transient& transient : clip.transients)
-            stated.push_back(transient.time);
+        EventCounts stated;
+        if (statesEvents)
+        {
+            std::vector<double> times;
+            for (const Transient& transient : clip.transients)
+                times.push_back(transient.time);
+            stated = countEvents(sound, times);
+        }
         const auto bytes = static_cast<double>(encoded.result.bytes.size());
         add(method, variant, bytes / sound.duration(), static_cast<double>(breakpointCount(clip)) / sound.duration(),
-            encoded.seconds, rendered.seconds, judges.of(rendered.result, candidateRate), countEvents(sound, stated));
+            encoded.seconds, rendered.seconds, judges.of(rendered.result, candidateRate), stated);
     }
 
     void signal(const std::string& method, const std::function<std::vector<float>()>& translate)
@@ -161,7 +167,7 @@ std::string settingText(const EncoderParams& params)
 void measureOwn(Measurement& measurement, const BenchSound& sound, const EncoderParams& params)
 {
     Encoder encoder(params); // kept between sounds by `pacini encode`, so its making is not timed
-    measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params),
+    measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params), true,
                      [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
 }
 
@@ -181,7 +187,8 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
         if (info.output == MethodOutput::signal)
             measurement.signal(name, [&] { return translateToSignal(info.method, mix(), fs); });
         else if (info.method != Method::a2vt)
-            measurement.clip(name, "", [&] { return translateToClip(info.method, mix(), fs); });
+            measurement.clip(name, "", info.method == Method::thesis,
+                             [&] { return translateToClip(info.method, mix(), fs); });
     }
     if (!settings.sweep)
         return;
