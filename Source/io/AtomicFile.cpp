@@ -31,11 +31,11 @@ fs::path temporaryName(const fs::path& target, unsigned number)
 }
 } // namespace
 
-AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath)
+AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath, TemporaryEntry entry)
     : file(std::move(stream)),
       temporary(std::move(temporaryPath)),
       target(std::move(targetPath)),
-      listed(temporary.empty() ? TemporaryEntry() : TemporaryEntry(temporary))
+      listed(std::move(entry))
 {
 }
 
@@ -68,7 +68,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
         auto device = openStream(wanted, "wb");
         if (!device)
             return fileError(errno);
-        return AtomicFile(std::move(device), {}, wanted);
+        return AtomicFile(std::move(device), {}, wanted, {});
     }
     if (fs::exists(status) && (status.permissions() & fs::perms(0222)) == fs::perms::none)
         return Error{ErrorCode::io, "", "is marked read-only; choose another name or make it writable"};
@@ -82,6 +82,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
     for (int attempt = 0; attempt < 100; ++attempt)
     {
         auto temporary = temporaryName(target, random());
+        TemporaryEntry entry(temporary); // listed before it exists: a signal may come in between
         auto stream = openStream(temporary, "wbx");
         if (!stream && errno == EEXIST)
             continue;
@@ -91,7 +92,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
             return fileError(errno);
         if (fs::exists(status))
             fs::permissions(temporary, status.permissions(), unknown);
-        return AtomicFile(std::move(stream), std::move(temporary), std::move(target));
+        return AtomicFile(std::move(stream), std::move(temporary), std::move(target), std::move(entry));
     }
     return Error{ErrorCode::io, "", "the folder is full of old .pacini-XXXX.tmp files; remove them"};
 }

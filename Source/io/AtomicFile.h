@@ -49,7 +49,8 @@ public:
     [[nodiscard]] Result<void> commit();
 
 private:
-    AtomicFile(FileHandle stream, std::filesystem::path temporaryPath, std::filesystem::path targetPath);
+    AtomicFile(FileHandle stream, std::filesystem::path temporaryPath, std::filesystem::path targetPath,
+               TemporaryEntry entry);
     void removeTemporary() noexcept;
 
     FileHandle file;
