@@ -18,7 +18,8 @@ namespace pacini
 /// Interpolation by a whole factor with a windowed-sinc filter in polyphase form (Crochiere and Rabiner, "Multirate
 /// Digital Signal Processing", 1983, ch. 2): every output frame costs `taps` products. Linear phase; the delay is
 /// latencyFrames() output frames. Frequencies up to `pass` (cycles per input frame) keep their level within 0.01 dB,
-/// images are 70 dB down or more, 79 dB for `pass` of 0.3 and above, where the filters are long. Not a DspBlock: it has more output than input.
+/// images are 70 dB down or more, 79 dB for `pass` of 0.3 and above, where the filters are long. Not a DspBlock: it has
+/// more output than input.
 class PolyphaseInterpolator
 {
 public:
