@@ -185,7 +185,7 @@ MethodChoices EncodeCommand::choices() const
 Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
 {
     if (inputs.empty())
-        return wrongUsage("", "encode: name one or more recordings or folders; 'pacini encode --help' explains");
+        return wrongUsage("encode", "a file to work on is missing; try 'pacini encode --help'");
     for (const char* option : tunedOptions)
         if (command->count(option) > 0 && !hasOption(method, option))
             return wrongUsage(option, fmt::format("is no option of the method {}; leave it out", method.name));
