@@ -18,6 +18,17 @@ std::vector<AnalyticFrame> drained(AnalyticTrack& track, std::int64_t complete, 
     return found;
 }
 
+void add(AnalyticTrack& track, std::int64_t position, const Samples& block)
+{
+    std::vector<float> re, im;
+    for (const auto& z : block)
+    {
+        re.push_back(z.real());
+        im.push_back(z.imag());
+    }
+    track.add(position, re, im);
+}
+
 constexpr std::int64_t everything = std::int64_t(1) << 40;
 
 } // namespace
@@ -31,10 +42,10 @@ TEST_CASE("The frames of a phasor have its magnitude, power and frequency", "[an
         for (std::size_t n = 0; n < z.size(); ++n)
             z[n] = std::complex<float>(std::polar(0.3, 2.0 * std::numbers::pi * f * static_cast<double>(n) / rate));
         AnalyticTrack magnitudes(rate, 0.04, 0.005);
-        magnitudes.add(0, z);
+        add(magnitudes, 0, z);
         const auto a = drained<FrameContent::magnitude>(magnitudes, everything, 300);
         AnalyticTrack powers(rate, 0.04, 0.005);
-        powers.add(0, z);
+        add(powers, 0, z);
         const auto b = drained<FrameContent::powerAndRotation>(powers, everything, 300);
         REQUIRE(a.size() == 300);
         REQUIRE(b.size() == 300);
@@ -60,7 +71,7 @@ TEST_CASE("Frames stand where they should, on samples and between them", "[analy
     for (const double step : {0.004, 0.006, 0.020, 0.030})
     {
         AnalyticTrack track(rate, 0.040, step);
-        track.add(0, ramp);
+        add(track, 0, ramp);
         const auto frames = drained<FrameContent::magnitude>(track, everything, 60);
         REQUIRE(frames.size() == 60);
         for (std::size_t i = 0; i < frames.size(); ++i)
@@ -81,7 +92,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
         z = std::complex<float>(std::complex(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
     whole.back() = 0.0f; // the rotation from the last sample on is unknown, so it does not count
     AnalyticTrack once(1000, 0.02, 0.005);
-    once.add(-100, whole);
+    add(once, -100, whole);
     const auto expected = drained<FrameContent::powerAndRotation>(once, everything, 380);
 
     // Blocks of 400 every 200 that fade into each other.
@@ -96,7 +107,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
             const double weight = i >= 200 ? 1.0 - rise : begin == 0 ? 1.0 : rise;
             block[i] = static_cast<float>(weight) * whole[begin + i];
         }
-        track.add(static_cast<std::int64_t>(begin) - 100, block);
+        add(track, static_cast<std::int64_t>(begin) - 100, block);
         const auto more =
             drained<FrameContent::powerAndRotation>(track, static_cast<std::int64_t>(begin) + 200 - 100, 380);
         frames.insert(frames.end(), more.begin(), more.end());
@@ -112,7 +123,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
     }
 
     track.reset();
-    track.add(-100, whole);
+    add(track, -100, whole);
     const auto again = drained<FrameContent::powerAndRotation>(track, everything, 380);
     REQUIRE(again.size() == expected.size());
     for (std::size_t i = 0; i < again.size(); ++i)
@@ -122,7 +133,7 @@ TEST_CASE("Blocks add up to what all of it at once gives", "[analysis]")
 TEST_CASE("Samples outside the blocks count as silence", "[analysis]")
 {
     AnalyticTrack track(1000, 0.02, 0.005);
-    track.add(0, Samples(100, 1.0f));
+    add(track, 0, Samples(100, 1.0f));
     const auto frames = drained<FrameContent::magnitude>(track, everything, 40);
     REQUIRE(frames.size() == 40);
     CHECK(frames[0].magnitude == Approx(0.5).margin(0.06)); // half of the window is before the start

@@ -67,16 +67,17 @@ public:
         nextFrame = 0;
     }
 
-    /// Adds a block whose first sample is number `position` (negative before the sound's start).
-    void add(std::int64_t position, std::span<const std::complex<float>> block)
+    /// Adds a block, real and imaginary parts of one length, whose first sample is number `position` (negative before
+    /// the sound's start).
+    void add(std::int64_t position, std::span<const float> re, std::span<const float> im)
     {
         if (samples.empty())
             start = std::min(start, position);
         const auto offset = static_cast<std::size_t>(position - start);
-        if (samples.size() < offset + block.size())
-            samples.resize(offset + block.size());
-        for (std::size_t i = 0; i < block.size(); ++i)
-            samples[offset + i] += block[i];
+        if (samples.size() < offset + re.size())
+            samples.resize(offset + re.size());
+        for (std::size_t i = 0; i < re.size(); ++i)
+            samples[offset + i] += std::complex(re[i], im[i]);
     }
 
     /// Calls `emit(AnalyticFrame)` for every frame whose window ends before sample number `complete`, at most up to

@@ -4,12 +4,11 @@
 
 #include <pacini/analysis/AnalyticTrack.h>
 #include <pacini/analysis/BandFades.h>
-#include <pacini/foundation/Fft.h>
+#include <pacini/foundation/SplitRealFft.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -119,20 +118,18 @@ private:
     static constexpr std::size_t hopFrames = bodyFrames - fadeFrames;
     static constexpr int envelopeRate = 2000;
 
-    using Complex = std::complex<float>;
-
     /// Transform and weights of one range of bins.
     struct BinRange
     {
         std::size_t first = 0;
         std::vector<float> weights; // with the scale of the transforms and the 2 of analytic signals
-        ComplexFft<float> inverse;
+        SplitFft<float> inverse;
     };
 
     /// Everything that depends on the size of a block; short sounds take a short block.
     struct Plan
     {
-        RealFft<float> forward;
+        SplitRealFft<float> forward;
         BinRange wide;
         std::vector<BinRange> bands;
     };
@@ -142,7 +139,7 @@ private:
     [[nodiscard]] BinRange makeRange(std::size_t size, std::size_t firstBand, std::size_t lastBand, int rate) const
     {
         const double binWidth = static_cast<double>(analysisRate) / static_cast<double>(size);
-        BinRange range{0, {}, ComplexFft<float>(size * static_cast<std::size_t>(rate) / analysisRate)};
+        BinRange range{0, {}, SplitFft<float>(size * static_cast<std::size_t>(rate) / analysisRate)};
         range.first = static_cast<std::size_t>(std::max(1.0, std::ceil(fades.lowestFrequency(firstBand) / binWidth)));
         const auto last = static_cast<std::size_t>(fades.highestFrequency(lastBand) / binWidth);
         const std::size_t end = std::min({last + 1, size / 2, range.first + range.inverse.size()});
@@ -161,8 +158,8 @@ private:
         for (const auto& plan : plans)
             if (plan->forward.size() == size)
                 return *plan;
-        auto plan =
-            std::make_unique<Plan>(Plan{RealFft<float>(size), makeRange(size, 0, bandCount() - 1, envelopeRate), {}});
+        auto plan = std::make_unique<Plan>(
+            Plan{SplitRealFft<float>(size), makeRange(size, 0, bandCount() - 1, envelopeRate), {}});
         for (std::size_t k = 0; k < bandCount(); ++k)
             plan->bands.push_back(makeRange(size, k, k, tracks[k].rate()));
         plans.push_back(std::move(plan));
@@ -190,8 +187,9 @@ private:
                 block[guardFrames + i] *= fadeIn[i];
             for (std::size_t i = hopFrames; !last && i < frames; ++i)
                 block[guardFrames + i] *= 1.0f - fadeIn[i - hopFrames];
-            spectra[c].resize(plan.forward.bins());
-            plan.forward.forward(block, spectra[c]);
+            spectra[c].re.resize(plan.forward.bins());
+            spectra[c].im.resize(plan.forward.bins());
+            plan.forward.forward(block.data(), spectra[c].re.data(), spectra[c].im.data());
         }
         if (spectra.size() > 1)
             mixChannels(plan);
@@ -200,11 +198,11 @@ private:
         const std::int64_t complete =
             last ? std::numeric_limits<std::int64_t>::max() / 2
                  : blockStart + static_cast<std::int64_t>(hopFrames) - static_cast<std::int64_t>(guardFrames);
-        const auto feed =
-            [&]<FrameContent content>(const BinRange& range, AnalyticTrack& track, double step, auto&& emit)
+        const auto feed = [&]<FrameContent content>(BinRange& range, AnalyticTrack& track, double step, auto&& emit)
         {
             const std::int64_t perSample = analysisRate / track.rate();
-            track.add((blockStart - static_cast<std::int64_t>(guardFrames)) / perSample, analytic(range, size));
+            computeAnalytic(range, size);
+            track.add((blockStart - static_cast<std::int64_t>(guardFrames)) / perSample, part.re, part.im);
             const auto frameCount =
                 static_cast<std::int64_t>(std::floor(static_cast<double>(received) / analysisRate / step + 1e-9)) + 1;
             track.drain<content>(complete / perSample, frameCount, emit);
@@ -225,9 +223,9 @@ private:
         }
     }
 
-    /// The analytic signal of a range of bins, turned down by the frequency of its first bin and by the same phase in
-    /// every block, so that blocks add up.
-    std::span<const Complex> analytic(const BinRange& range, std::size_t size)
+    /// Fills `part` with the analytic signal of a range of bins, turned down by the frequency of its first bin and by
+    /// the same phase in every block, so that blocks add up.
+    void computeAnalytic(BinRange& range, std::size_t size)
     {
         const std::size_t n = range.inverse.size();
         const double turns = static_cast<double>(range.first) *
@@ -236,16 +234,19 @@ private:
         const double angle = -2.0 * std::numbers::pi * (turns - std::floor(turns));
         const auto c = static_cast<float>(std::cos(angle));
         const auto s = static_cast<float>(std::sin(angle));
-        bins.assign(n, {});
-        for (std::size_t i = 0; i < range.weights.size(); ++i)
+        for (auto* array : {&bins.re, &bins.im, &part.re, &part.im})
+            array->resize(n);
+        const float* re = spectra.front().re.data() + range.first;
+        const float* im = spectra.front().im.data() + range.first;
+        const std::size_t used = range.weights.size();
+        for (std::size_t i = 0; i < used; ++i)
         {
-            const Complex x = spectra.front()[range.first + i];
-            bins[i] = {range.weights[i] * (x.real() * c - x.imag() * s),
-                       range.weights[i] * (x.real() * s + x.imag() * c)};
+            bins.re[i] = range.weights[i] * (re[i] * c - im[i] * s);
+            bins.im[i] = range.weights[i] * (re[i] * s + im[i] * c);
         }
-        part.resize(n);
-        range.inverse.inverse(bins, part);
-        return part;
+        std::fill(bins.re.begin() + static_cast<std::ptrdiff_t>(used), bins.re.end(), 0.0f);
+        std::fill(bins.im.begin() + static_cast<std::ptrdiff_t>(used), bins.im.end(), 0.0f);
+        range.inverse.inverse(bins.re.data(), bins.im.data(), part.re.data(), part.im.data());
     }
 
     /// Mixes all channels into spectra.front(): the mean, except in bands where the mean has lost more than half of the
@@ -253,23 +254,31 @@ private:
     void mixChannels(const Plan& plan)
     {
         const auto n = static_cast<float>(spectra.size());
-        mixed.assign(spectra.front().size(), {});
+        const std::size_t size = spectra.front().re.size();
+        SplitArray<float> mean(size);
         for (const auto& spectrum : spectra)
-            for (std::size_t b = 0; b < mixed.size(); ++b)
-                mixed[b] += spectrum[b] / n;
-        const std::vector<Complex> mean = mixed;
+            for (std::size_t b = 0; b < size; ++b)
+            {
+                mean.re[b] += spectrum.re[b] / n;
+                mean.im[b] += spectrum.im[b] / n;
+            }
+        SplitArray<float> mixed = mean;
         for (const BinRange& range : plan.bands)
         {
-            const auto powerOf = [&](const std::vector<Complex>& spectrum)
+            const auto powerOf = [&](const SplitArray<float>& spectrum)
             {
                 double power = 0.0;
                 for (std::size_t i = 0; i < range.weights.size(); ++i)
-                    power += static_cast<double>(range.weights[i] * std::norm(spectrum[range.first + i]));
+                {
+                    const float re = spectrum.re[range.first + i];
+                    const float im = spectrum.im[range.first + i];
+                    power += static_cast<double>(range.weights[i] * (re * re + im * im));
+                }
                 return power;
             };
             double total = 0.0;
             double strongest = -1.0;
-            const std::vector<Complex>* loudest = nullptr;
+            const SplitArray<float>* loudest = nullptr;
             for (const auto& spectrum : spectra)
             {
                 const double power = powerOf(spectrum);
@@ -280,17 +289,18 @@ private:
                     loudest = &spectrum;
                 }
             }
-            const double kept =
-                total > 0.0 ? powerOf(mean) * static_cast<double>(n * n) / total : 1.0; // 1 for unrelated channels
+            const double kept = total > 0.0 ? powerOf(mean) * static_cast<double>(n * n) / total : 1.0; // 1: unrelated
             const auto share = static_cast<float>(std::clamp((0.5 - kept) / 0.25, 0.0, 1.0));
-            const auto scale = static_cast<float>(mean.size() - 1); // size / 2: takes the scale out of the weights
+            const auto scale = static_cast<float>(size - 1); // half the transform: takes its scale out of the weights
             for (std::size_t i = 0; share > 0.0f && i < range.weights.size(); ++i)
             {
                 const std::size_t b = range.first + i;
-                mixed[b] += share * range.weights[i] * scale * ((*loudest)[b] - mean[b]);
+                const float weight = share * range.weights[i] * scale;
+                mixed.re[b] += weight * (loudest->re[b] - mean.re[b]);
+                mixed.im[b] += weight * (loudest->im[b] - mean.im[b]);
             }
         }
-        spectra.front() = mixed;
+        spectra.front() = std::move(mixed);
     }
 
     static void emitBand(BandAnalysisResult::Track& track, const AnalyticFrame& frame, double base, int rate)
@@ -324,8 +334,8 @@ private:
     BandAnalysisResult output;
 
     std::vector<float> block;
-    std::vector<std::vector<Complex>> spectra;
-    std::vector<Complex> mixed, bins, part;
+    std::vector<SplitArray<float>> spectra;
+    SplitArray<float> bins, part;
 };
 
 } // namespace pacini

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -98,17 +99,21 @@ private:
             return;
         }
         const double half = 0.5 * static_cast<double>(length);
+        const KaiserWindow window(beta);
+        const double turn = 2.0 * std::numbers::pi * cutoff; // of the sinc's sine, per sample
+        const std::complex<double> rotation(std::cos(turn), std::sin(turn));
         for (int p = 0; p < phases; ++p)
         {
             const double fraction = static_cast<double>(p) / static_cast<double>(phases);
             std::vector<double> row(static_cast<std::size_t>(length));
             double sum = 0.0;
+            auto wave = std::polar(1.0, turn * (-static_cast<double>((length - 1) / 2) - fraction));
             for (int i = 0; i < length; ++i)
             {
                 const double t = static_cast<double>(i - (length - 1) / 2) - fraction; // samples from the centre
-                const double x = 2.0 * cutoff * t;
-                const double sinc = std::abs(x) < 1e-12 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
-                row[static_cast<std::size_t>(i)] = sinc * kaiser(t / half, beta);
+                const double sinc = std::abs(t) < 1e-9 ? 1.0 : wave.imag() / (turn * t);
+                wave *= rotation;
+                row[static_cast<std::size_t>(i)] = sinc * window.at(t / half);
                 sum += row[static_cast<std::size_t>(i)];
             }
             for (int i = 0; i < length; ++i) // unit gain at DC in every phase

@@ -56,11 +56,36 @@ namespace pacini
     return 0.0;
 }
 
-/// Kaiser window value at position u in [-1, 1] (0 outside) for the shape `beta`.
-[[nodiscard]] inline double kaiser(double u, double beta)
+/// The Kaiser window I0(beta sqrt(1 - u^2)) / I0(beta). I0 is a power series in the square of its argument, so the
+/// window is a polynomial in 1 - u^2, whose coefficients are found once: filters need thousands of values.
+class KaiserWindow
 {
-    const double rest = 1.0 - u * u;
-    return rest < 0.0 ? 0.0 : besselI0(beta * std::sqrt(rest)) / besselI0(beta);
-}
+public:
+    explicit KaiserWindow(double beta)
+    {
+        const double scale = 1.0 / besselI0(beta);
+        double term = scale;
+        for (int k = 1; term > 1e-18; ++k)
+        {
+            coefficients.push_back(term);
+            term *= beta * beta / 4.0 / (static_cast<double>(k) * static_cast<double>(k));
+        }
+    }
+
+    /// The value at position u in [-1, 1], 0 outside.
+    [[nodiscard]] double at(double u) const noexcept
+    {
+        const double w = 1.0 - u * u;
+        if (w < 0.0)
+            return 0.0;
+        double value = 0.0;
+        for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c)
+            value = value * w + *c;
+        return value;
+    }
+
+private:
+    std::vector<double> coefficients;
+};
 
 } // namespace pacini
