@@ -1,0 +1,417 @@
+#pragma once
+
+// The contents of a packed clip, written and read by one description.
+
+#include <pacini/clip/BandPriority.h>
+#include <pacini/clip/BandTiling.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/clip/ClipText.h>
+#include <pacini/clip/PackedCurves.h>
+#include <pacini/clip/PackedText.h>
+#include <pacini/clip/Quantiser.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <climits>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
+struct PackParams
+{
+    int bits = 12;                       ///< 4 to 16
+    std::uint32_t ticksPerSecond = 1000; ///< 1 to 1 000 000
+    bool operator==(const PackParams&) const = default;
+};
+
+namespace detail
+{
+
+/// Codes a whole clip both ways: with a RangeWriter it writes the clip that it is given, with a RangeReader it fills
+/// one.
+template <typename Coder>
+class ClipCoder
+{
+public:
+    /// `inputBytes` bounds what a reader believes: no real clip has more than 512 points per byte.
+    ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / 512)
+        : coder(coderToUse),
+          params(packParams),
+          levelQuantiser(params.bits),
+          pitches(params.bits),
+          sharpnesses(params.bits, 0.0, 1.0),
+          mostPoints(std::min(limits::points, 512 * (inputBytes + 8)))
+    {
+    }
+
+    /// Returns false when the input is damaged beyond use.
+    bool code(Clip& clip)
+    {
+        codeDuration(clip);
+        if (failed)
+            return false;
+        codeCurves(clip);
+        codeTransients(clip);
+        codeNoise(clip);
+        codeTexts(clip);
+        return !failed;
+    }
+
+private:
+    static constexpr bool reading = Coder::reading;
+
+    // ---- numbers
+
+    std::uint64_t number(std::uint64_t value, double typical)
+    {
+        AdaptiveNumber model(typical);
+        return model.code(coder, value);
+    }
+
+    std::uint64_t raw(std::uint64_t value, int bits)
+    {
+        std::uint64_t result = 0;
+        for (int i = bits - 1; i >= 0; --i)
+            result = (result << 1) | static_cast<std::uint64_t>(coder.bit(((value >> i) & 1u) != 0));
+        return result;
+    }
+
+    /// A double as a small whole number where it is one, else bit for bit.
+    double exact(double value)
+    {
+        const bool small = value >= 0.0 && value < 1048576.0 && value == std::floor(value) && !std::signbit(value);
+        if (coder.bit(small, wholeModel))
+            return static_cast<double>(number(small ? static_cast<std::uint64_t>(value) : 0, 1000.0));
+        return std::bit_cast<double>(raw(std::bit_cast<std::uint64_t>(value), 64));
+    }
+
+    // ---- time
+
+    void codeDuration(Clip& clip)
+    {
+        clip.source.sampleRate = codeSampleRate(clip.source.sampleRate);
+        clip.source.channels = static_cast<int>(std::min<std::uint64_t>(
+            number(static_cast<std::uint64_t>(std::max(clip.source.channels, 0)), 1.0), 1u << 30));
+        // A whole number of frames of the source, or any number.
+        const double fs = clip.source.sampleRate;
+        const double frames = std::round(clip.duration * fs);
+        const bool whole = fs > 0.0 && frames < 1e12 && frames / fs == clip.duration;
+        if (coder.bit(whole, wholeDurationModel))
+            clip.duration = static_cast<double>(number(whole ? static_cast<std::uint64_t>(frames) : 0, 100000.0)) / fs;
+        else
+            clip.duration = std::bit_cast<double>(raw(std::bit_cast<std::uint64_t>(clip.duration), 64));
+        if (!std::isfinite(clip.duration) || clip.duration < 0.0 || clip.duration > limits::duration)
+        {
+            failed = true;
+            return;
+        }
+        lastTick = static_cast<std::int64_t>(std::floor(clip.duration * params.ticksPerSecond + 1e-6));
+    }
+
+    double codeSampleRate(double rate)
+    {
+        constexpr std::array<double, 8> usual = {0.0, 44100.0, 48000.0, 96000.0, 22050.0, 32000.0, 8000.0, 192000.0};
+        const auto found = std::find(usual.begin(), usual.end(), rate);
+        if (coder.bit(found != usual.end(), usualRateModel))
+            return usual[static_cast<std::size_t>(
+                raw(static_cast<std::uint64_t>(found == usual.end() ? 0 : found - usual.begin()), 3))];
+        return exact(rate);
+    }
+
+    [[nodiscard]] std::int64_t tickOf(double time) const
+    {
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::llround(time * params.ticksPerSecond)), 0,
+                                        lastTick);
+    }
+
+    [[nodiscard]] double timeOf(std::int64_t tick) const
+    {
+        return static_cast<double>(tick) / static_cast<double>(params.ticksPerSecond);
+    }
+
+    // ---- curves
+
+    template <typename Quantiser>
+    GridCurve toGrid(const Curve& curve, const Quantiser& quantiser) const
+    {
+        GridCurve grid;
+        grid.reserve(curve.size());
+        for (const Breakpoint& point : curve)
+            grid.push_back({tickOf(point.time), quantiser.code(point.value)});
+        return grid;
+    }
+
+    template <typename Quantiser>
+    Curve toCurve(const GridCurve& grid, const Quantiser& quantiser) const
+    {
+        Curve curve;
+        curve.reserve(grid.size());
+        for (const GridPoint& point : grid)
+            curve.push_back({timeOf(point.tick), quantiser.value(point.code)});
+        return curve;
+    }
+
+    template <typename Quantiser>
+    GridCurve codeCurve(Curve& curve, CurveCoder& kind, const Quantiser& quantiser, const CurveHints& hints)
+    {
+        const GridCurve wanted = reading ? GridCurve{} : toGrid(curve, quantiser);
+        if (failed)
+            return {};
+        GridCurve grid = kind.code(coder, wanted, lastTick, hints, mostPoints - points);
+        points += grid.size();
+        if constexpr (reading)
+        {
+            if (points >= mostPoints)
+                failed = true;
+            curve = toCurve(grid, quantiser);
+        }
+        return grid;
+    }
+
+    void codeCurves(Clip& clip)
+    {
+        const double levelStep = 3.0 / (LevelQuantiser::range / static_cast<double>((1 << params.bits) - 2));
+        const double pitchStep = 3.0 * static_cast<double>(1 << params.bits) / 64.0;
+        CurveCoder envelopeCoder(3.5, 2.0 * levelStep);
+        CurveCoder bandCoder(11.0, 1.3 * levelStep);
+        CurveCoder pitchCoder(20.0, pitchStep);
+        CurveCoder centroidCoder(20.0, pitchStep);
+
+        codeBandFrequencies(clip.bands);
+        if (failed)
+            return;
+        const FlooredLevels levels{levelQuantiser, codeFloor(clip)};
+        const GridCurve envelope = codeCurve(clip.envelope, envelopeCoder, levels, {});
+        GridCurve below;
+        std::vector<double> energies;
+        for (Band& band : clip.bands)
+        {
+            below = codeCurve(band.amplitude, bandCoder, levels, {&below, &envelope});
+            energies.push_back(curveEnergy(toCurve(below, levels), clip.duration));
+        }
+        GridCurve pitchBelow;
+        for (Band& band : clip.bands)
+            pitchBelow = codePitch(band, pitchCoder, pitchBelow);
+        codePriorities(clip.bands, prioritiesByEnergy(energies));
+        codeCurve(clip.centroid, centroidCoder, pitches, {});
+    }
+
+    /// Silence is code 0, far below the faintest real level: moved up to just below that, steps to and from it cost
+    /// little.
+    struct FlooredLevels
+    {
+        const LevelQuantiser& levels;
+        std::int64_t silence;
+        [[nodiscard]] std::int64_t code(double amplitude) const { return std::max(levels.code(amplitude), silence); }
+        [[nodiscard]] double value(std::int64_t code) const { return code <= silence ? 0.0 : levels.value(code); }
+    };
+
+    /// The code that stands for silence: one below the lowest level in the clip's envelope and bands.
+    std::int64_t codeFloor(const Clip& clip)
+    {
+        std::int64_t lowest = levelQuantiser.topCode();
+        const auto look = [&](const Curve& curve)
+        {
+            for (const Breakpoint& point : curve)
+                if (const auto code = levelQuantiser.code(point.value); code > 0)
+                    lowest = std::min(lowest, code);
+        };
+        if constexpr (!reading)
+        {
+            look(clip.envelope);
+            for (const Band& band : clip.bands)
+                look(band.amplitude);
+        }
+        return static_cast<std::int64_t>(
+            std::min<std::uint64_t>(number(static_cast<std::uint64_t>(lowest - 1), 32.0), 1u << 24));
+    }
+
+    /// A band's pitch is coded as its distance from the centre, which the bands have in common more than the pitch
+    /// itself.
+    GridCurve codePitch(Band& band, CurveCoder& kind, const GridCurve& below)
+    {
+        struct FromCentre
+        {
+            const PitchQuantiser& pitches;
+            std::int64_t centre;
+            [[nodiscard]] std::int64_t code(double hertz) const { return pitches.code(hertz) - centre; }
+            [[nodiscard]] double value(std::int64_t code) const { return pitches.value(code + centre); }
+        };
+        return codeCurve(band.pitch, kind, FromCentre{pitches, pitches.code(band.centreFrequency)}, {&below, nullptr});
+    }
+
+    void codeBandFrequencies(std::vector<Band>& bands)
+    {
+        const auto count = static_cast<std::size_t>(number(bands.size(), 12.0));
+        if (count > limits::bands)
+        {
+            failed = true;
+            return;
+        }
+        if constexpr (reading)
+            bands.resize(count);
+        if (bands.empty())
+            return;
+        for (const BandSpacing spacing : {BandSpacing::logarithmic, BandSpacing::linear})
+            if (coder.bit(!reading && isTiled(bands, spacing), tiledModel))
+            {
+                const double low = exact(bands.front().lowFrequency);
+                const double high = exact(bands.back().highFrequency);
+                if (!canTile(low, high))
+                    failed = true;
+                else if (reading)
+                    setFrequencies(bands, tiledBands(bands.size(), low, high, spacing));
+                return;
+            }
+        for (Band& band : bands)
+        {
+            band.lowFrequency = exact(band.lowFrequency);
+            band.centreFrequency = exact(band.centreFrequency);
+            band.highFrequency = exact(band.highFrequency);
+        }
+    }
+
+    static bool canTile(double low, double high) { return low > 0.0 && high > low && high <= limits::frequency; }
+
+    static bool isTiled(const std::vector<Band>& bands, BandSpacing spacing)
+    {
+        const double low = bands.front().lowFrequency;
+        const double high = bands.back().highFrequency;
+        if (!canTile(low, high))
+            return false;
+        std::vector<Band> tiled = bands;
+        setFrequencies(tiled, tiledBands(bands.size(), low, high, spacing));
+        return tiled == bands;
+    }
+
+    static void setFrequencies(std::vector<Band>& bands, const std::vector<BandEdges>& edges)
+    {
+        for (std::size_t k = 0; k < bands.size(); ++k)
+        {
+            bands[k].lowFrequency = edges[k].low;
+            bands[k].centreFrequency = edges[k].centre;
+            bands[k].highFrequency = edges[k].high;
+        }
+    }
+
+    /// Priorities that rank the bands by energy cost one bit.
+    void codePriorities(std::vector<Band>& bands, const std::vector<int>& expected)
+    {
+        if (bands.empty())
+            return;
+        bool same = true;
+        for (std::size_t k = 0; k < bands.size(); ++k)
+            same = same && bands[k].priority == expected[k];
+        same = coder.bit(same, rankedModel);
+        AdaptiveSignedNumber model(4.0);
+        for (std::size_t k = 0; k < bands.size(); ++k)
+            bands[k].priority = same ? expected[k]
+                                     : static_cast<int>(std::clamp<std::int64_t>(model.code(coder, bands[k].priority),
+                                                                                 INT_MIN, INT_MAX));
+    }
+
+    // ---- events
+
+    void codeTransients(Clip& clip)
+    {
+        auto count = static_cast<std::size_t>(number(clip.transients.size(), 4.0));
+        count = std::min(count, mostPoints - points);
+        AdaptiveNumber gaps(300.0);
+        AdaptiveSignedNumber amplitudes(4.0), sharps(4.0);
+        std::int64_t tick = 0, level = 0, sharp = 0;
+        for (std::size_t i = 0; i < count && !failed; ++i)
+        {
+            const Transient wanted = reading ? Transient{} : clip.transients[i];
+            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
+                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
+            level = code(amplitudes, level, levelQuantiser.code(wanted.amplitude), std::int64_t{1} << 24);
+            sharp = code(sharps, sharp, sharpnesses.code(wanted.sharpness), (std::int64_t{1} << params.bits) - 1);
+            if constexpr (reading)
+                clip.transients.push_back({timeOf(tick), levelQuantiser.value(level), sharpnesses.value(sharp)});
+        }
+        points += count;
+    }
+
+    std::int64_t code(AdaptiveSignedNumber& model, std::int64_t before, std::int64_t wanted, std::int64_t top)
+    {
+        return std::clamp<std::int64_t>(before + model.code(coder, wanted - before), 0, top);
+    }
+
+    void codeNoise(Clip& clip)
+    {
+        const auto count = static_cast<std::size_t>(number(clip.noise.size(), 0.1));
+        if (count > limits::bands)
+            failed = true;
+        if (failed)
+            return;
+        if constexpr (reading)
+            clip.noise.resize(count);
+        CurveCoder kind(20.0, 4.0);
+        GridCurve below;
+        for (NoiseBand& band : clip.noise)
+        {
+            band.lowFrequency = exact(band.lowFrequency);
+            band.highFrequency = exact(band.highFrequency);
+            below = codeCurve(band.amplitude, kind, levelQuantiser, {&below, nullptr});
+        }
+    }
+
+    // ---- texts
+
+    void codeTexts(Clip& clip)
+    {
+        TextCoder text(textPrimer());
+        const auto codeText = [&](const std::string& words)
+        {
+            return unescaped(text.code(coder, escaped(words)));
+        };
+        clip.source.file = codeText(clip.source.file);
+        if (coder.bit(clip.name == fileStem(clip.source.file), namedAfterFileModel))
+            clip.name = fileStem(clip.source.file);
+        else
+            clip.name = codeText(clip.name);
+
+        if constexpr (!reading)
+            text.code(coder, parameterText(clip.encoder));
+        else
+            clip.encoder = parametersOf(text.code(coder, {}));
+
+        auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
+        count = std::min(count, mostPoints - points);
+        AdaptiveNumber gaps(300.0);
+        std::int64_t tick = 0;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Marker wanted = reading ? Marker{} : clip.markers[i];
+            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
+                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
+            Marker marker{timeOf(tick), codeText(wanted.name)};
+            if constexpr (reading)
+                clip.markers.push_back(std::move(marker));
+        }
+    }
+
+    Coder& coder;
+    PackParams params;
+    LevelQuantiser levelQuantiser;
+    PitchQuantiser pitches;
+    UniformQuantiser sharpnesses;
+    std::int64_t lastTick = 0;
+    std::size_t mostPoints;
+    std::size_t points = 0;
+    bool failed = false;
+    AdaptiveBit wholeModel{0.8, 2}, wholeDurationModel{0.9, 2}, usualRateModel{0.9, 2}, tiledModel{0.9, 2},
+        rankedModel{0.9, 2}, namedAfterFileModel{0.9, 2};
+};
+
+} // namespace detail
+
+} // namespace pacini
