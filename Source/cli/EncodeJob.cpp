@@ -178,6 +178,8 @@ bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, Encode
     const auto made = fs::last_write_time(output, error);
     if (error || fs::last_write_time(input, error) > made || error)
         return false;
+    if (clipFormatOf(output) != settings.format)
+        return false;
     const auto clip = readClip(output);
     if (!clip || clip->source.file != input.filename().string())
         return false;

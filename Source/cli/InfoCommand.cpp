@@ -116,7 +116,7 @@ Exit InfoCommand::run(Console& console)
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
-        const auto audio = isClipFile(file) ? Result<Json>(clip.error()) : describeAudio(file);
+        const auto audio = clipFormatOf(file) ? Result<Json>(clip.error()) : describeAudio(file);
         if (!audio)
         {
             console.error(file, audio.error());

@@ -186,7 +186,7 @@ Exit PlotCommand::run(Console& console)
         actuator = *read;
     }
 
-    const bool isClip = isClipFile(path);
+    const bool isClip = clipFormatOf(path).has_value();
     const auto clip = clipOf(input, isClip, progress);
     if (!clip)
         return fail(input, clip.error());

@@ -70,10 +70,12 @@ Result<Clip> readClip(const std::filesystem::path& path)
     return notAClip();
 }
 
-bool isClipFile(const std::filesystem::path& path)
+std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path)
 {
     const auto start = startOf(path);
-    return start.starts_with(packedMagic) || looksLikeJson(start);
+    if (start.starts_with(packedMagic))
+        return ClipFormat::packed;
+    return looksLikeJson(start) ? std::optional(ClipFormat::json) : std::nullopt;
 }
 
 Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format)

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 
 namespace pacini
 {
@@ -20,8 +21,8 @@ enum class ClipFormat
 /// invalidData when it is neither format, and those of the format's reader.
 [[nodiscard]] Result<Clip> readClip(const std::filesystem::path& path);
 
-/// Whether the file's content starts as a clip does; false also when it cannot be read.
-[[nodiscard]] bool isClipFile(const std::filesystem::path& path);
+/// The format that the file's content starts as; none when that is no clip's or the file cannot be read.
+[[nodiscard]] std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path);
 
 /// Writes a clip and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io as
 /// in AtomicFile.

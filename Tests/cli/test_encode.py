@@ -75,6 +75,8 @@ class Encode(CommandTest):
         self.assertTrue(fresh())
         self.assertFalse(fresh("--bands", "3"))
         self.assertTrue(fresh("--bands", "3"))
+        self.assertFalse(fresh("--bands", "3", "-o", "a.json", "--format", "packed"))
+        self.assertFalse(fresh("--bands", "3"))
         later = (self.folder / "a.json").stat().st_mtime + 10
         os.utime(source, (later, later))
         self.assertFalse(fresh("--bands", "3"))
