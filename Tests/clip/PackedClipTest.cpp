@@ -163,3 +163,18 @@ TEST_CASE("Nonsense behind a valid checksum never gives an invalid clip", "[clip
     CAPTURE(valid);
     CHECK(valid < 3000);
 }
+
+TEST_CASE("Long texts survive packing, and too much text is refused instead of cut", "[clip]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.name = std::string(75000, 'a') + std::string(25000, '=');
+    clip.markers = {{0.5, std::string(100000, '\n')}};
+    REQUIRE(validate(clip).ok());
+    const auto back = unpackClip(packClip(clip));
+    REQUIRE(back.ok());
+    CHECK(back->name == clip.name);
+    CHECK(back->markers == clip.markers);
+    clip.markers[0].name.resize(175000, 'b');
+    CHECK(validate(clip).error().code == ErrorCode::tooLarge);
+}

@@ -9,3 +9,10 @@ extern "C" const char* __lsan_default_suppressions() // NOLINT(bugprone-reserved
     return "leak:vorbis_info_init\n"
            "leak:libfontconfig\n";
 }
+
+extern "C" const char* __lsan_default_options(); // NOLINT(bugprone-reserved-identifier)
+
+extern "C" const char* __lsan_default_options() // NOLINT(bugprone-reserved-identifier)
+{
+    return "print_suppressions=0"; // what is suppressed has no place in the output of the program under test
+}

@@ -117,6 +117,7 @@ inline constexpr double amplitude = 1000.0;       ///< linear: +60 dB over full 
 inline constexpr double frequency = 400000.0;     ///< Hz
 inline constexpr std::size_t bands = 256;
 inline constexpr std::size_t points = 50'000'000;
+inline constexpr std::size_t text = 250'000; ///< bytes of all names and parameters together
 } // namespace limits
 
 namespace detail
@@ -175,6 +176,9 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
         return r;
     if (clip.source.channels < 0)
         return brokenRule("source.channels", "is negative");
+    std::size_t textBytes = clip.name.size() + clip.source.file.size();
+    for (const Marker& marker : clip.markers)
+        textBytes += marker.name.size();
     std::set<std::string_view> names;
     for (const auto& [name, value] : clip.encoder)
     {
@@ -182,7 +186,14 @@ inline Result<void> checkCurve(const Curve& curve, std::string_view valueName, d
             return brokenRule("encoder", "has two parameters of the same name");
         if (const auto* number = std::get_if<double>(&value); number != nullptr && !std::isfinite(*number))
             return brokenRule("encoder", "has a parameter that is not a finite number", ErrorCode::notFinite);
+        constexpr std::size_t number = 32; // its digits and what separates parameters
+        textBytes += name.size() + number;
+        if (const auto* words = std::get_if<std::string>(&value))
+            textBytes += words->size();
     }
+    if (textBytes > limits::text)
+        return brokenRule("", "has more than " + std::to_string(limits::text) + " bytes of names and parameters",
+                          ErrorCode::tooLarge);
     if (auto r = checkCurve(clip.envelope, "amplitude", clip.duration, 0.0, limits::amplitude, "envelope"); !r)
         return r;
     if (auto r = checkCurve(clip.centroid, "frequency", clip.duration, 0.0, limits::frequency, "centroid"); !r)

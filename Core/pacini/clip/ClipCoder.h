@@ -369,9 +369,16 @@ private:
     void codeTexts(Clip& clip)
     {
         TextCoder text(textPrimer());
+        std::size_t left = 2 * limits::text; // escaping can double a text
+        const auto codeRaw = [&](const std::string& words)
+        {
+            std::string result = text.code(coder, words, left);
+            left -= std::min(left, result.size());
+            return result;
+        };
         const auto codeText = [&](const std::string& words)
         {
-            return unescaped(text.code(coder, escaped(words)));
+            return unescaped(codeRaw(escaped(words)));
         };
         clip.source.file = codeText(clip.source.file);
         if (coder.bit(clip.name == fileStem(clip.source.file), namedAfterFileModel))
@@ -380,9 +387,9 @@ private:
             clip.name = codeText(clip.name);
 
         if constexpr (!reading)
-            text.code(coder, parameterText(clip.encoder));
+            codeRaw(parameterText(clip.encoder));
         else
-            clip.encoder = parametersOf(text.code(coder, {}));
+            clip.encoder = parametersOf(codeRaw({}));
 
         auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
         count = std::min(count, mostPoints - points);

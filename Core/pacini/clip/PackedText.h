@@ -30,14 +30,14 @@ public:
 
     /// Writes `text` up to its first zero byte, or ignores it and reads at most `most` characters.
     template <typename Coder>
-    std::string code(Coder& coder, std::string_view text, std::size_t most = 65536)
+    std::string code(Coder& coder, std::string_view text, std::size_t most)
     {
         std::string result;
         for (std::size_t i = 0; i <= most; ++i)
         {
             const auto wanted = i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};
             const std::uint8_t got = codeByte(coder, i < most ? wanted : std::uint8_t{0});
-            if (got == 0)
+            if (got == 0 || i == most)
                 break;
             result.push_back(static_cast<char>(got));
         }
