@@ -161,3 +161,18 @@ TEST_CASE("Only what is important has a say in a pitch", "[analysis]")
     REQUIRE(mean.size() == 1);
     CHECK(mean[0].value == Approx((50.0 / 2500.0 + 200.0 / 40000.0) / (1.0 / 2500.0 + 1.0 / 40000.0)));
 }
+
+TEST_CASE("A pitch curve keeps its last value where nothing is important", "[analysis]")
+{
+    std::vector<double> track(200, 150.0), importance(200, 0.0);
+    for (std::size_t i = 0; i < 60; ++i)
+    {
+        track[i] = 600.0 - 7.5 * static_cast<double>(i);
+        importance[i] = 1.0;
+    }
+    CurveFitter fitter;
+    const Curve curve = fitter.fitPitch(track, importance, 0.06, 20.0);
+    REQUIRE(curve.size() >= 3);
+    for (double t = 4.0; t < 12.0; t += 0.5)
+        CHECK(valueAt(curve, t) == Approx(150.0).epsilon(0.1));
+}

@@ -6,6 +6,7 @@
 #include <pacini/simplify/Lagrangian.h>
 #include <pacini/simplify/Refit.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -49,19 +50,23 @@ public:
     [[nodiscard]] Curve fitPitch(std::span<const double> track, std::span<const double> importance, double step,
                                  double price)
     {
+        double most = 0.0;
+        for (double i : importance)
+            most = std::max(most, i);
+        if (!(most > 0.0))
+            return {};
         double sum = 0.0;
         double weightSum = 0.0;
         values.assign(track.begin(), track.end());
         weights.resize(track.size());
         for (std::size_t i = 0; i < track.size(); ++i)
         {
+            // A trace of importance everywhere, or nothing would hold the curve where the sound is silent.
             const double perHertz = semitonesPerNeper / track[i];
-            weights[i] = importance[i] * perHertz * perHertz;
+            weights[i] = std::max(importance[i], 1e-4 * most) * perHertz * perHertz;
             sum += weights[i] * track[i];
             weightSum += weights[i];
         }
-        if (!(weightSum > 0.0))
-            return {};
         const double mean = sum / weightSum;
         double constantError = 0.0;
         for (std::size_t i = 0; i < track.size(); ++i)
