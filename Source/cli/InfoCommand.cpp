@@ -43,6 +43,19 @@ Json describe(const Clip& clip)
             {"bytesPerSecond", clip.duration > 0.0 ? static_cast<double>(packed) / clip.duration : 0.0}};
 }
 
+/// "method a2vt, bands 12, ..."
+std::string encoderText(const std::vector<EncoderParameter>& encoder)
+{
+    std::string line;
+    for (const EncoderParameter& parameter : encoder)
+    {
+        const std::string value =
+            std::visit([](const auto& v) { return printable(fmt::format("{}", v)); }, parameter.value);
+        line += fmt::format("{}{} {}", line.empty() ? "" : ", ", printable(parameter.name), value);
+    }
+    return line;
+}
+
 std::string text(const std::string& file, const Clip& clip)
 {
     const Json j = describe(clip);
@@ -52,7 +65,7 @@ std::string text(const std::string& file, const Clip& clip)
         lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", printable(clip.source.file),
                              clip.source.sampleRate, clip.source.channels, clip.source.channels == 1 ? "" : "s");
     if (!clip.encoder.empty())
-        lines += "  encoder       " + j["encoder"].dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+        lines += "  encoder       " + encoderText(clip.encoder) + "\n";
     if (!clip.bands.empty())
         lines += fmt::format("  bands         {} from {:.0f} to {:.0f} Hz\n", clip.bands.size(),
                              clip.bands.front().lowFrequency, clip.bands.back().highFrequency);
