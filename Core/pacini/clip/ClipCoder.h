@@ -41,16 +41,21 @@ template <typename Coder>
 class ClipCoder
 {
 public:
-    /// `inputBytes` bounds what a reader believes: no real clip has more than 512 points per byte.
-    ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / 512)
+    /// `inputBytes` bounds what a reader believes; see leastBytes().
+    ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / pointsPerByte)
         : coder(coderToUse),
           params(packParams),
           levelQuantiser(params.bits),
           pitches(params.bits),
           sharpnesses(params.bits, 0.0, 1.0),
-          mostPoints(std::min(limits::points, 512 * (inputBytes + 8)))
+          mostPoints(std::min(limits::points, pointsPerByte * (inputBytes + 8)))
     {
     }
+
+    /// The least size of a payload with as many points as were coded. Real clips take one to two bytes per point; only
+    /// curves that repeat themselves for thousands of points need to be filled up, so that a few damaged bytes cannot
+    /// claim a clip that fills the memory.
+    [[nodiscard]] std::size_t leastBytes() const noexcept { return points / pointsPerByte; }
 
     /// Returns false when the input is damaged beyond use.
     bool code(Clip& clip)
@@ -66,6 +71,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t pointsPerByte = 64;
     static constexpr bool reading = Coder::reading;
 
     // ---- numbers

@@ -103,9 +103,10 @@ inline void setQuantise(Clip& clip, int bits)
     RangeWriter writer;
     detail::codePackParams(writer, params);
     Clip copy = clip;
-    detail::ClipCoder<RangeWriter>(writer, params).code(copy);
-    const std::vector<std::byte> payload = writer.finish();
-
+    detail::ClipCoder<RangeWriter> coder(writer, params);
+    coder.code(copy);
+    std::vector<std::byte> payload = writer.finish();
+    payload.resize(std::max(payload.size(), coder.leastBytes())); // the reader takes what is missing as zeros anyway
     return detail::withHeader(payload);
 }
 
