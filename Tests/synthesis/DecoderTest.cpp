@@ -81,7 +81,7 @@ TEST_CASE("The thesis readings of the decoder give the golden signals", "[synthe
     const auto pulse = makePulse({PulseShape::square, 67.0, 1.0}, 0.0, 1.0, 48000.0, 1.0);
     CHECK(pulse.frames == golden["square_67_48000"]["n"].get<std::size_t>());
     std::vector<float> samples(pulse.frames, 0.0f);
-    addPulse(pulse, 1.0, 0, samples);
+    PulseVoice(pulse).addTo(samples, 1.0);
     CHECK(std::count_if(samples.begin(), samples.end(), [](float v) { return v > 0.0f; }) ==
           golden["square_67_48000"]["pos"].get<int>());
 }
@@ -219,6 +219,25 @@ TEST_CASE("Fast events keep apart: adaptive pulses end before the next begins", 
             const auto pulse = makePulse({}, sharpness, 1.0 / rate, 48000.0, 1.0);
             CHECK(static_cast<double>(pulse.frames) <= std::max(0.0051, 0.62 / rate) * 48000.0);
         }
+}
+
+TEST_CASE("An adaptive pulse is its closed form", "[synthesis]")
+{
+    for (double gap : {0.02, 1.0})
+    {
+        const auto pulse = makePulse({}, 0.7, gap, 192000.0, 1.0);
+        std::vector<float> samples(pulse.frames + 5, 0.0f);
+        PulseVoice(pulse).addTo(samples, 1.0);
+        for (std::size_t n = 0; n < samples.size(); ++n)
+        {
+            const double t = static_cast<double>(n) + 0.5;
+            const double wanted =
+                n < pulse.frames ? std::pow(std::sin(std::numbers::pi * t / static_cast<double>(pulse.frames)), 2) *
+                                       std::sin(2.0 * std::numbers::pi * pulse.cyclesPerFrame * t)
+                                 : 0.0;
+            REQUIRE(std::abs(static_cast<double>(samples[n]) - wanted) < 1e-7);
+        }
+    }
 }
 
 TEST_CASE("Variation is reproducible, bounded and absent at 0", "[synthesis]")

@@ -374,7 +374,7 @@ private:
 
     void codeTexts(Clip& clip)
     {
-        TextCoder text(textPrimer());
+        TextCoder text = clipTextCoder();
         std::size_t left = 2 * limits::text; // escaping can double a text
         const auto codeRaw = [&](const std::string& words)
         {

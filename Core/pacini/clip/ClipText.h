@@ -3,6 +3,7 @@
 // The words of a clip (its name, its source, the parameters of its encoder) as text that packs well.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/clip/PackedText.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,13 @@ inline std::string textPrimer()
         text += std::string("smethod=a2vt\nsversion=0.1.0\nnbands=12\nnbreakpoints=12\nnquantise=6\nngain=") + gain +
                 "\n" + '\0';
     return text;
+}
+
+/// A coder that has read the primer, which takes longer than coding the words of a clip: once is enough.
+inline TextCoder clipTextCoder()
+{
+    static const TextCoder primed(textPrimer());
+    return primed;
 }
 
 /// Characters that mean something in the coded text ('=' and the ends of texts and lines) travel behind a 1.

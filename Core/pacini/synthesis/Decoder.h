@@ -168,6 +168,7 @@ private:
         std::int64_t start = 0; // frame of the output
         double gain = 0.0;
         Pulse pulse;
+        PulseVoice voice; // where it has got to
     };
 
     static DecoderParams clamped(DecoderParams p)
@@ -292,8 +293,10 @@ private:
             }
             const auto start =
                 delayFrames + static_cast<std::int64_t>(std::floor(transient.time * params.stretch * fs + 0.5));
-            events.push_back(
-                {start, level * params.gain, makePulse(params.pulses, transient.sharpness, gap, fs, transposition)});
+            events.push_back({start,
+                              level * params.gain,
+                              makePulse(params.pulses, transient.sharpness, gap, fs, transposition),
+                              {}});
             ++plan.pulses;
             longestPulse = std::max(longestPulse, static_cast<std::int64_t>(events.back().pulse.frames));
         }
@@ -335,10 +338,11 @@ private:
             ++firstEvent;
         for (std::size_t i = firstEvent; i < events.size() && events[i].start < end; ++i)
         {
-            const Event& event = events[i];
+            Event& event = events[i];
             const std::int64_t from = std::max(event.start, position);
-            addPulse(event.pulse, event.gain, static_cast<std::size_t>(from - event.start),
-                     out.subspan(static_cast<std::size_t>(from - position)));
+            if (from == event.start)
+                event.voice = PulseVoice(event.pulse);
+            event.voice.addTo(out.subspan(static_cast<std::size_t>(from - position)), event.gain);
         }
     }
 
