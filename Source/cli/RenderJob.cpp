@@ -20,7 +20,7 @@ DecoderParams decoderParamsFor(const Clip& clip, const RenderSettings& settings)
     if (encoderText(clip, "method", "a2vt") == "thesis")
     {
         const DecoderParams thesis =
-            thesisDecoderParams(params.sampleRate, settings.profile ? settings.profile->resonance : 67.0);
+            thesisDecoderParams(params.sampleRate, settings.profile ? settings.profile->resonance.frequency : 67.0);
         params.carriers = thesis.carriers;
         params.followEnvelope = thesis.followEnvelope;
         params.fullRate = thesis.fullRate;
@@ -33,7 +33,7 @@ DecoderParams decoderParamsFor(const Clip& clip, const RenderSettings& settings)
     {
         params.pulses.cycles = settings.pulseCycles;
         params.pulses.frequency =
-            settings.pulseFrequency.value_or(settings.profile ? settings.profile->resonance : 67.0);
+            settings.pulseFrequency.value_or(settings.profile ? settings.profile->resonance.frequency : 67.0);
     }
     return params;
 }

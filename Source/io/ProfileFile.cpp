@@ -123,7 +123,7 @@ Result<Profile> readProfileJson(std::string_view text)
         members.fail("version", "must be 1");
     profile.name = members.text("name", true);
     if (const auto resonance = document.find("resonance"); resonance != document.end() && resonance->is_object())
-        Members(*resonance, "resonance", error).number("frequency", profile.resonance, true);
+        Members(*resonance, "resonance", error).number("frequency", profile.resonance.frequency, true);
     else
         members.fail("resonance", "must be an object with a frequency");
     if (const auto equalizer = document.find("equalizer"); equalizer != document.end())

@@ -2,114 +2,187 @@
 
 // What is known of an actuator.
 
-#include <pacini/filters/BiquadCascade.h>
-#include <pacini/filters/Butterworth.h>
+#include <pacini/actuator/Equalizer.h>
 #include <pacini/foundation/Result.h>
 
-#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace pacini
 {
 
-enum class EqualizerType
+enum class Technology
 {
-    peak,
-    lowShelf,
-    highShelf,
-    highpass ///< Butterworth of any order
+    erm,   ///< eccentric rotating mass: its frequency rises with its strength
+    lra,   ///< linear resonant actuator: strong at one frequency only
+    piezo, ///< piezoelectric bender or stack
+    eap,   ///< electroactive polymer
+    vca,   ///< voice coil
+    pcm    ///< no actuator known: the drive signal as it is
 };
 
-/// One section of an equalizer; gain and q count for peak and shelves, order for the high-pass.
-struct EqualizerSection
+/// The mass on its spring, with its base held still.
+struct Resonance
 {
-    EqualizerType type = EqualizerType::peak;
-    double frequency = 100.0; ///< Hz
-    double gain = 0.0;        ///< dB
-    double q = 0.7071067811865476;
-    int order = 2;
-    bool operator==(const EqualizerSection&) const = default;
+    double frequency = 67.0; ///< Hz
+    double q = 1.0;
+    bool operator==(const Resonance&) const = default;
 };
 
-/// An equalizer's sections in series.
-using EqualizerSections = FixedVector<EqualizerSection, 16>;
+/// What the actuator can show.
+struct ActuatorRange
+{
+    double lowFrequency = 20.0;    ///< Hz
+    double highFrequency = 1000.0; ///< Hz
+    double dynamicRange = 60.0;    ///< dB between full drive and the weakest drive that is felt
+    bool operator==(const ActuatorRange&) const = default;
+};
 
-/// An actuator: where it resonates and what flattens it.
+/// How fast it follows a burst at its resonance driven at full drive.
+struct ActuatorResponse
+{
+    double riseTime = 0.0; ///< s from rest to 90 % of the final strength
+    double fallTime = 0.0; ///< s from there to 10 % when the drive ends
+    bool operator==(const ActuatorResponse&) const = default;
+};
+
+/// Electrical and mechanical limits. A drive sample of 1 is the peak of a sinusoid of `maxVoltageRms` V.
+struct ActuatorDrive
+{
+    std::optional<double> impedance;     ///< ohm
+    std::optional<double> maxVoltageRms; ///< V
+    std::optional<double> maxPower;      ///< W of heat the coil bears for ever; needs impedance and voltage
+    std::optional<double> thermalTime;   ///< s, time constant of its heating
+    std::optional<double> maxExcursion;  ///< m from rest, of the moving mass against its case
+    std::optional<double> excursion;     ///< m from rest at a drive of 1 far below resonance; times q at resonance
+    double overdrive = 1.0; ///< a driver may push up to this many times the rated drive for moments; a rated amplitude
+                            ///< of 1 is then played at 1 / overdrive, so that there is room
+    bool operator==(const ActuatorDrive&) const = default;
+};
+
+/// The way of the force from the moving mass through the device into the skin (Weber 2020, Fig. 3.2). The moving mass
+/// hangs in the device on a spring and damper that follow from the resonance; the joint links device and skin.
+struct BodyParams
+{
+    double force = 1.0;            ///< N on the moving mass at a drive of 1
+    double movingMass = 0.012;     ///< kg
+    double deviceMass = 0.040;     ///< kg
+    double jointStiffness = 4.0e4; ///< N/m
+    double jointDamping = 5.0;     ///< N s/m
+    double skinMass = 0.010;       ///< kg
+    double skinStiffness = 800.0;  ///< N/m
+    double skinDamping = 2.5;      ///< N s/m
+    bool operator==(const BodyParams&) const = default;
+};
+
+enum class TransientShape
+{
+    adaptive, ///< what the clip's events ask for
+    square,   ///< fixed square cycles
+    sine      ///< fixed sine cycles
+};
+
+/// How events are played.
+struct ActuatorTransient
+{
+    TransientShape shape = TransientShape::adaptive;
+    double frequency = 67.0; ///< Hz, for square and sine
+    double cycles = 1.0;     ///< for square and sine
+    bool operator==(const ActuatorTransient&) const = default;
+};
+
+/// What happens to frequencies that the actuator cannot show.
+enum class FrequencyMapping
+{
+    clamp,   ///< to the nearest end of the range
+    rescale, ///< 30-1000 Hz onto the range, in octaves
+    fold     ///< by octaves into the range, as near to the resonance as can be
+};
+
+/// An actuator: what it can do, what it bears, what flattens it.
 struct Profile
 {
+    static constexpr int unlimitedPolyphony = 64; ///< more than a clip has bands
+
     std::string name;
-    double resonance = 67.0; ///< Hz
+    Technology technology = Technology::pcm;
+    Resonance resonance;
+    ActuatorRange range;
+    ActuatorResponse response;
+    int polyphony = unlimitedPolyphony; ///< sinusoids at a time: 0 amplitude only, 1 monophonic
+    FrequencyMapping frequencyMapping = FrequencyMapping::clamp;
+    ActuatorDrive drive;
     EqualizerSections equalizer;
+    ActuatorTransient transient;
+    std::optional<BodyParams> body;
     bool operator==(const Profile&) const = default;
 };
 
-/// Checks the ranges of a profile: frequencies 1-20000 Hz, gains within +-40 dB, q 0.01-100, order 1-8, at most 16
-/// sections.
+/// Checks every number of a profile. Errors name the path as in the file, such as `body.skinMass`. Frequencies are 1 to
+/// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 100; the rest as the messages say.
 [[nodiscard]] inline Result<void> validate(const Profile& profile)
 {
-    const auto wrong = [](std::string where, const char* message) -> Result<void>
+    std::optional<Error> error;
+    const auto wrong = [&](const char* where, std::string message)
     {
-        return Error{ErrorCode::invalidData, std::move(where), message};
+        if (!error)
+            error = Error{ErrorCode::invalidData, where, std::move(message)};
     };
-    const auto within = [](double value, double low, double high)
+    // NaN fails every comparison, so it is never within.
+    const auto check = [&](const char* where, double value, double low, double high, const char* message)
     {
-        return value >= low && value <= high;
+        if (!(value >= low && value <= high))
+            wrong(where, message);
     };
-    if (!within(profile.resonance, 1.0, 20000.0))
-        return wrong("resonance.frequency", "must be 1 to 20000 Hz");
-    std::size_t biquads = 0;
-    for (std::size_t i = 0; i < profile.equalizer.size(); ++i)
+    const auto checkIf =
+        [&](const char* where, std::optional<double> value, double low, double high, const char* message)
     {
-        const EqualizerSection& section = profile.equalizer[i];
-        const auto where = "equalizer[" + std::to_string(i) + "]";
-        if (!within(section.frequency, 1.0, 20000.0))
-            return wrong(where + ".frequency", "must be 1 to 20000 Hz");
-        if (!within(section.gain, -40.0, 40.0))
-            return wrong(where + ".gain", "must be -40 to 40 dB");
-        if (!within(section.q, 0.01, 100.0))
-            return wrong(where + ".q", "must be 0.01 to 100");
-        if (section.order < 1 || section.order > 8)
-            return wrong(where + ".order", "must be 1 to 8");
-        biquads += section.type == EqualizerType::highpass ? static_cast<std::size_t>(section.order + 1) / 2 : 1;
-        if (biquads > maxBiquadSections)
-            return wrong(where, "is too much: high-passes count half their order, all together must stay within 32");
+        if (value)
+            check(where, *value, low, high, message);
+    };
+    check("resonance.frequency", profile.resonance.frequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
+    check("resonance.q", profile.resonance.q, 0.01, 100.0, "must be 0.01 to 100");
+    check("range.lowFrequency", profile.range.lowFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
+    check("range.highFrequency", profile.range.highFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
+    if (!(profile.range.lowFrequency < profile.range.highFrequency))
+        wrong("range.highFrequency", "must be above lowFrequency");
+    check("range.dynamicRange", profile.range.dynamicRange, 1.0, 140.0, "must be 1 to 140 dB");
+    check("response.riseTime", profile.response.riseTime, 0.0, 2.0, "must be 0 to 2 s");
+    check("response.fallTime", profile.response.fallTime, 0.0, 2.0, "must be 0 to 2 s");
+    check("polyphony", profile.polyphony, 0, Profile::unlimitedPolyphony, "must be 0 to 64 voices");
+
+    const ActuatorDrive& drive = profile.drive;
+    checkIf("drive.impedance", drive.impedance, 0.1, 1e6, "must be 0.1 to 1000000 ohm");
+    checkIf("drive.maxVoltageRms", drive.maxVoltageRms, 1e-3, 1e3, "must be 0.001 to 1000 V");
+    checkIf("drive.maxPower", drive.maxPower, 1e-6, 1e3, "must be 0.000001 to 1000 W");
+    if (drive.maxPower && !(drive.impedance && drive.maxVoltageRms))
+        wrong("drive.maxPower", "needs drive.impedance and drive.maxVoltageRms beside it");
+    checkIf("drive.thermalTime", drive.thermalTime, 0.01, 1e4, "must be 0.01 to 10000 s");
+    checkIf("drive.maxExcursion", drive.maxExcursion, 1e-7, 0.1, "must be 0.0000001 to 0.1 m");
+    checkIf("drive.excursion", drive.excursion, 1e-9, 1.0, "must be 0.000000001 to 1 m");
+    if (drive.maxExcursion && !drive.excursion)
+        wrong("drive.maxExcursion", "needs drive.excursion beside it");
+    check("drive.overdrive", drive.overdrive, 1.0, 10.0, "must be 1 to 10");
+    if (auto valid = validate(profile.equalizer, "equalizer"); !valid && !error)
+        error = valid.error();
+    check("transient.frequency", profile.transient.frequency, 1.0, 2000.0, "must be 1 to 2000 Hz");
+    check("transient.cycles", profile.transient.cycles, 0.1, 100.0, "must be 0.1 to 100");
+    if (profile.body)
+    {
+        const BodyParams& body = *profile.body;
+        check("body.force", body.force, 1e-6, 1e3, "must be 0.000001 to 1000 N");
+        check("body.movingMass", body.movingMass, 1e-7, 10.0, "must be 0.0000001 to 10 kg");
+        check("body.deviceMass", body.deviceMass, 1e-6, 100.0, "must be 0.000001 to 100 kg");
+        check("body.jointStiffness", body.jointStiffness, 1.0, 1e13, "must be 1 to 1e13 N/m");
+        check("body.jointDamping", body.jointDamping, 0.0, 1e9, "must be 0 to 1e9 N s/m");
+        check("body.skinMass", body.skinMass, 1e-7, 100.0, "must be 0.0000001 to 100 kg");
+        check("body.skinStiffness", body.skinStiffness, 0.0, 1e9, "must be 0 to 1e9 N/m");
+        check("body.skinDamping", body.skinDamping, 0.0, 1e6, "must be 0 to 1000000 N s/m");
     }
+    if (error)
+        return *error;
     return {};
 }
-
-/// The equalizer of a valid profile as a filter at `fs` Hz; sections at or above 0.49 fs are left out, since they would
-/// not do there what they say. Cookbook sections (see Biquad.h) and Butterworth high-passes.
-[[nodiscard]] inline BiquadCascadeCoefficients designEqualizer(const EqualizerSections& sections, double fs) noexcept
-{
-    BiquadCascadeCoefficients cascade;
-    for (const EqualizerSection& section : sections)
-    {
-        if (section.frequency >= 0.49 * fs)
-            continue;
-        if (section.type == EqualizerType::highpass)
-        {
-            const auto highpass =
-                designButterworth({ButterworthType::highpass, section.order, Hertz(section.frequency), Hertz(0.0)}, fs);
-            for (const BiquadCoefficients& part : highpass.sections)
-                cascade.sections.pushBack(part);
-            continue;
-        }
-        BiquadParams params;
-        params.type = section.type == EqualizerType::peak       ? BiquadType::peak
-                      : section.type == EqualizerType::lowShelf ? BiquadType::lowShelf
-                                                                : BiquadType::highShelf;
-        params.frequency = Hertz(section.frequency);
-        params.gain = Decibels(section.gain);
-        params.q = section.q;
-        cascade.sections.pushBack(designBiquad(params, fs));
-    }
-    return cascade;
-}
-
-/// A profile's equalizer as a streaming filter.
-using Equalizer = DesignedCascade<EqualizerSections, designEqualizer>;
-
-static_assert(DspBlock<Equalizer>);
 
 } // namespace pacini

@@ -267,6 +267,7 @@ private:
     void makeEvents(const Clip& clip, double transposition)
     {
         const double fs = params.sampleRate;
+        events.reserve(clip.transients.size());
         for (std::size_t i = 0; i < clip.transients.size(); ++i)
         {
             const Transient& transient = clip.transients[i];
