@@ -3,6 +3,7 @@
 // The sum of a clip's sinusoids as an analytic signal, at the decoder's inner rate.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/synthesis/PlayClock.h>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@
 namespace pacini
 {
 
-/// One sinusoid: amplitude and frequency as curves over the frames of the inner rate.
+/// One sinusoid: amplitude and frequency as curves over the frames of the clip at the inner rate.
 struct Carrier
 {
     Curve amplitude;    ///< time in frames, linear amplitude
@@ -44,7 +45,12 @@ public:
         for (std::size_t i = 0; i < carriers.size(); ++i)
             states[i] = {carriers[i].phase, 0, 0};
         frame = 0;
+        clock = {};
     }
+
+    /// From the next frame on, clip and pitch go by `piece`, whose clip frames must not lie before those played.
+    /// Frequencies that end above 0.45 cycles per frame stay there. [audio]
+    void follow(const ClockPiece& piece) noexcept { clock = piece; }
 
     /// Adds the next re.size() frames of every carrier to re (cosines) and im (sines). [audio]
     void process(std::span<double> re, std::span<double> im) noexcept
@@ -84,6 +90,7 @@ public:
 private:
     static constexpr std::int64_t restart = 256; // frames
     static constexpr std::size_t lanes = 4;
+    static constexpr double highest = 0.45; // cycles per frame
 
     struct State
     {
@@ -109,30 +116,43 @@ private:
         std::int64_t end = 0;
     };
 
-    static Piece pieceAt(const Curve& curve, std::size_t& next, std::int64_t at) noexcept
+    [[nodiscard]] Piece pieceAt(const Curve& curve, std::size_t& next, std::int64_t at) const noexcept
     {
         constexpr auto forever = std::numeric_limits<std::int64_t>::max();
-        const auto t = static_cast<double>(at);
+        const double t = clock.clipAt(static_cast<double>(at));
         while (next < curve.size() && curve[next].time <= t)
             ++next;
         if (curve.empty())
             return {0.0, 0.0, forever};
         if (next == curve.size())
             return {curve.back().value, 0.0, forever};
-        const auto end = std::max(at + 1, static_cast<std::int64_t>(std::ceil(std::min(curve[next].time, 9e18))));
+        const double reached = std::ceil(std::min(clock.frameOf(curve[next].time), 9e18));
+        const auto end = std::max(at + 1, static_cast<std::int64_t>(reached));
         if (next == 0)
             return {curve.front().value, 0.0, end};
         const Breakpoint& a = curve[next - 1];
         const Breakpoint& b = curve[next];
         const double slope = (b.value - a.value) / (b.time - a.time);
-        return {a.value + slope * (t - a.time), slope, end};
+        return {a.value + slope * (t - a.time), slope * clock.rate, end};
     }
 
-    static Segment segmentAt(const Carrier& carrier, State& state, std::int64_t at) noexcept
+    Segment segmentAt(const Carrier& carrier, State& state, std::int64_t at) const noexcept
     {
         const Piece a = pieceAt(carrier.amplitude, state.nextAmplitude, at);
         const Piece f = pieceAt(carrier.frequency, state.nextFrequency, at);
-        return {a.value, a.step, f.value, f.step, std::min(a.end, f.end)};
+        Segment segment{a.value, a.step, f.value, f.step, std::min(a.end, f.end)};
+        if (clock.pitch != 1.0)
+        {
+            segment.frequency *= clock.pitch;
+            segment.frequencyStep *= clock.pitch;
+            const double length = static_cast<double>(std::min(segment.end - at, restart));
+            if (std::max(segment.frequency, segment.frequency + segment.frequencyStep * length) > highest)
+            {
+                segment.frequency = std::min(segment.frequency, highest);
+                segment.frequencyStep = 0.0;
+            }
+        }
+        return segment;
     }
 
     /// The phase `n` frames on: sum of the frequencies until then, modulo one cycle.
@@ -227,6 +247,7 @@ private:
     std::vector<Carrier> carriers;
     std::vector<State> states;
     std::int64_t frame = 0;
+    ClockPiece clock;
 };
 
 } // namespace pacini

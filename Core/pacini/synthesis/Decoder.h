@@ -7,7 +7,8 @@
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/NoiseBank.h>
-#include <pacini/synthesis/TransientPulse.h>
+#include <pacini/synthesis/PlayClock.h>
+#include <pacini/synthesis/PulseTrain.h>
 #include <pacini/synthesis/Variation.h>
 
 #include <algorithm>
@@ -44,7 +45,17 @@ struct DecoderParams
     double stretch = 1.0;       ///< 2 = twice as long; pitches stay
     double gain = 1.0;          ///< linear
     double delay = 0.0;         ///< s of silence before the clip
+    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition
     bool operator==(const DecoderParams&) const = default;
+};
+
+/// From `time` on a clip plays at another pitch and speed.
+struct DecoderChange
+{
+    double time = 0.0;          ///< s of the output
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;
+    bool operator==(const DecoderChange&) const = default;
 };
 
 /// What a decoder plays, and what it leaves out because it would not be heard.
@@ -79,22 +90,27 @@ struct DecoderReport
 class Decoder
 {
 public:
-    Decoder(const Clip& clip, const DecoderParams& wanted) : params(clamped(wanted))
+    /// `changes` happen while it plays, in order of time.
+    Decoder(const Clip& clip, const DecoderParams& wanted, std::vector<DecoderChange> changes = {})
+        : params(clamped(wanted)), scheduled(std::move(changes)), clock(scheduled.size())
     {
         const Clip varied = vary(clip, params.variation);
         const double fs = params.sampleRate;
-        const double transposition = std::pow(2.0, params.transposition / 12.0);
+        transpositionRatio = std::pow(2.0, params.transposition / 12.0);
         delayFrames = static_cast<std::int64_t>(std::floor(params.delay * fs + 0.5));
-        endFrame = delayFrames + static_cast<std::int64_t>(std::floor(clip.duration * params.stretch * fs + 0.5));
+        clipFrames = clip.duration * params.stretch * fs;
 
-        const double highest = highestFrequency(varied) * transposition;
+        double most = params.transposition + std::max(0.0, params.headroom);
+        for (const DecoderChange& change : scheduled)
+            most = std::max(most, change.transposition);
+        const double highest = highestFrequency(varied) * std::pow(2.0, most / 12.0);
         ratio = params.fullRate
                     ? 1
                     : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
         innerRate = fs / static_cast<double>(ratio);
         plan.innerRate = innerRate;
-        carriers = CarrierBank(makeCarriers(varied, transposition));
-        noise = NoiseBank(makeNoise(varied, transposition), params.variation.seed);
+        carriers = CarrierBank(makeCarriers(varied));
+        noise = NoiseBank(makeNoise(varied), params.variation.seed);
         if (params.followEnvelope && !varied.envelope.empty())
         {
             leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames);
@@ -103,7 +119,7 @@ public:
         }
         interpolator =
             std::make_unique<PolyphaseInterpolator>(ratio, std::clamp(1.05 * highest / innerRate, 0.05, 0.44));
-        makeEvents(varied, transposition);
+        makeEvents(varied);
         re.resize(hopFrames);
         im.resize(hopFrames);
         wantedEnvelope.resize(hopFrames);
@@ -112,14 +128,30 @@ public:
         reset();
     }
 
-    /// Length of the clip with its delay and stretch.
+    /// Length of the clip with its delay and stretch, as far as changes are known.
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
+
+    /// From the next frame on the clip plays at another pitch and speed. What has been computed ahead stays, at most
+    /// one hop (64 inner frames, up to 16 ms) and the delay of the leveller; scheduled changes come on their sample.
+    /// Scheduled changes still to come are dropped. Clamped like the parameters. [audio]
+    void change(double transposition, double stretch) noexcept
+    {
+        // The clock holds no change ahead of what is computed but scheduled ones.
+        clock.dropAfter(static_cast<double>(innerFrame));
+        addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio),
+                           static_cast<double>(innerFrame)),
+                  transposition, stretch);
+    }
 
     [[nodiscard]] const DecoderReport& report() const noexcept { return plan; }
 
-    /// Back to the start.
+    /// Back to the start, where only scheduled changes count.
     void reset() noexcept
     {
+        clock.reset();
+        for (const DecoderChange& change : scheduled)
+            addChange((change.time - params.delay) * innerRate, change.transposition, change.stretch);
+        setEnd();
         carriers.reset();
         noise.reset();
         if (leveller)
@@ -131,7 +163,7 @@ public:
         readyFrom = ready.size();
         skip = interpolator->latencyFrames() + (leveller ? leveller->latencyFrames() * ratio : 0);
         position = 0;
-        firstEvent = 0;
+        pulses.reset();
     }
 
     /// Writes the next frames of the drive signal; silence after the end. [audio]
@@ -163,23 +195,39 @@ public:
 private:
     static constexpr std::size_t hopFrames = 64; // inner frames made at a time
 
-    struct Event
-    {
-        std::int64_t start = 0; // frame of the output
-        double gain = 0.0;
-        Pulse pulse;
-        PulseVoice voice; // where it has got to
-    };
+    static constexpr double lowestTransposition = -96.0, highestTransposition = 96.0; // semitones
+    static constexpr double shortest = 1e-3, longest = 1e3;                           // stretch
 
     static DecoderParams clamped(DecoderParams p)
     {
         p.sampleRate = std::clamp(p.sampleRate, 2000.0, 192000.0);
-        p.transposition = std::clamp(p.transposition, -96.0, 96.0);
-        p.stretch = std::clamp(p.stretch, 1e-3, 1e3);
+        p.transposition = std::clamp(p.transposition, lowestTransposition, highestTransposition);
+        p.stretch = std::clamp(p.stretch, shortest, longest);
         p.delay = std::clamp(p.delay, 0.0, 3600.0);
         p.pulses.frequency = std::clamp(p.pulses.frequency, 1.0, 20000.0);
         p.pulses.cycles = std::clamp(p.pulses.cycles, 0.0, 100.0);
         return p;
+    }
+
+    void addChange(double from, double transposition, double stretch) noexcept
+    {
+        const double semitones = std::clamp(transposition, lowestTransposition, highestTransposition);
+        clock.change(std::max(from, 0.0), params.stretch / std::clamp(stretch, shortest, longest),
+                     std::pow(2.0, (semitones - params.transposition) / 12.0));
+        setEnd();
+    }
+
+    /// Where the clip ends, by what the clock knows.
+    void setEnd() noexcept
+    {
+        endFrame = delayFrames + static_cast<std::int64_t>(std::floor(outputFrameOf(clipFrames) + 0.5));
+    }
+
+    /// The output frame after the delay at which the clip gets to `clipFrame`, both in output frames.
+    [[nodiscard]] double outputFrameOf(double clipFrame) const noexcept
+    {
+        const auto r = static_cast<double>(ratio);
+        return clock.untouched() ? clipFrame : clock.frameOf(clipFrame / r) * r;
     }
 
     [[nodiscard]] double highestFrequency(const Clip& clip) const
@@ -209,7 +257,7 @@ private:
         return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
     }
 
-    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip, double transposition)
+    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip)
     {
         std::vector<Carrier> result;
         const double reference = referenceFrequency(clip);
@@ -221,7 +269,7 @@ private:
             const auto addFrequency = [&](double time, double hertz)
             {
                 // Nothing may fold: what transposition pushes out of the range stays at its end.
-                const double f = std::clamp(hertz * transposition, 5.0, 0.45 * params.sampleRate);
+                const double f = std::clamp(hertz * transpositionRatio, 5.0, 0.45 * params.sampleRate);
                 carrier.frequency.push_back({time * params.stretch * innerRate, f / innerRate});
             };
             if (params.carriers == CarrierMode::pitch)
@@ -244,14 +292,14 @@ private:
         return result;
     }
 
-    [[nodiscard]] std::vector<NoiseCarrier> makeNoise(const Clip& clip, double transposition)
+    [[nodiscard]] std::vector<NoiseCarrier> makeNoise(const Clip& clip)
     {
         std::vector<NoiseCarrier> result;
         for (const NoiseBand& band : clip.noise)
         {
             const double most = 0.45 * params.sampleRate;
-            const double low = std::min(band.lowFrequency * transposition, most);
-            const double high = std::min(band.highFrequency * transposition, most);
+            const double low = std::min(band.lowFrequency * transpositionRatio, most);
+            const double high = std::min(band.highFrequency * transpositionRatio, most);
             NoiseCarrier carrier{{}, 0.5 * (low + high) / innerRate, 0.5 * (high - low) / innerRate};
             for (const Breakpoint& point : band.amplitude)
                 carrier.amplitude.push_back({point.time * params.stretch * innerRate, point.value * params.gain});
@@ -264,10 +312,11 @@ private:
         return result;
     }
 
-    void makeEvents(const Clip& clip, double transposition)
+    void makeEvents(const Clip& clip)
     {
         const double fs = params.sampleRate;
-        events.reserve(clip.transients.size());
+        pulses = PulseTrain(params.pulses, fs);
+        pulses.reserve(clip.transients.size());
         for (std::size_t i = 0; i < clip.transients.size(); ++i)
         {
             const Transient& transient = clip.transients[i];
@@ -292,14 +341,8 @@ private:
                 ++plan.maskedTransients;
                 continue;
             }
-            const auto start =
-                delayFrames + static_cast<std::int64_t>(std::floor(transient.time * params.stretch * fs + 0.5));
-            events.push_back({start,
-                              level * params.gain,
-                              makePulse(params.pulses, transient.sharpness, gap, fs, transposition),
-                              {}});
+            pulses.add({transient.time * params.stretch * fs, level * params.gain, transient.sharpness, gap});
             ++plan.pulses;
-            longestPulse = std::max(longestPulse, static_cast<std::int64_t>(events.back().pulse.frames));
         }
     }
 
@@ -309,8 +352,7 @@ private:
         {
             std::fill(re.begin(), re.end(), 0.0);
             std::fill(im.begin(), im.end(), 0.0);
-            carriers.process(re, im);
-            noise.process(re, im);
+            sumSources();
             if (leveller)
                 leveller->process(re, im, [this](std::size_t pass) { return envelopeOf(pass); });
             for (std::size_t n = 0; n < hopFrames; ++n)
@@ -323,33 +365,59 @@ private:
         } while (readyFrom == ready.size());
     }
 
+    /// One hop of sinusoids and noise, cut where the clock changes.
+    void sumSources() noexcept
+    {
+        if (!clock.untouched())
+        {
+            // Events are begun where the output is, the envelope is read back by the leveller's delay.
+            const double heard = static_cast<double>(position - delayFrames) / static_cast<double>(ratio);
+            clock.forgetBefore(heard -
+                               static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
+        }
+        for (std::size_t done = 0; done < hopFrames;)
+        {
+            const double at = static_cast<double>(innerFrame) + static_cast<double>(done);
+            const double left = std::ceil(clock.nextChange(at) - at);
+            const std::size_t n = left < static_cast<double>(hopFrames - done)
+                                      ? std::max<std::size_t>(1, static_cast<std::size_t>(left))
+                                      : hopFrames - done;
+            carriers.follow(clock.pieceAt(at));
+            noise.follow(clock.pieceAt(at));
+            carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+            noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+            done += n;
+        }
+    }
+
     /// The envelope at the frames that pass `pass` of the leveller puts out in this hop.
     std::span<const double> envelopeOf(std::size_t pass) noexcept
     {
         const auto first = static_cast<double>(innerFrame) - static_cast<double>(leveller->delayOfPass(pass));
         for (std::size_t n = 0; n < hopFrames; ++n)
-            wantedEnvelope[n] = params.gain * envelopeReaders[pass].at(first + static_cast<double>(n));
+            wantedEnvelope[n] = params.gain * envelopeReaders[pass].at(clock.clipAt(first + static_cast<double>(n)));
         return wantedEnvelope;
     }
 
     void addEvents(std::span<float> out) noexcept
     {
-        const std::int64_t end = position + static_cast<std::int64_t>(out.size());
-        while (firstEvent < events.size() && events[firstEvent].start + longestPulse <= position)
-            ++firstEvent;
-        for (std::size_t i = firstEvent; i < events.size() && events[i].start < end; ++i)
-        {
-            Event& event = events[i];
-            const std::int64_t from = std::max(event.start, position);
-            if (from == event.start)
-                event.voice = PulseVoice(event.pulse);
-            event.voice.addTo(out.subspan(static_cast<std::size_t>(from - position)), event.gain);
-        }
+        pulses.process(out, position,
+                       [this](const PulseEvent& event)
+                       {
+                           const double frame = outputFrameOf(event.clipFrame);
+                           const ClockPiece& piece = clock.pieceAt(frame / static_cast<double>(ratio));
+                           return PulseStart{delayFrames + static_cast<std::int64_t>(std::floor(frame + 0.5)),
+                                             piece.rate, transpositionRatio * piece.pitch};
+                       });
     }
 
     DecoderParams params;
+    std::vector<DecoderChange> scheduled;
+    PlayClock clock; // in inner frames, from the end of the delay on
     std::int64_t delayFrames = 0;
     std::int64_t endFrame = 0;
+    double clipFrames = 0.0; // output frames of the whole clip before changes
+    double transpositionRatio = 1.0;
     std::size_t ratio = 1;
     double innerRate = 48000.0;
     CarrierBank carriers;
@@ -358,9 +426,8 @@ private:
     std::unique_ptr<PolyphaseInterpolator> interpolator;
     Curve envelope; // time in inner frames
     std::array<CurveReader, EnvelopeLeveller::passCount> envelopeReaders;
-    std::vector<Event> events;
+    PulseTrain pulses;
     DecoderReport plan;
-    std::int64_t longestPulse = 0;
 
     std::vector<double> re, im, wantedEnvelope;
     std::vector<float> inner, ready;
@@ -368,7 +435,6 @@ private:
     std::size_t readyFrom = 0;
     std::size_t skip = 0;
     std::int64_t position = 0;
-    std::size_t firstEvent = 0;
 };
 
 } // namespace pacini

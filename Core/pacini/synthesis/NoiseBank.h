@@ -4,6 +4,7 @@
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/synthesis/PlayClock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ namespace pacini
 /// One band of noise.
 struct NoiseCarrier
 {
-    Curve amplitude;         ///< time in frames, linear RMS
+    Curve amplitude;         ///< time in frames of the clip, linear RMS
     double centre = 0.1;     ///< cycles per frame
     double halfWidth = 0.01; ///< cycles per frame, where the level has fallen by 3 dB
 };
@@ -56,7 +57,11 @@ public:
             states.push_back({Random(seed + i), CurveReader(band.amplitude), pole, gain, 0.0, 0.0, 0.0});
         }
         frame = 0;
+        clock = {};
     }
+
+    /// From the next frame on, clip and centres go by `piece`; widths stay. [audio]
+    void follow(const ClockPiece& piece) noexcept { clock = piece; }
 
     /// Adds the next re.size() frames of every band to re and im. [audio]
     void process(std::span<double> re, std::span<double> im) noexcept
@@ -64,15 +69,17 @@ public:
         for (std::size_t i = 0; i < bands.size(); ++i)
         {
             State& s = states[i];
+            const double centre = std::min(bands[i].centre * clock.pitch, 0.45);
             for (std::size_t n = 0; n < re.size(); ++n)
             {
                 s.first = s.pole * s.first + white(s.random);
                 s.second = s.pole * s.second + s.first;
-                const double level = s.gain * s.amplitude.at(static_cast<double>(frame) + static_cast<double>(n));
+                const double level =
+                    s.gain * s.amplitude.at(clock.clipAt(static_cast<double>(frame) + static_cast<double>(n)));
                 const std::complex<double> z = level * s.second * std::polar(1.0, 2.0 * std::numbers::pi * s.phase);
                 re[n] += z.real();
                 im[n] += z.imag();
-                s.phase += bands[i].centre;
+                s.phase += centre;
                 s.phase -= std::floor(s.phase);
             }
         }
@@ -105,6 +112,7 @@ private:
     std::uint64_t seed = 0;
     std::vector<State> states;
     std::int64_t frame = 0;
+    ClockPiece clock;
 };
 
 } // namespace pacini

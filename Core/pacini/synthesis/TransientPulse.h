@@ -100,6 +100,8 @@ public:
         }
     }
 
+    [[nodiscard]] bool finished() const noexcept { return frame >= pulse.frames; }
+
 private:
     static constexpr std::size_t lanes = 4;
 

@@ -1,0 +1,116 @@
+#pragma once
+
+// How far a clip has got, while its speed and pitch change.
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace pacini
+{
+
+/// A straight piece of the clip's way through time.
+struct ClockPiece
+{
+    double from = 0.0;  ///< frame of the output where it begins
+    double clip = 0.0;  ///< frame of the clip that is played there
+    double rate = 1.0;  ///< frames of the clip per frame, above 0
+    double pitch = 1.0; ///< factor of every frequency
+
+    bool operator==(const ClockPiece&) const = default;
+    [[nodiscard]] double clipAt(double frame) const noexcept { return clip + (frame - from) * rate; }
+    [[nodiscard]] double frameOf(double clipFrame) const noexcept { return from + (clipFrame - clip) / rate; }
+};
+
+/// Maps frames of the output to frames of the clip: a chain of straight pieces, so that positions are products and not
+/// sums that drift. Changes may be written down in advance and made while playing; both are exact to a fraction of a
+/// frame. Real-time safe after construction.
+class PlayClock
+{
+public:
+    static constexpr std::size_t liveChanges = 64; ///< remembered at a time; they are forgotten when they have passed
+
+    /// Rate and pitch 1 from frame 0 on, with room for `scheduled` changes.
+    explicit PlayClock(std::size_t scheduled = 0)
+    {
+        pieces.reserve(1 + scheduled + liveChanges);
+        pieces.push_back({});
+    }
+
+    /// From frame `from` on the clip runs at `rate` and its frequencies are scaled by `pitch`. A change before one that
+    /// is already written down comes right after it instead: time runs forward. Without room the last change is
+    /// replaced. [audio]
+    void change(double from, double rate, double pitch) noexcept
+    {
+        assert(rate > 0.0 && pitch > 0.0);
+        const ClockPiece last = pieces.back();
+        const double at = std::max(from, last.from);
+        const ClockPiece next{at, last.clipAt(at), rate, pitch};
+        if (at == last.from || pieces.size() == pieces.capacity())
+            pieces.back() = next;
+        else
+            pieces.push_back(next);
+    }
+
+    /// Back to rate and pitch 1 from frame 0 on.
+    void reset() noexcept
+    {
+        pieces.clear();
+        pieces.push_back({});
+    }
+
+    /// Takes back changes after `frame`. [audio]
+    void dropAfter(double frame) noexcept
+    {
+        while (pieces.size() > 1 && pieces.back().from > frame)
+            pieces.pop_back();
+    }
+
+    /// Forgets pieces that end before `frame`. [audio]
+    void forgetBefore(double frame) noexcept
+    {
+        std::size_t old = 0;
+        while (old + 1 < pieces.size() && pieces[old + 1].from <= frame)
+            ++old;
+        pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(old));
+    }
+
+    [[nodiscard]] const ClockPiece& pieceAt(double frame) const noexcept
+    {
+        std::size_t i = pieces.size() - 1;
+        while (i > 0 && pieces[i].from > frame)
+            --i;
+        return pieces[i];
+    }
+
+    /// First frame after `frame` at which a new piece begins; infinite when there is none.
+    [[nodiscard]] double nextChange(double frame) const noexcept
+    {
+        for (const ClockPiece& piece : pieces)
+            if (piece.from > frame)
+                return piece.from;
+        return std::numeric_limits<double>::infinity();
+    }
+
+    [[nodiscard]] double clipAt(double frame) const noexcept { return pieceAt(frame).clipAt(frame); }
+
+    /// The frame at which the clip gets to `clipFrame`, as far as changes are known.
+    [[nodiscard]] double frameOf(double clipFrame) const noexcept
+    {
+        std::size_t i = pieces.size() - 1;
+        while (i > 0 && pieces[i].clip > clipFrame)
+            --i;
+        return pieces[i].frameOf(clipFrame);
+    }
+
+    /// Whether the clip runs as it is, from the start and as far as changes are known.
+    [[nodiscard]] bool untouched() const noexcept { return pieces.size() == 1 && pieces.front() == ClockPiece{}; }
+
+private:
+    std::vector<ClockPiece> pieces;
+};
+
+} // namespace pacini

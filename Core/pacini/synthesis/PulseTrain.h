@@ -1,0 +1,85 @@
+#pragma once
+
+// The events of a clip, played one after another.
+
+#include <pacini/synthesis/TransientPulse.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// An event that gets a pulse.
+struct PulseEvent
+{
+    double clipFrame = 0.0; ///< where it stands in the clip, in output frames at the clip's own speed
+    double gain = 0.0;      ///< linear
+    double sharpness = 0.0; ///< 0-1
+    double gap = 0.0;       ///< s to its nearest neighbour
+};
+
+/// When an event begins and how.
+struct PulseStart
+{
+    std::int64_t frame = 0;     ///< of the output
+    double rate = 1.0;          ///< speed of the clip there
+    double transposition = 1.0; ///< factor of the pulse's frequency
+};
+
+/// Plays pulses that may overlap. Events are in order of time; nothing is computed for those that are not sounding.
+class PulseTrain
+{
+public:
+    PulseTrain() = default;
+    PulseTrain(const PulseParams& shape, double fs) : params(shape), sampleRate(fs) {}
+
+    void reserve(std::size_t count) { events.reserve(count); }
+    void add(const PulseEvent& event) { events.push_back({event, {}}); }
+
+    void reset() noexcept
+    {
+        firstSounding = 0;
+        next = 0;
+    }
+
+    /// Adds the pulses to `out`, whose first frame is `position`. `startOf` gives the PulseStart of an event. An event
+    /// that should have begun before is begun at once: changes of speed can come late. [audio]
+    template <typename StartOf>
+    void process(std::span<float> out, std::int64_t position, StartOf&& startOf) noexcept
+    {
+        for (std::size_t i = firstSounding; i < next; ++i)
+            events[i].voice.addTo(out, events[i].event.gain);
+        for (; next < events.size(); ++next)
+        {
+            Voice& voice = events[next];
+            const PulseStart start = startOf(voice.event);
+            if (start.frame >= position + static_cast<std::int64_t>(out.size()))
+                break;
+            voice.voice = PulseVoice(makePulse(params, voice.event.sharpness, voice.event.gap / start.rate, sampleRate,
+                                               start.transposition));
+            const auto from = static_cast<std::size_t>(std::max(start.frame - position, std::int64_t{0}));
+            voice.voice.addTo(out.subspan(from), voice.event.gain);
+        }
+        while (firstSounding < next && events[firstSounding].voice.finished())
+            ++firstSounding;
+    }
+
+private:
+    struct Voice
+    {
+        PulseEvent event;
+        PulseVoice voice;
+    };
+
+    PulseParams params;
+    double sampleRate = 48000.0;
+    std::vector<Voice> events;
+    std::size_t firstSounding = 0;
+    std::size_t next = 0;
+};
+
+} // namespace pacini

@@ -1,0 +1,147 @@
+#include "support/Catch.h"
+#include "support/ClipSamples.h"
+#include "support/HeapGuard.h"
+
+#include <pacini/synthesis/Decoder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace pacini;
+
+namespace
+{
+std::vector<float> render(Decoder& decoder, std::size_t block)
+{
+    std::vector<float> y(static_cast<std::size_t>(decoder.totalFrames()));
+    for (std::size_t i = 0; i < y.size(); i += block)
+        decoder.process(std::span(y).subspan(i, std::min(block, y.size() - i)));
+    return y;
+}
+
+/// Upward zero crossings per second between two times.
+double frequencyIn(std::span<const float> y, double fs, double from, double to)
+{
+    double first = -1.0, last = -1.0;
+    int count = -1;
+    for (auto n = static_cast<std::size_t>(from * fs); n + 1 < static_cast<std::size_t>(to * fs); ++n)
+        if (y[n] <= 0.0f && y[n + 1] > 0.0f)
+        {
+            last = static_cast<double>(n) + static_cast<double>(-y[n] / (y[n + 1] - y[n]));
+            first = first < 0.0 ? last : first;
+            ++count;
+        }
+    return count > 0 ? fs * count / (last - first) : 0.0;
+}
+
+Clip tone(double hertz, double seconds)
+{
+    Clip clip;
+    clip.duration = seconds;
+    clip.bands = {{20.0, hertz, 1000.0, 0, {{0.0, 0.5}, {seconds, 0.5}}, {}}};
+    return clip;
+}
+} // namespace
+
+TEST_CASE("Clock pieces join without gaps, and frameOf undoes clipAt", "[synthesis]")
+{
+    PlayClock clock(3);
+    clock.change(100.0, 2.0, 1.0);
+    clock.change(150.5, 0.25, 3.0);
+    clock.change(120.0, 1.0, 1.0); // too late: comes at 150.5
+    CHECK(clock.clipAt(100.0) == 100.0);
+    CHECK(clock.clipAt(150.5) == 201.0);
+    CHECK(clock.clipAt(160.5) == 211.0);
+    for (double frame : {0.0, 99.9, 100.0, 130.0, 151.0, 1e9})
+        CHECK(clock.frameOf(clock.clipAt(frame)) == Approx(frame).epsilon(1e-14));
+    CHECK(clock.nextChange(0.0) == 100.0);
+    CHECK(std::isinf(clock.nextChange(200.0)));
+}
+
+TEST_CASE("A scheduled transposition comes on its sample and keeps the phase", "[synthesis]")
+{
+    const double fs = 48000.0;
+    Decoder decoder(tone(100.0, 2.0), {}, {{1.0, 12.0, 1.0}});
+    const auto y = render(decoder, 100);
+    CHECK(frequencyIn(y, fs, 0.1, 0.98) == Approx(100.0).epsilon(1e-4));
+    CHECK(frequencyIn(y, fs, 1.02, 1.9) == Approx(200.0).epsilon(1e-4));
+    // 100 whole cycles before the change, so 200 Hz from zero after it.
+    for (double t : {1.0 + 1.0 / 800.0, 1.5 + 1.0 / 800.0})
+        CHECK(static_cast<double>(y[static_cast<std::size_t>(t * fs)]) == Approx(0.5).epsilon(1e-3));
+    for (std::size_t n = 1; n < y.size(); ++n)
+        REQUIRE(std::abs(y[n] - y[n - 1]) < 0.5f * 2.0f * 3.1416f * 200.0f / 48000.0f * 1.2f);
+}
+
+TEST_CASE("A scheduled stretch moves all that follows: curves, events and the end", "[synthesis]")
+{
+    Clip clip = tone(100.0, 2.0);
+    clip.bands[0].amplitude = {{0.0, 0.0}, {1.5, 0.0}, {1.501, 0.5}, {2.0, 0.5}};
+    clip.transients = {{0.5, 0.8, 0.5}, {1.25, 0.8, 0.5}};
+    const DecoderParams params;
+    Decoder decoder(clip, params, {{1.0, 0.0, 2.0}});
+    CHECK(decoder.totalFrames() == 3 * 48000);
+    const auto y = render(decoder, 333);
+    const auto loudest = [&](double from, double to)
+    {
+        float peak = 0.0f;
+        for (auto n = static_cast<std::size_t>(from * 48000.0); n < static_cast<std::size_t>(to * 48000.0); ++n)
+            peak = std::max(peak, std::abs(y[n]));
+        return peak;
+    };
+    CHECK(loudest(0.0, 0.4999) < 1e-3f);
+    CHECK(loudest(0.5, 0.52) > 0.5f);
+    CHECK(loudest(0.53, 1.4999) < 1e-3f);
+    CHECK(loudest(1.5, 1.52) > 0.5f); // 1.25 s of the clip
+    CHECK(loudest(1.53, 1.99) < 2e-3f);
+    CHECK(loudest(2.02, 2.9) > 0.4f); // 1.5 s of the clip
+    CHECK(frequencyIn(y, 48000.0, 2.1, 2.9) == Approx(100.0).epsilon(1e-4));
+}
+
+TEST_CASE("Scheduled changes do not depend on the block size, and reset starts over with them", "[synthesis]")
+{
+    for (std::uint64_t seed = 1; seed < 8; ++seed)
+    {
+        CAPTURE(seed);
+        DecoderParams params;
+        params.delay = 0.01;
+        Decoder decoder(test::randomClip(seed), params,
+                        {{0.05, 3.0, 1.3}, {0.0501, -5.0, 0.7}, {0.2, 0.0, 1.0}, {0.2, 7.0, 3.0}});
+        const auto whole = render(decoder, 1u << 20);
+        for (std::size_t block : {std::size_t(1), std::size_t(7), std::size_t(511)})
+        {
+            decoder.reset();
+            REQUIRE((render(decoder, block) == whole));
+        }
+    }
+}
+
+TEST_CASE("A change to what already plays changes nothing", "[synthesis]")
+{
+    const Clip clip = test::randomClip(3);
+    Decoder plain(clip, {});
+    Decoder changed(clip, {}, {{0.1, 0.0, 1.0}});
+    const auto a = render(plain, 4096), b = render(changed, 4096);
+    REQUIRE(a.size() == b.size());
+    for (std::size_t n = 0; n < a.size(); ++n)
+        REQUIRE(std::abs(a[n] - b[n]) < 1e-6f);
+}
+
+TEST_CASE("A live change is heard within 40 ms and needs no memory", "[synthesis][realtime]")
+{
+    DecoderParams params;
+    params.headroom = 12.0;
+    Decoder decoder(tone(100.0, 3.0), params);
+    std::vector<float> y(144000);
+    decoder.process(std::span(y).first(48000));
+    {
+        const test::HeapGuard guard;
+        for (int i = 0; i < 1000; ++i)
+            decoder.change(static_cast<double>(i % 12), 1.0 + 0.001 * i);
+        decoder.change(12.0, 1.0);
+        decoder.process(std::span(y).subspan(48000));
+        CHECK(guard.traffic() == 0);
+    }
+    CHECK(frequencyIn(y, 48000.0, 0.5, 1.0) == Approx(100.0).epsilon(1e-3));
+    CHECK(frequencyIn(y, 48000.0, 1.04, 2.5) == Approx(200.0).epsilon(1e-3));
+}
