@@ -46,6 +46,7 @@ struct DecoderParams
     double gain = 1.0;          ///< linear
     double delay = 0.0;         ///< s of silence before the clip
     double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition
+    double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
     bool operator==(const DecoderParams&) const = default;
 };
 
@@ -57,6 +58,34 @@ struct DecoderChange
     double stretch = 1.0;
     bool operator==(const DecoderChange&) const = default;
 };
+
+/// Geometric mean of the band centres, Hz; 1 without bands.
+[[nodiscard]] inline double referenceFrequency(const Clip& clip)
+{
+    double sum = 0.0;
+    for (const Band& band : clip.bands)
+        sum += std::log(std::max(band.centreFrequency, 1e-3));
+    return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
+}
+
+/// The highest frequency that a clip's sinusoids and noise reach, Hz, at least 50.
+[[nodiscard]] inline double highestFrequency(const Clip& clip, CarrierMode carriers)
+{
+    double highest = 50.0;
+    for (const NoiseBand& band : clip.noise)
+        highest = std::max(highest, band.highFrequency);
+    for (const Band& band : clip.bands)
+    {
+        highest = std::max(highest, band.centreFrequency);
+        if (carriers == CarrierMode::pitch)
+            for (const Breakpoint& point : band.pitch)
+                highest = std::max(highest, point.value);
+    }
+    if (carriers == CarrierMode::centroid)
+        for (const Breakpoint& point : clip.centroid)
+            highest = std::max(highest, point.value * highest / std::max(1.0, referenceFrequency(clip)));
+    return highest;
+}
 
 /// What a decoder plays, and what it leaves out because it would not be heard.
 struct DecoderReport
@@ -103,7 +132,8 @@ public:
         double most = params.transposition + std::max(0.0, params.headroom);
         for (const DecoderChange& change : scheduled)
             most = std::max(most, change.transposition);
-        const double highest = highestFrequency(varied) * std::pow(2.0, most / 12.0);
+        const double highest =
+            std::max(params.reach, highestFrequency(varied, params.carriers)) * std::pow(2.0, most / 12.0);
         ratio = params.fullRate
                     ? 1
                     : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
@@ -228,33 +258,6 @@ private:
     {
         const auto r = static_cast<double>(ratio);
         return clock.untouched() ? clipFrame : clock.frameOf(clipFrame / r) * r;
-    }
-
-    [[nodiscard]] double highestFrequency(const Clip& clip) const
-    {
-        double highest = 50.0;
-        for (const NoiseBand& band : clip.noise)
-            highest = std::max(highest, band.highFrequency);
-        for (const Band& band : clip.bands)
-        {
-            highest = std::max(highest, band.centreFrequency);
-            if (params.carriers == CarrierMode::pitch)
-                for (const Breakpoint& point : band.pitch)
-                    highest = std::max(highest, point.value);
-        }
-        if (params.carriers == CarrierMode::centroid)
-            for (const Breakpoint& point : clip.centroid)
-                highest = std::max(highest, point.value * highest / std::max(1.0, referenceFrequency(clip)));
-        return highest;
-    }
-
-    /// Geometric mean of the band centres.
-    static double referenceFrequency(const Clip& clip)
-    {
-        double sum = 0.0;
-        for (const Band& band : clip.bands)
-            sum += std::log(std::max(band.centreFrequency, 1e-3));
-        return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
     }
 
     [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip)

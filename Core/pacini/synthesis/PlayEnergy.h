@@ -1,0 +1,206 @@
+#pragma once
+
+// How much of a scene's energy its parts carry, read off their curves without rendering.
+
+#include <pacini/actuator/Equalizer.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/PlayClock.h>
+#include <pacini/synthesis/PlayTimeline.h>
+#include <pacini/synthesis/TransientPulse.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// Energies in (drive^2) s over all actuators.
+struct PlayEnergy
+{
+    double least = 0.0;        ///< the play certainly carries this
+    double most = 0.0;         ///< leaving the play out costs at most this
+    std::vector<double> bands; ///< leaving one band out costs at most this
+    std::vector<double> noise; ///< the same for bands of noise
+};
+
+namespace detail
+{
+/// A curve over clip seconds as one over scene seconds.
+inline Curve inSceneTime(const Curve& curve, const PlayClock& clock, double start)
+{
+    Curve result;
+    result.reserve(curve.size());
+    for (const Breakpoint& point : curve)
+        result.push_back({start + clock.frameOf(point.time), point.value});
+    return result;
+}
+
+/// Integral of (a b)^2 over [from, to]. Exact: between breakpoints this is a quartic, which three Gauss points
+/// integrate (Abramowitz and Stegun 25.4.29). Curves are constant outside their points.
+inline double energyOfProduct(const Curve& a, const Curve& b, double from, double to)
+{
+    if (a.empty() || b.empty() || !(to > from))
+        return 0.0;
+    double sum = 0.0;
+    CurveReader readA(a), readB(b);
+    std::size_t i = 0, k = 0;
+    for (double t = from; t < to;)
+    {
+        while (i < a.size() && a[i].time <= t)
+            ++i;
+        while (k < b.size() && b[k].time <= t)
+            ++k;
+        double end = to;
+        if (i < a.size())
+            end = std::min(end, a[i].time);
+        if (k < b.size())
+            end = std::min(end, b[k].time);
+        constexpr std::array<std::array<double, 2>, 3> gauss = {
+            {{0.1127016653792583, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.8872983346207417, 5.0 / 18.0}}};
+        for (const auto& [at, weight] : gauss)
+        {
+            const double x = t + at * (end - t);
+            const double v = readA.at(x) * readB.at(x);
+            sum += weight * (end - t) * v * v;
+        }
+        t = end;
+    }
+    return sum;
+}
+
+/// Smallest and largest power gain of an equaliser between two frequencies.
+struct PowerRange
+{
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    void include(double power)
+    {
+        least = std::min(least, power);
+        most = std::max(most, power);
+    }
+};
+
+inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, double low, double high, double fs)
+{
+    PowerRange range;
+    constexpr int steps = 8;
+    for (int i = 0; i <= steps; ++i)
+    {
+        const double f = std::clamp(low * std::pow(high / low, static_cast<double>(i) / steps), 0.5, 0.49 * fs);
+        range.include(std::norm(equalizer.response(Hertz(f), fs)));
+    }
+    return range;
+}
+} // namespace detail
+
+/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the
+/// equaliser. Sinusoids carry half their squared amplitude. Where the bands are levelled to the envelope, the envelope
+/// tells the energy, and a band that is missing is made up for by the others: that costs at most its amplitude twice.
+[[nodiscard]] inline PlayEnergy playEnergy(const Clip& clip, const DecoderParams& params, const PlayTimeline& timeline,
+                                           double start, double duration, const EqualizerSections& equalizer)
+{
+    const double fs = params.sampleRate;
+    const auto cascade = designEqualizer(equalizer, fs);
+    PlayClock clock(timeline.changes.size());
+    clock.change(0.0, 1.0 / params.stretch, 1.0);
+    double lowest = params.transposition, highest = params.transposition;
+    for (const DecoderChange& change : timeline.changes)
+    {
+        clock.change(change.time, 1.0 / change.stretch, 1.0);
+        lowest = std::min(lowest, change.transposition);
+        highest = std::max(highest, change.transposition);
+    }
+    const double end = std::min(duration, start + clock.frameOf(clip.duration));
+    const auto energy = [&](const Curve& curve)
+    {
+        const Curve inScene = detail::inSceneTime(curve, clock, start);
+        double sum = 0.0;
+        for (const Curve& gain : timeline.gains)
+            sum += detail::energyOfProduct(inScene, gain, start, end);
+        return sum * params.gain * params.gain;
+    };
+    const auto power = [&](double low, double high)
+    {
+        return detail::equalizerPower(cascade, low * std::pow(2.0, lowest / 12.0), high * std::pow(2.0, highest / 12.0),
+                                      fs);
+    };
+
+    PlayEnergy result;
+    const bool levelled = params.followEnvelope && !clip.envelope.empty();
+    double sum = 0.0, least = 0.0;
+    detail::PowerRange whole;
+    for (const Band& band : clip.bands)
+    {
+        double low = std::max(band.centreFrequency, 1.0), high = low;
+        if (params.carriers == CarrierMode::pitch && !band.pitch.empty())
+        {
+            const auto [a, b] = std::minmax_element(band.pitch.begin(), band.pitch.end(),
+                                                    [](const auto& p, const auto& q) { return p.value < q.value; });
+            low = std::max(a->value, 1.0);
+            high = std::max(b->value, low);
+        }
+        const double own = 0.5 * energy(band.amplitude);
+        const auto range = power(low, high);
+        result.bands.push_back(own * range.most);
+        sum += own;
+        if (own > 0.0)
+        {
+            least += own * range.least;
+            whole.include(range.most);
+        }
+    }
+    for (const NoiseBand& band : clip.noise)
+    {
+        const double own = energy(band.amplitude);
+        const auto range = power(std::max(1.0, band.lowFrequency), std::max(2.0, band.highFrequency));
+        result.noise.push_back(own * range.most);
+        sum += own;
+        if (own > 0.0)
+        {
+            least += own * range.least;
+            whole.include(range.most);
+        }
+    }
+    double most = sum * whole.most;
+    if (levelled && sum > 0.0)
+    {
+        const double wanted = 0.5 * energy(clip.envelope);
+        least *= wanted / sum;
+        // Beats that are too fast to be levelled stand out by up to 4 / pi of power (Rayleigh).
+        most = wanted * whole.most * 1.3;
+        const double scale = 4.0 * std::max(1.0, wanted / sum);
+        for (double& band : result.bands)
+            band *= scale;
+        for (double& band : result.noise)
+            band *= scale;
+    }
+
+    const auto broad = power(40.0, 400.0);
+    for (const Transient& event : clip.transients)
+    {
+        const double at = start + clock.frameOf(event.time);
+        if (at >= end)
+            break;
+        double gain = 0.0;
+        for (const Curve& curve : timeline.gains)
+            gain += std::pow(valueAt(curve, at), 2.0);
+        // A sine under a squared sine: 3 / 16 of its length, which is at most 20 ms alone and at least 5 ms in trains.
+        const double unit = 3.0 / 16.0 * gain * params.gain * params.gain * event.amplitude * event.amplitude;
+        const double longest =
+            params.pulses.shape == PulseShape::adaptive ? 0.02 : 5.0 * params.pulses.cycles / params.pulses.frequency;
+        most += unit * longest * broad.most;
+        if (const double reached = levelled ? 2.0 * valueAt(clip.envelope, event.time) : 0.0; reached == 0.0)
+            least += unit * 0.004 * broad.least;
+    }
+    result.most = most;
+    result.least = least;
+    return result;
+}
+
+} // namespace pacini

@@ -1,0 +1,152 @@
+#pragma once
+
+// What happens to one play of a scene over time: levels and delays towards every actuator, changes of pitch and speed.
+
+#include <pacini/clip/Curve.h>
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/Scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Curves over seconds of the scene.
+struct PlayTimeline
+{
+    std::vector<Curve> gains;           ///< one for each actuator, linear, with the scene's gain
+    std::vector<Curve> delays;          ///< one for each actuator, s; empty without delay panning
+    std::vector<DecoderChange> changes; ///< times from the play's start; in order
+    bool operator==(const PlayTimeline&) const = default;
+};
+
+/// Gain of each of `actuators` for a pan of 0-1: between two neighbours sine and cosine of the way, so that the power
+/// stays 1; the same for all with pure delay panning.
+[[nodiscard]] inline double panGain(PanLaw law, double pan, std::size_t actuator, std::size_t actuators) noexcept
+{
+    if (law == PanLaw::delay || actuators == 1)
+        return 1.0 / std::sqrt(static_cast<double>(actuators));
+    const double distance = std::abs(pan * static_cast<double>(actuators - 1) - static_cast<double>(actuator));
+    return distance < 1.0 ? std::cos(0.5 * std::numbers::pi * distance) : 0.0;
+}
+
+/// Delay of an actuator: its distance from the pan, at most `longest` s for the whole row.
+[[nodiscard]] inline double panDelay(double pan, std::size_t actuator, std::size_t actuators, double longest) noexcept
+{
+    if (actuators == 1)
+        return 0.0;
+    return longest * std::abs(pan - static_cast<double>(actuator) / static_cast<double>(actuators - 1));
+}
+
+namespace detail
+{
+/// A parameter over time: linear glides that start from whatever has been reached.
+class GlideCurve
+{
+public:
+    explicit GlideCurve(double value) : points{{0.0, value}} {}
+
+    void glideTo(double value, double time, double glide)
+    {
+        const double reached = valueAt(points, time);
+        while (!points.empty() && points.back().time > time)
+            points.pop_back();
+        points.push_back({time, reached});
+        points.push_back({time + glide, value});
+    }
+
+    [[nodiscard]] const Curve& curve() const noexcept { return points; }
+
+private:
+    Curve points;
+};
+
+/// All times at which one of two curves bends, `pieces` to each piece of the second, where it moves.
+inline std::vector<double> bends(const Curve& a, const Curve& b, int pieces)
+{
+    std::vector<double> times;
+    for (const Breakpoint& point : a)
+        times.push_back(point.time);
+    for (std::size_t i = 0; i < b.size(); ++i)
+    {
+        times.push_back(b[i].time);
+        if (i + 1 < b.size() && b[i].value != b[i + 1].value)
+            for (int k = 1; k < pieces; ++k)
+                times.push_back(b[i].time + (b[i + 1].time - b[i].time) * k / pieces);
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+/// Both sides of each time where a curve steps.
+template <typename Value>
+void appendSides(Curve& result, double time, Value&& at)
+{
+    constexpr double before = 1e-9; // s: far below a sample, far above the rounding of a day in double
+    if (time > before)
+        if (const double left = at(time - before); std::abs(left - at(time)) > 1e-6)
+            result.push_back({time, left});
+    result.push_back({time, at(time)});
+}
+} // namespace detail
+
+/// The timeline of play `index` in a valid scene.
+[[nodiscard]] inline PlayTimeline makeTimeline(const Scene& scene, std::size_t index,
+                                               std::span<const SceneChange> changes)
+{
+    const ScenePlay& play = scene.plays[index];
+    PlayTimeline timeline;
+    detail::GlideCurve level(sceneGain(play.gain)), pan(play.pan);
+    double transposition = play.transposition, stretch = play.stretch;
+    for (const SceneChange& change : changes)
+    {
+        switch (change.parameter)
+        {
+        case SceneParameter::gain:
+            level.glideTo(sceneGain(change.value), change.time, change.glide);
+            continue;
+        case SceneParameter::pan:
+            pan.glideTo(change.value, change.time, change.glide);
+            continue;
+        case SceneParameter::transposition:
+            transposition = change.value;
+            break;
+        case SceneParameter::stretch:
+            stretch = change.value;
+            break;
+        }
+        timeline.changes.push_back({std::max(0.0, change.time - play.start), transposition, stretch});
+    }
+
+    // Levels follow a pan along a cosine, which 64 chords between neighbours hold within -80 dB.
+    const auto times = detail::bends(level.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1));
+    const auto actuators = static_cast<std::size_t>(scene.actuators);
+    const double whole = sceneGain(scene.gain);
+    for (std::size_t a = 0; a < actuators; ++a)
+    {
+        Curve gains, delays;
+        for (double time : times)
+        {
+            detail::appendSides(gains, time,
+                                [&](double t) {
+                                    return whole * valueAt(level.curve(), t) *
+                                           panGain(scene.panLaw, valueAt(pan.curve(), t), a, actuators);
+                                });
+            if (scene.panLaw != PanLaw::constantPower)
+                delays.push_back({time, panDelay(valueAt(pan.curve(), time), a, actuators, scene.panDelay)});
+        }
+        timeline.gains.push_back(std::move(gains));
+        if (scene.panLaw != PanLaw::constantPower && actuators > 1)
+            timeline.delays.push_back(std::move(delays));
+    }
+    return timeline;
+}
+
+} // namespace pacini

@@ -1,0 +1,47 @@
+#pragma once
+
+// What a scene needs, and what it can do without.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/PlayTimeline.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// One play as it will be decoded: loops unrolled, adapted to the actuator, without bands that are not needed.
+struct PlannedPlay
+{
+    std::size_t play = 0; ///< index into the scene's plays
+    Clip clip;
+    double start = 0.0; ///< s
+    DecoderParams decoder;
+    PlayTimeline timeline;
+};
+
+/// Something that is not played.
+struct LeftOut
+{
+    std::string where;  ///< such as `plays[3]` or `plays[3].bands[2]`
+    std::string reason; ///< in plain words
+    double error = 0.0; ///< what it costs at most, in dB below the whole scene's energy; -infinity = nothing
+    bool operator==(const LeftOut&) const = default;
+};
+
+struct RenderPlan
+{
+    double duration = 0.0; ///< s
+    std::size_t actuators = 1;
+    std::optional<Profile> profile; ///< with the sections of its equaliser that matter
+    std::vector<PlannedPlay> plays; ///< in order of start
+    std::vector<LeftOut> leftOut;
+    double predictedError = 0.0; ///< dB below the scene, of all that is left out together; -infinity = nothing lost
+};
+
+} // namespace pacini

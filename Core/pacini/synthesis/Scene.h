@@ -1,0 +1,178 @@
+#pragma once
+
+// A scene: clips that play together, and what happens to them. A plain value; validate() states the rules.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+#include <pacini/synthesis/Variation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// How a play is placed between actuators, which stand in a row from pan 0 to pan 1.
+enum class PanLaw
+{
+    constantPower, ///< by level between the two nearest actuators; the power stays
+    delay,         ///< by time: equal levels, and the farther an actuator the later
+    both
+};
+
+/// One clip that plays.
+struct ScenePlay
+{
+    std::string name;
+    std::size_t clip = 0;       ///< index into the scene's clips
+    double start = 0.0;         ///< s
+    double loop = 0.0;          ///< s of the clip that are repeated; 0 plays it once
+    std::size_t passes = 0;     ///< how often a loop is played; 0 = until the scene ends
+    double gain = 0.0;          ///< dB; silent at -120 and below
+    double pan = 0.5;           ///< 0 = first actuator, 1 = last
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;       ///< 2 = twice as long
+    int priority = 0;           ///< 0 is kept longest when voices run out
+    VariationParams variation;  ///< every pass of a loop varies anew
+    bool operator==(const ScenePlay&) const = default;
+};
+
+enum class SceneParameter
+{
+    gain,          ///< dB
+    pan,           ///< 0-1
+    transposition, ///< semitones
+    stretch
+};
+
+/// A parameter of a play that changes while it plays. Gain and pan glide in a straight line of level; transposition and
+/// stretch step.
+struct SceneChange
+{
+    double time = 0.0;    ///< s of the scene
+    std::size_t play = 0; ///< index into the scene's plays
+    SceneParameter parameter = SceneParameter::gain;
+    double value = 0.0;
+    double glide = 0.005; ///< s until a gain or pan is reached
+    bool operator==(const SceneChange&) const = default;
+};
+
+struct Scene
+{
+    std::string name;
+    double duration = 0.0; ///< s; 0 = until the last play ends
+    double gain = 0.0;     ///< dB
+    int actuators = 1;     ///< 1-16 channels of output
+    PanLaw panLaw = PanLaw::constantPower;
+    double panDelay = 0.01; ///< s by which an actuator at the other end comes later, for delay panning
+    std::vector<Clip> clips;
+    std::vector<ScenePlay> plays;
+    std::vector<SceneChange> changes; ///< in order of time
+    bool operator==(const Scene&) const = default;
+};
+
+namespace limits
+{
+inline constexpr std::size_t plays = 10'000;
+inline constexpr std::size_t sceneChanges = 1'000'000;
+inline constexpr double shortestLoop = 0.005; ///< s
+inline constexpr int actuators = 16;
+inline constexpr double silentGain = -120.0; ///< dB
+} // namespace limits
+
+/// The linear gain of a scene's gain in dB.
+[[nodiscard]] inline double sceneGain(double dB) noexcept
+{
+    return dB <= limits::silentGain ? 0.0 : std::pow(10.0, dB / 20.0);
+}
+
+/// Whether a value is one that a parameter takes: gains -1000 to 60 dB, pan 0-1, transposition -96 to 96, stretch 0.01
+/// to 100.
+[[nodiscard]] inline bool inRange(SceneParameter parameter, double value) noexcept
+{
+    switch (parameter)
+    {
+    case SceneParameter::gain:
+        return value >= -1000.0 && value <= 60.0;
+    case SceneParameter::pan:
+        return value >= 0.0 && value <= 1.0;
+    case SceneParameter::transposition:
+        return value >= -96.0 && value <= 96.0;
+    case SceneParameter::stretch:
+        return value >= 0.01 && value <= 100.0;
+    }
+    return false;
+}
+
+/// Checks a scene, its clips included; errors name the place, such as `plays[3].clip`.
+[[nodiscard]] inline Result<void> validate(const Scene& scene)
+{
+    using namespace detail;
+    constexpr const char* ranges[] = {"must be -1000 to 60 dB", "must be 0 to 1", "must be -96 to 96 semitones",
+                                      "must be 0.01 to 100"};
+    constexpr const char* names[] = {".gain", ".pan", ".transposition", ".stretch"};
+    const auto outside = [&](SceneParameter parameter, const std::string& where)
+    {
+        return brokenRule(where, ranges[static_cast<std::size_t>(parameter)]);
+    };
+    if (auto r = checkNumber(scene.duration, 0.0, limits::duration, "duration"); !r)
+        return r;
+    if (!inRange(SceneParameter::gain, scene.gain))
+        return outside(SceneParameter::gain, "gain");
+    if (scene.actuators < 1 || scene.actuators > limits::actuators)
+        return brokenRule("actuators", "must be 1 to 16");
+    if (auto r = checkNumber(scene.panDelay, 0.0, 0.1, "panDelay"); !r)
+        return r;
+    if (scene.plays.size() > limits::plays)
+        return brokenRule("plays", "has more than 10000 plays", ErrorCode::tooLarge);
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+        if (auto r = validate(scene.clips[i]); !r)
+            return brokenRule(indexed("clips", i) + "." + r.error().where, r.error().message, r.error().code);
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        const ScenePlay& play = scene.plays[i];
+        const std::string where = indexed("plays", i);
+        if (play.clip >= scene.clips.size())
+            return brokenRule(where + ".clip",
+                              "is not one of the scene's " + std::to_string(scene.clips.size()) + " clips");
+        if (auto r = checkNumber(play.start, 0.0, limits::duration, where + ".start"); !r)
+            return r;
+        if (play.loop != 0.0 && !(play.loop >= limits::shortestLoop && play.loop <= limits::duration))
+            return brokenRule(where + ".loop", "must be 0 (play once) or 0.005 s and longer");
+        if (play.loop > scene.clips[play.clip].duration)
+            return brokenRule(where + ".loop", "is longer than the clip");
+        if (play.loop > 0.0 && play.passes == 0 && scene.duration == 0.0)
+            return brokenRule(where + ".passes", "is needed, or a duration of the scene: the loop would never end");
+        const double values[] = {play.gain, play.pan, play.transposition, play.stretch};
+        for (std::size_t k = 0; k < 4; ++k)
+            if (!inRange(static_cast<SceneParameter>(k), values[k]))
+                return outside(static_cast<SceneParameter>(k), where + names[k]);
+        if (auto r = checkNumber(play.variation.amount, 0.0, 1.0, where + ".variation"); !r)
+            return r;
+    }
+    if (scene.changes.size() > limits::sceneChanges)
+        return brokenRule("changes", "has more than 1000000 changes", ErrorCode::tooLarge);
+    double before = 0.0;
+    for (std::size_t i = 0; i < scene.changes.size(); ++i)
+    {
+        const SceneChange& change = scene.changes[i];
+        const std::string where = indexed("changes", i);
+        if (auto r = checkNumber(change.time, 0.0, limits::duration, where + ".time"); !r)
+            return r;
+        if (change.time < before)
+            return brokenRule(where + ".time", "is earlier than the change before it");
+        before = change.time;
+        if (change.play >= scene.plays.size())
+            return brokenRule(where + ".play", "is not one of the scene's plays");
+        if (!inRange(change.parameter, change.value))
+            return outside(change.parameter, where + ".value");
+        if (auto r = checkNumber(change.glide, 0.0, limits::duration, where + ".glide"); !r)
+            return r;
+    }
+    return {};
+}
+
+} // namespace pacini

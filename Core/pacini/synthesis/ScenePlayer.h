@@ -1,0 +1,305 @@
+#pragma once
+
+// RenderPlan -> drive signals.
+
+#include <pacini/actuator/Equalizer.h>
+#include <pacini/clip/Curve.h>
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DelayTap.h>
+#include <pacini/synthesis/RenderPlan.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend on how it is
+/// cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have ended, from a
+/// thread that may wait; the constructor makes all of them, so that live use need not call it.
+class ScenePlayer
+{
+public:
+    static constexpr double all = std::numeric_limits<double>::infinity();
+
+    /// Makes the decoders of plays that start before `builtUntil` (s).
+    ScenePlayer(RenderPlan planToPlay, double sampleRate, double builtUntil = all)
+        : plan(std::move(planToPlay)),
+          fs(sampleRate),
+          endFrame(static_cast<std::int64_t>(std::floor(plan.duration * sampleRate + 0.5)))
+    {
+        for (const PlannedPlay& planned : plan.plays)
+        {
+            Voice voice;
+            voice.start = static_cast<std::int64_t>(std::floor(planned.start * fs + 0.5));
+            voice.levels.assign(plan.actuators, Level{});
+            voices.push_back(std::move(voice));
+        }
+        if (plan.profile)
+        {
+            equalizers.resize(plan.actuators);
+            for (Equalizer& equalizer : equalizers)
+            {
+                equalizer.prepare({fs, blockFrames});
+                equalizer.setParams(plan.profile->equalizer);
+            }
+        }
+        build(builtUntil);
+    }
+
+    [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
+    [[nodiscard]] std::size_t actuators() const noexcept { return plan.actuators; }
+
+    /// Makes the decoders of plays that start before `until` (s of the scene) and frees those that have ended. Not
+    /// while process() runs. [worker]
+    void build(double until)
+    {
+        for (std::size_t i = 0; i < voices.size(); ++i)
+        {
+            Voice& voice = voices[i];
+            if (voice.ended)
+            {
+                voice.decoder.reset();
+                voice.delay = {};
+            }
+            else if (!voice.decoder && plan.plays[i].start < until)
+                make(voice, plan.plays[i]);
+        }
+    }
+
+    /// Largest number of plays that sound at a time so far, for reports.
+    [[nodiscard]] std::size_t mostSounding() const noexcept { return most; }
+
+    /// Writes the next frames: one span for each actuator, all of the same length; silence after the end. [audio]
+    void process(std::span<const std::span<float>> out) noexcept
+    {
+        const std::size_t frames = out.empty() ? 0 : out.front().size();
+        for (std::size_t done = 0; done < frames;)
+        {
+            const std::size_t n = std::min(frames - done, blockFrames);
+            processBlock(out, done, n);
+            done += n;
+        }
+    }
+
+    /// From the next frame on, glides play `play` of the scene (its index there) to `gain` (linear, on top of the
+    /// scene's own) within 5 ms. Plays that the plan leaves out stay out. [audio]
+    void setGain(std::size_t play, double gain) noexcept
+    {
+        forPlay(play,
+                [&](Voice& voice, const PlannedPlay&)
+                {
+                    voice.liveStep = (gain - voice.liveGain) / (0.005 * fs);
+                    voice.liveTarget = gain;
+                });
+    }
+
+    /// Changes pitch (semitones) and speed of a play, as Decoder::change does. [audio]
+    void setPitchAndSpeed(std::size_t play, double transposition, double stretch) noexcept
+    {
+        forPlay(play,
+                [&](Voice& voice, const PlannedPlay&)
+                {
+                    if (voice.decoder)
+                        voice.decoder->change(transposition, stretch);
+                });
+    }
+
+private:
+    static constexpr std::size_t blockFrames = 256;
+
+    /// Where a curve has been read to.
+    struct Level
+    {
+        std::size_t gain = 0;
+        std::size_t delay = 0;
+    };
+
+    struct Voice
+    {
+        std::int64_t start = 0;
+        std::unique_ptr<Decoder> decoder;
+        std::int64_t frames = 0; // of the decoder
+        DelayTap delay;
+        std::int64_t tail = 0; // frames that sound longer because of delays
+        std::vector<Level> levels;
+        double liveGain = 1.0, liveTarget = 1.0, liveStep = 0.0;
+        bool ended = false;
+    };
+
+    void make(Voice& voice, const PlannedPlay& planned)
+    {
+        DecoderParams params = planned.decoder;
+        params.sampleRate = fs;
+        voice.decoder = std::make_unique<Decoder>(planned.clip, params, planned.timeline.changes);
+        if (!planned.timeline.delays.empty())
+        {
+            double longest = 0.0;
+            for (const Curve& curve : planned.timeline.delays)
+                for (const Breakpoint& point : curve)
+                    longest = std::max(longest, point.value);
+            voice.delay = DelayTap(longest * fs, blockFrames);
+            voice.tail = static_cast<std::int64_t>(std::ceil(longest * fs)) + 4;
+        }
+    }
+
+    template <typename F>
+    void forPlay(std::size_t play, F&& f) noexcept
+    {
+        for (std::size_t i = 0; i < voices.size(); ++i)
+            if (plan.plays[i].play == play)
+                f(voices[i], plan.plays[i]);
+    }
+
+    void processBlock(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
+    {
+        for (const auto& channel : out)
+            std::fill_n(channel.begin() + static_cast<std::ptrdiff_t>(at), n, 0.0f);
+        const std::int64_t left = endFrame - position;
+        const auto sounding = static_cast<std::size_t>(std::clamp<std::int64_t>(left, 0, static_cast<std::int64_t>(n)));
+        const std::int64_t end = position + static_cast<std::int64_t>(sounding);
+        while (first < voices.size() && voices[first].ended)
+            ++first;
+        std::size_t count = 0;
+        // Plays are in order of start.
+        for (std::size_t i = first; i < voices.size() && voices[i].start < end; ++i)
+            if (!voices[i].ended && voices[i].decoder)
+            {
+                play(voices[i], plan.plays[i], out, at, sounding);
+                ++count;
+            }
+        most = std::max(most, count);
+        for (std::size_t a = 0; a < equalizers.size() && a < out.size(); ++a)
+            equalizers[a].process(out[a].subspan(at, n), out[a].subspan(at, n));
+        position += static_cast<std::int64_t>(n);
+    }
+
+    void play(Voice& voice, const PlannedPlay& planned, std::span<const std::span<float>> out, std::size_t at,
+              std::size_t n) noexcept
+    {
+        const auto from = static_cast<std::size_t>(std::max<std::int64_t>(voice.start - position, 0));
+        if (from >= n)
+            return;
+        const auto block = std::span(mono).first(n - from);
+        voice.decoder->process(block);
+        applyLiveGain(voice, block);
+        const std::int64_t now = position + static_cast<std::int64_t>(from);
+        const bool delayed = !planned.timeline.delays.empty();
+        if (delayed)
+            voice.delay.write(block);
+        for (std::size_t a = 0; a < std::min(out.size(), plan.actuators); ++a)
+        {
+            Level& level = voice.levels[a];
+            const auto to = out[a].subspan(at + from, block.size());
+            if (delayed)
+            {
+                read(planned.timeline.delays[a], level.delay, now, std::span(delays).first(block.size()));
+                for (std::size_t i = 0; i < block.size(); ++i)
+                    shifted[i] = voice.delay.read(i, fs * delays[i]);
+            }
+            mix(planned.timeline.gains[a], level.gain, now, delayed ? std::span(shifted).first(block.size()) : block,
+                to);
+        }
+        voice.ended =
+            now + static_cast<std::int64_t>(block.size()) >= voice.start + voice.decoder->totalFrames() + voice.tail;
+    }
+
+    void applyLiveGain(Voice& voice, std::span<float> block) noexcept
+    {
+        if (voice.liveGain == 1.0 && voice.liveTarget == 1.0)
+            return;
+        for (float& sample : block)
+        {
+            sample = static_cast<float>(voice.liveGain * static_cast<double>(sample));
+            const double next = voice.liveGain + voice.liveStep;
+            voice.liveGain = voice.liveStep > 0.0 ? std::min(next, voice.liveTarget) : std::max(next, voice.liveTarget);
+        }
+    }
+
+    /// A straight piece of a curve. Values follow from the frame alone, so that they do not depend on blocks.
+    struct Piece
+    {
+        double value = 0.0; // at `origin`
+        double slope = 0.0; // per s
+        double origin = 0.0;
+        double fs = 1.0;
+        [[nodiscard]] double at(std::int64_t frame) const noexcept
+        {
+            return value + slope * (static_cast<double>(frame) / fs - origin);
+        }
+    };
+
+    /// Calls use(i, end, piece) for the straight pieces of a curve over frames [now, now + n).
+    template <typename Use>
+    void forPieces(const Curve& curve, std::size_t& next, std::int64_t now, std::size_t n, Use&& use) const noexcept
+    {
+        for (std::size_t i = 0; i < n;)
+        {
+            const double t = static_cast<double>(now + static_cast<std::int64_t>(i)) / fs;
+            while (next < curve.size() && curve[next].time <= t)
+                ++next;
+            std::size_t end = n;
+            if (next < curve.size())
+            {
+                const double until = std::ceil(curve[next].time * fs) - static_cast<double>(now);
+                end = until < static_cast<double>(n) ? std::max(i + 1, static_cast<std::size_t>(until)) : n;
+            }
+            if (next == 0 || next == curve.size() || curve[next - 1].value == curve[next].value)
+                use(i, end, Piece{next == 0 ? curve.front().value : curve[next - 1].value, 0.0, 0.0, fs});
+            else
+            {
+                const Breakpoint& a = curve[next - 1];
+                const Breakpoint& b = curve[next];
+                use(i, end, Piece{a.value, (b.value - a.value) / (b.time - a.time), a.time, fs});
+            }
+            i = end;
+        }
+    }
+
+    void mix(const Curve& gains, std::size_t& next, std::int64_t now, std::span<const float> in,
+             std::span<float> out) const noexcept
+    {
+        forPieces(gains, next, now, in.size(),
+                  [&](std::size_t i, std::size_t end, const Piece& piece)
+                  {
+                      if (piece.slope != 0.0)
+                          for (; i < end; ++i)
+                              out[i] += static_cast<float>(piece.at(now + static_cast<std::int64_t>(i)) *
+                                                           static_cast<double>(in[i]));
+                      else if (piece.value != 0.0)
+                          for (; i < end; ++i)
+                              out[i] += static_cast<float>(piece.value * static_cast<double>(in[i]));
+                  });
+    }
+
+    void read(const Curve& curve, std::size_t& next, std::int64_t now, std::span<double> values) const noexcept
+    {
+        forPieces(curve, next, now, values.size(),
+                  [&](std::size_t i, std::size_t end, const Piece& piece)
+                  {
+                      for (; i < end; ++i)
+                          values[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
+                  });
+    }
+
+    RenderPlan plan;
+    double fs;
+    std::int64_t endFrame;
+    std::vector<Voice> voices; // as plan.plays
+    std::vector<Equalizer> equalizers;
+    std::array<float, blockFrames> mono{}, shifted{};
+    std::array<double, blockFrames> delays{};
+    std::int64_t position = 0;
+    std::size_t first = 0; // voices before it have ended
+    std::size_t most = 0;
+};
+
+} // namespace pacini
