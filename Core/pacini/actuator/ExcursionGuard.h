@@ -1,0 +1,145 @@
+#pragma once
+
+// Keeps the moving mass of an actuator within its travel, whatever the drive.
+
+#include <pacini/actuator/HeldResonator.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/FixedVector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pacini
+{
+
+/// The moving mass as a second-order resonator and the travel that it has. Clamped to the ranges of a valid profile.
+struct ExcursionParams
+{
+    double frequency = 67.0;    ///< Hz, 1 to 20000
+    double q = 1.0;             ///< 0.01 to 100
+    double excursion = 1e-3;    ///< m at a drive of 1 far below resonance, 1e-9 to 1
+    double maxExcursion = 1e-3; ///< m from rest, 1e-7 to 0.1
+    bool operator==(const ExcursionParams&) const = default;
+};
+
+/// The largest displacement in metres that any drive within +-1 can cause: that of a drive which changes its sign with
+/// the velocity. Each half swing then overshoots by exp(-pi zeta / sqrt(1 - zeta^2)), a geometric series; the
+/// overdamped mass never overshoots.
+[[nodiscard]] inline double worstExcursion(const ExcursionParams& params) noexcept
+{
+    const double zeta = 0.5 / params.q;
+    if (zeta >= 1.0)
+        return params.excursion;
+    return params.excursion / std::tanh(0.5 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
+}
+
+struct ExcursionCoefficients
+{
+    static constexpr std::size_t maxSubsteps = 64;
+
+    FixedVector<HeldStep, maxSubsteps>
+        steps;                ///< from one sample to points in the hold; the last one to the next sample
+    double energyLimit = 0.0; ///< m^2
+    double driveLimit = 0.0;
+};
+
+/// The set of states {energy <= r^2} with r a little below the travel. The displacement between the points of a hold
+/// exceeds that at the next point by at most d^2/2 (travel + static displacement), d = w0 times their distance: from a
+/// turning point the damped mass moves away no faster than the undamped one. r leaves that much room, and points are
+/// added until d <= 0.05 (at most 64, for resonances above 0.5 of the sample rate). Drives whose static displacement is
+/// so many times the travel that r would fall below 95 % of it are not admitted.
+[[nodiscard]] inline ExcursionCoefficients designExcursionGuard(const ExcursionParams& params, double fs) noexcept
+{
+    const double frequency = clampTo(params.frequency, 1.0, 20000.0);
+    const double q = clampTo(params.q, 0.01, 100.0);
+    const double excursion = clampTo(params.excursion, 1e-9, 1.0);
+    const double travel = clampTo(params.maxExcursion, 1e-7, 0.1);
+
+    const double angle = 2.0 * std::numbers::pi * frequency / fs;
+    const double count = clampTo(std::ceil(angle / 0.05), 1.0, static_cast<double>(ExcursionCoefficients::maxSubsteps));
+    ExcursionCoefficients guard;
+    const HeldStep substep = designHeldStep(frequency, q, excursion, 1.0 / (fs * count));
+    guard.steps.pushBack(substep);
+    while (static_cast<double>(guard.steps.size()) < count)
+        guard.steps.pushBack(guard.steps.back().then(substep));
+
+    const double rise = 0.5 * (angle / count) * (angle / count);
+    const double largestRatio = std::max(0.0, 0.05 / rise - 1.0);
+    const double ratio = std::min(excursion / travel, largestRatio);
+    guard.driveLimit = std::min(1.0, ratio * travel / excursion);
+    const double radius = travel * std::max(0.0, 1.0 - rise * (1.0 + ratio)) * (1.0 - 1e-9); // and rounding
+    guard.energyLimit = radius * radius;
+    return guard;
+}
+
+/// Admits of every wanted drive as much as keeps the energy of the modelled mass within its limit to the end of the
+/// sample. A drive of 0 never raises the energy, so that there always is an admissible drive and the limit holds for
+/// ever, for any input; a limiter that only turns down a gain has no such proof, since a resonator that is already
+/// moving goes on when the drive falls. At resonance the largest drive that keeps the energy is proportional to the
+/// velocity, so that even a sinusoid held by the guard alone stays nearly a sinusoid.
+/// (A safety filter on an invariant set: A. Ames et al., "Control barrier functions: theory and applications", ECC
+/// 2019, here for the exact discrete model.)
+class ExcursionGuard
+{
+public:
+    void design(const ExcursionParams& params, double fs) noexcept { guard = designExcursionGuard(params, fs); }
+    void reset() noexcept
+    {
+        moved = {};
+        asWanted = {};
+    }
+
+    /// Follows the drive as it is wanted and returns the energy that it would cause over the limit, less 1 %: what the
+    /// square of a gain must undo. The 1 % keeps a steady tone that the gain holds clear of the guard.
+    double measure(double wanted) noexcept
+    {
+        asWanted = guard.steps.back().next(asWanted, wanted);
+        return asWanted.energy() / (0.99 * guard.energyLimit);
+    }
+
+    /// The drive nearest to `wanted` that is admissible now; it never changes its sign.
+    [[nodiscard]] double admit(double wanted) const noexcept
+    {
+        double drive = clampTo(wanted, -guard.driveLimit, guard.driveLimit);
+        for (const HeldStep& step : guard.steps)
+        {
+            if (step.next(moved, drive).energy() <= guard.energyLimit)
+                continue;
+            // a drive^2 + 2 b drive = room, solved for the root on the side of `drive`
+            const ResonatorState free = step.free(moved);
+            const double sign = drive < 0.0 ? -1.0 : 1.0;
+            const double a = step.driveToX * step.driveToX + step.driveToV * step.driveToV;
+            const double b = sign * (free.displacement * step.driveToX + free.velocity * step.driveToV);
+            const double room = guard.energyLimit - free.energy();
+            if (!(room > 0.0))
+                return 0.0; // only when the limits were just narrowed
+            const double root = std::sqrt(b * b + a * room);
+            const double most = b > 0.0 ? room / (b + root) : (root - b) / a;
+            drive = sign * std::min(std::abs(drive), most);
+        }
+        return drive;
+    }
+
+    /// Lets the mass move under the drive that is really played.
+    void advance(double drive) noexcept { moved = guard.steps.back().next(moved, drive); }
+
+    void flush() noexcept
+    {
+        for (ResonatorState* state : {&moved, &asWanted})
+        {
+            flushTiny(state->displacement);
+            flushTiny(state->velocity);
+        }
+    }
+
+    [[nodiscard]] const ExcursionCoefficients& coefficients() const noexcept { return guard; }
+
+private:
+    ExcursionCoefficients guard = designExcursionGuard({}, ProcessSpec{}.sampleRate);
+    ResonatorState moved;
+    ResonatorState asWanted;
+};
+
+} // namespace pacini

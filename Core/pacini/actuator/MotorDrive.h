@@ -1,0 +1,127 @@
+#pragma once
+
+// The voltage of a motor with an eccentric mass, from the strength that is wanted.
+
+#include <pacini/actuator/FirstOrderInverse.h>
+#include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace pacini
+{
+
+/// Voltages are in units of the rated one, which turns the motor at its rated speed.
+struct MotorDriveParams
+{
+    FirstOrderTimes speedTimes;  ///< time constants of the speed
+    double overdrive = 1.0;      ///< the largest voltage, 1 to 10
+    double startVoltage = 0.25;  ///< the least that gets a standing motor to turn; small motors need 0.2 to 0.4
+    double stallVoltage = 0.125; ///< below this a turning motor stops
+    double kickTime = 0.020;     ///< s of start voltage when the spin-up time is not known
+    bool braking = true;         ///< whether the voltage may be reversed to stop sooner
+    bool operator==(const MotorDriveParams&) const = default;
+};
+
+/// The time constants of a motor's speed from those times in which its strength, the square of the speed, passes 90 %
+/// of a step or falls to 10 %.
+[[nodiscard]] inline FirstOrderTimes speedTimes(const ActuatorResponse& response) noexcept
+{
+    return {response.riseTime / -std::log(1.0 - std::sqrt(0.9)), response.fallTime / -std::log(std::sqrt(0.1))};
+}
+
+/// Of a valid profile.
+[[nodiscard]] inline MotorDriveParams motorDriveParams(const Profile& profile) noexcept
+{
+    MotorDriveParams params;
+    params.speedTimes = speedTimes(profile.response);
+    params.overdrive = profile.drive.overdrive;
+    return params;
+}
+
+/// Wanted strength (0 to 1, an envelope; 1 is the strength at rated voltage) to voltage. The force of an eccentric mass
+/// is m r w^2 and its speed w follows the voltage, so the wanted speed is the square root of the strength:
+///
+/// - it is reached by overdrive and left by braking (see FirstOrderInverse, applied to the speed),
+/// - a standing motor gets at least the start voltage until its modelled speed is the wanted one (friction at rest is
+///   higher than in motion), or for the kick time,
+/// - a strength that the motor cannot hold is raised to the weakest it can, stallVoltage^2; below a quarter of that it
+/// is
+///   0: there is nothing between.
+///
+/// Out of [-overdrive, overdrive], not negative without braking. No latency.
+class MotorDrive
+{
+public:
+    using Params = MotorDriveParams;
+
+    void prepare(const ProcessSpec& spec) noexcept
+    {
+        fs = spec.sampleRate;
+        setParams(current);
+        reset();
+    }
+    void setParams(const Params& params) noexcept
+    {
+        current = params;
+        speed.design(params.speedTimes, fs);
+        highest = clampTo(params.overdrive, 1.0, 10.0);
+        start = clampTo(params.startVoltage, 0.0, 1.0);
+        stall = clampTo(params.stallVoltage, 0.0, start);
+        kickFrames =
+            params.speedTimes.rise > 0.0 ? 0 : static_cast<std::size_t>(clampTo(params.kickTime, 0.0, 1.0) * fs);
+    }
+    void reset() noexcept
+    {
+        speed.reset();
+        starting = false;
+        kickLeft = 0;
+    }
+
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        forEachSample(
+            in, out, [this](double strength) { return tick(strength); }, [this] { speed.flush(); });
+    }
+
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
+
+private:
+    double tick(double strength) noexcept
+    {
+        const double exact = strength > 0.0 ? std::sqrt(strength) : 0.0;
+        const double wanted = exact < 0.5 * stall ? 0.0 : std::max(exact, stall);
+        if (!(wanted > 0.0))
+            starting = false;
+        else if (speed.value() < 0.5 * stall && !starting)
+        {
+            starting = true;
+            kickLeft = kickFrames;
+        }
+        const double lowest = starting ? start : current.braking ? -highest : 0.0;
+        const double voltage = speed.tick(wanted, lowest, highest);
+        if (kickLeft > 0)
+            --kickLeft;
+        else if (speed.value() >= wanted)
+            starting = false;
+        return voltage;
+    }
+
+    double fs = ProcessSpec{}.sampleRate;
+    Params current;
+    FirstOrderInverse speed;
+    double highest = 1.0;
+    double start = 0.0;
+    double stall = 0.0;
+    std::size_t kickFrames = 0;
+    std::size_t kickLeft = 0;
+    bool starting = false;
+};
+
+static_assert(DspBlock<MotorDrive>);
+
+} // namespace pacini

@@ -1,0 +1,152 @@
+#include "support/BlockContract.h"
+#include "support/Catch.h"
+
+#include <pacini/actuator/MotorDrive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+
+/// A motor: its speed follows the voltage; at rest it needs startVoltage, turning it stops below the stall voltage.
+/// Returns its strength, the square of its speed, for every sample.
+std::vector<double> simulatedMotor(const std::vector<float>& voltage, double rise, double fall, double start,
+                                   double stall, double fs)
+{
+    std::vector<double> strength;
+    double speed = 0.0;
+    for (const float u : voltage)
+    {
+        const auto v = static_cast<double>(u);
+        for (int i = 0; i < 50; ++i)
+        {
+            if (speed == 0.0 && std::abs(v) < start)
+                continue;
+            speed += (v - speed) / (fs * 50.0 * (v > speed ? rise : fall));
+            if (std::abs(speed) < 0.5 * stall && std::abs(v) < stall)
+                speed = 0.0;
+        }
+        strength.push_back(speed * speed);
+    }
+    return strength;
+}
+
+std::vector<float> constant(double strength, double seconds, double fs)
+{
+    return std::vector<float>(static_cast<std::size_t>(seconds * fs), static_cast<float>(strength));
+}
+
+std::vector<float> driven(const MotorDriveParams& params, const std::vector<float>& strength, double fs)
+{
+    MotorDrive motor;
+    motor.setParams(params);
+    motor.prepare({fs, 512});
+    return test::runInBlocks(motor, strength, 512);
+}
+
+constexpr double fs = 8000.0;
+
+} // namespace
+
+TEST_CASE("Motor drive keeps the block contract", "[actuator]")
+{
+    Profile profile;
+    profile.response = {0.08, 0.1};
+    profile.drive.overdrive = 1.5;
+    test::ContractOptions options;
+    options.bound = 1.5;
+    options.delay = test::MeasuredDelay::firstFrame;
+    test::checkBlockContract<MotorDrive>(motorDriveParams(profile), options);
+    test::checkBlockContract<MotorDrive>({}, options);
+    test::checkModulation<MotorDrive>({motorDriveParams(profile), {}, {{0.0, 0.1}, 1.0, 2.0, 3.0, -1.0, false}}, 1.5);
+    test::checkSilenceIsCheap<MotorDrive>(motorDriveParams(profile));
+}
+
+TEST_CASE("A motor reaches every strength that it can hold", "[actuator]")
+{
+    Profile profile;
+    profile.response = {0.08, 0.1};
+    const auto params = motorDriveParams(profile);
+    for (const double strength : {1.0, 0.5, 0.2, 0.05, 0.02})
+    {
+        CAPTURE(strength);
+        const auto voltage = driven(params, constant(strength, 1.0, fs), fs);
+        CHECK(static_cast<double>(voltage.back()) == Approx(std::sqrt(strength)));
+        const auto reached = simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, fs);
+        CHECK(reached.back() == Approx(strength).epsilon(0.01));
+        CHECK(*std::max_element(reached.begin(), reached.end()) < 1.05 * strength);
+    }
+}
+
+TEST_CASE("Weak strengths start the motor only with a kick", "[actuator]")
+{
+    Profile profile;
+    profile.response = {0.08, 0.1};
+    const auto params = motorDriveParams(profile);
+    const double weak = 0.03; // a voltage of 0.17
+    const auto kicked = driven(params, constant(weak, 0.5, fs), fs);
+    const auto& tau = params.speedTimes;
+    CHECK(simulatedMotor(kicked, tau.rise, tau.fall, 0.25, 0.125, fs).back() == Approx(weak).epsilon(0.01));
+    // a drive of the bare square root does nothing
+    const auto bare = constant(std::sqrt(weak), 0.5, fs);
+    CHECK(simulatedMotor(bare, tau.rise, tau.fall, 0.25, 0.125, fs).back() == 0.0);
+
+    // not knowing the spin-up time the kick lasts 20 ms
+    const auto unknown = driven({}, constant(weak, 0.5, fs), fs);
+    const auto long25 = static_cast<double>(std::count(unknown.begin(), unknown.end(), 0.25f)) / fs;
+    CHECK(long25 == Approx(0.020).margin(0.001));
+    CHECK(static_cast<double>(unknown.back()) == Approx(std::sqrt(weak)));
+}
+
+TEST_CASE("Strengths below what a motor can hold are raised to it or dropped", "[actuator]")
+{
+    const MotorDriveParams params{{0.03, 0.05}};
+    const double weakest = params.stallVoltage * params.stallVoltage;
+    CHECK(static_cast<double>(driven(params, constant(0.5 * weakest, 0.5, fs), fs).back()) ==
+          Approx(params.stallVoltage));
+    for (const float v : driven(params, constant(0.2 * weakest, 0.5, fs), fs))
+        REQUIRE(v == 0.0f);
+}
+
+TEST_CASE("Overdrive and braking make a motor at least twice as quick", "[actuator]")
+{
+    Profile profile;
+    profile.response = {0.08, 0.1};
+    profile.drive.overdrive = 2.0;
+    const auto params = motorDriveParams(profile);
+    auto wanted = constant(1.0, 0.4, fs);
+    wanted.resize(wanted.size() * 2, 0.0f);
+    const auto run = [&](const std::vector<float>& voltage)
+    {
+        return simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, fs);
+    };
+    const auto rise = [](const std::vector<double>& s)
+    {
+        return static_cast<double>(std::find_if(s.begin(), s.end(), [](double v) { return v >= 0.9; }) - s.begin()) /
+               fs;
+    };
+    const auto fall = [&](const std::vector<double>& s)
+    {
+        auto last = s.end() - 1;
+        while (*last < 0.1)
+            --last;
+        return static_cast<double>(last - s.begin()) / fs - 0.4;
+    };
+    const auto plain = run(wanted); // the square root of 0 and 1
+    CHECK(rise(plain) == Approx(0.08).epsilon(0.01));
+    CHECK(fall(plain) == Approx(0.1).epsilon(0.01));
+    const auto quick = run(driven(params, wanted, fs));
+    CHECK(rise(quick) < 0.5 * rise(plain));
+    CHECK(fall(quick) < 0.5 * fall(plain));
+    CHECK(*std::max_element(quick.begin(), quick.end()) < 1.02);
+    CHECK(quick.back() < 1e-3);
+
+    auto unbraked = params;
+    unbraked.braking = false;
+    for (const float v : driven(unbraked, wanted, fs))
+        REQUIRE(v >= 0.0f);
+}

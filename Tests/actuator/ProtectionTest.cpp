@@ -1,0 +1,555 @@
+#include "actuator/SimulatedActuator.h"
+#include "support/BlockContract.h"
+#include "support/Catch.h"
+#include "support/Measure.h"
+
+#include <pacini/actuator/Protection.h>
+#include <pacini/foundation/Random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+
+Profile profileOf(double frequency, double q, double lowFrequency, double excursion, double maxExcursion)
+{
+    Profile profile;
+    profile.resonance = {frequency, q};
+    profile.range.lowFrequency = lowFrequency;
+    profile.drive.excursion = excursion;
+    profile.drive.maxExcursion = maxExcursion;
+    return profile;
+}
+
+/// A coil of 8 ohm at 1 V rms that bears 0.03 W; full drive is 0.125 W for sinusoids.
+Profile withCoil(Profile profile, double thermalTime)
+{
+    profile.drive.impedance = 8.0;
+    profile.drive.maxVoltageRms = 1.0;
+    profile.drive.maxPower = 0.03;
+    profile.drive.thermalTime = thermalTime;
+    return profile;
+}
+
+struct NamedProfile
+{
+    std::string name;
+    Profile profile;
+};
+
+std::vector<NamedProfile> actuators()
+{
+    return {
+        {"L5", withCoil(profileOf(67.0, 3.97, 20.0, 1e-3, 1.5e-3), 2.0)},
+        {"LRA 175", withCoil(profileOf(175.0, 15.0, 100.0, 1e-4, 5e-4), 0.3)},
+        {"LRA 235, q 30", profileOf(235.0, 30.0, 100.0, 1e-4, 4e-4)},
+        {"piezo", profileOf(700.0, 10.0, 20.0, 5e-5, 6e-5)},
+        {"overdamped", profileOf(90.0, 0.2, 20.0, 2e-3, 1e-3)},
+        {"20 dB too much", withCoil(profileOf(67.0, 3.97, 20.0, 1e-2, 1e-3), 0.05)},
+        {"a coil that heats within a period", withCoil(profileOf(67.0, 3.97, 20.0, 1e-3, 1.5e-3), 0.01)},
+    };
+}
+
+using Signal = std::function<double(double time)>;
+
+struct NamedSignal
+{
+    std::string name;
+    Signal at;
+};
+
+/// The worst cases of each actuator, at full scale and 20 dB over it.
+std::vector<NamedSignal> worstSignals(const Profile& profile)
+{
+    const double f0 = profile.resonance.frequency;
+    const double low = profile.range.lowFrequency;
+    const auto tone = [](double f)
+    {
+        return [f](double t)
+        {
+            return std::sin(2.0 * std::numbers::pi * f * t);
+        };
+    };
+    const auto square = [tone](double f)
+    {
+        return [=](double t)
+        {
+            return tone(f)(t) < 0.0 ? -1.0 : 1.0;
+        };
+    };
+    const auto noise = [](double t)
+    {
+        Random random(static_cast<std::uint64_t>(std::llround(t * 768000.0)));
+        return random.uniform(-1.0, 1.0);
+    };
+    const auto times = [](double gain, Signal signal)
+    {
+        return [=](double t)
+        {
+            return gain * signal(t);
+        };
+    };
+    const auto bursts = [=](double t)
+    {
+        return std::fmod(t, 0.2) < 0.05 ? 10.0 * tone(f0)(t) : 0.0;
+    };
+    const auto rectified = [=](double t)
+    {
+        return std::abs(tone(f0)(t));
+    };
+    const auto detuned = [=](double t)
+    {
+        return tone(f0)(t) + tone(1.03 * f0)(t) + tone(4.7 * f0)(t);
+    };
+    return {
+        {"sine at resonance", tone(f0)},
+        {"sine at resonance + 20 dB", times(10.0, tone(f0))},
+        {"lowest sine + 20 dB", times(10.0, tone(low))},
+        {"square at resonance", square(f0)},
+        {"square at resonance + 20 dB", times(10.0, square(f0))},
+        {"step",
+         [](double)
+         {
+             return 1.0;
+         }},
+        {"step + 20 dB",
+         [](double)
+         {
+             return -10.0;
+         }},
+        {"slow square + 20 dB", times(10.0, square(3.0))},
+        {"noise + 20 dB", times(10.0, noise)},
+        {"bursts", bursts},
+        {"rectified + 20 dB", times(10.0, rectified)},
+        {"beats + 20 dB", times(10.0, detuned)},
+    };
+}
+
+std::vector<float> sampled(const Signal& signal, double seconds, double fs)
+{
+    std::vector<float> x(static_cast<std::size_t>(seconds * fs));
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] = static_cast<float>(signal(static_cast<double>(n) / fs));
+    return x;
+}
+
+Protection prepared(const ProtectionParams& params, double fs)
+{
+    Protection protection;
+    protection.setParams(params);
+    protection.prepare({fs, 512});
+    return protection;
+}
+
+/// Checks all limits of the profile on a drive, by simulations of the actuator.
+void checkUnharmed(const Profile& profile, const std::vector<float>& drive, double fs)
+{
+    double largest = 0.0;
+    for (float u : drive)
+        largest = std::max(largest, std::abs(static_cast<double>(u)));
+    CHECK(largest <= 1.0);
+    if (profile.drive.maxExcursion)
+    {
+        test::SimulatedResonator mass(profile.resonance.frequency, profile.resonance.q, *profile.drive.excursion, fs);
+        for (float u : drive)
+            mass.hold(static_cast<double>(u));
+        CHECK(mass.peak() <= *profile.drive.maxExcursion * (1.0 + 1e-6));
+    }
+    if (profile.drive.maxPower)
+    {
+        const double full =
+            2.0 * *profile.drive.maxVoltageRms * *profile.drive.maxVoltageRms / *profile.drive.impedance;
+        CHECK(test::hottest(drive, full, *profile.drive.thermalTime, fs) <= *profile.drive.maxPower * (1.0 + 1e-6));
+    }
+}
+
+double mean(std::span<const float> x)
+{
+    double sum = 0.0;
+    for (float v : x)
+        sum += static_cast<double>(v);
+    return sum / static_cast<double>(x.size());
+}
+
+/// The power of a signal beside its tone of f Hz, relative to the tone, dB; over whole periods of both.
+double distortion(std::span<const float> y, double f, double fs)
+{
+    const double n = static_cast<double>(y.size());
+    const double tone = 2.0 * std::norm(test::spectrumAt(y, f, fs)) / n;
+    double all = 0.0;
+    for (float v : y)
+        all += static_cast<double>(v) * static_cast<double>(v);
+    return 10.0 * std::log10(std::max(all - tone, 1e-30) / tone);
+}
+
+} // namespace
+
+TEST_CASE("Protection keeps the block contract", "[actuator][protection]")
+{
+    test::ContractOptions options;
+    options.bound = 1.0;
+    options.delay = test::MeasuredDelay::firstFrame;
+    for (const auto& [name, profile] : actuators())
+        for (const double lookAhead : {0.0, 0.001})
+        {
+            CAPTURE(name, lookAhead);
+            test::checkBlockContract<Protection>(protectionParams(profile, Seconds(lookAhead)), options);
+        }
+    const Profile l5 = actuators()[0].profile;
+    const Profile lra = actuators()[1].profile;
+    test::checkSilenceIsCheap<Protection>(protectionParams(l5, 1_ms));
+    test::checkModulation<Protection>({protectionParams(l5, 0_s), protectionParams(lra, 0_s), {}}, 1.0);
+}
+
+TEST_CASE("No worst-case signal takes an actuator beyond its limits", "[actuator][protection]")
+{
+    for (const auto& [name, profile] : actuators())
+        for (const double fs : {8000.0, 48000.0, 192000.0})
+            for (const auto& signal : worstSignals(profile))
+            {
+                CAPTURE(name, fs, signal.name);
+                const auto x = sampled(signal.at, fs > 100000.0 ? 0.15 : 0.35, fs);
+                for (const double lookAhead : {0.0, 0.001})
+                {
+                    CAPTURE(lookAhead);
+                    auto protection = prepared(protectionParams(profile, Seconds(lookAhead)), fs);
+                    checkUnharmed(profile, test::runInBlocks(protection, x, 512), fs);
+                }
+            }
+}
+
+TEST_CASE("The worst-case signals do reach the limits without protection", "[actuator][protection]")
+{
+    const double fs = 48000.0;
+    for (const auto& [name, profile] : actuators())
+    {
+        CAPTURE(name);
+        test::SimulatedResonator mass(profile.resonance.frequency, profile.resonance.q, *profile.drive.excursion, fs);
+        const bool overdamped = profile.resonance.q < 0.5;
+        const auto signals = worstSignals(profile);
+        const auto worst =
+            std::find_if(signals.begin(), signals.end(),
+                         [=](const NamedSignal& s) { return s.name == (overdamped ? "step" : "square at resonance"); });
+        for (float u : sampled(worst->at, 0.5, fs))
+            mass.hold(static_cast<double>(u));
+        CHECK(mass.peak() > *profile.drive.maxExcursion);
+        CHECK(mass.peak() <= worstExcursion(*excursionParams(profile)) * 1.001);
+    }
+}
+
+TEST_CASE("An adversary who sees the mass cannot push it beyond its travel", "[actuator][protection]")
+{
+    for (const auto& [name, profile] : actuators())
+        for (const double fs : {8000.0, 48000.0})
+        {
+            CAPTURE(name, fs);
+            auto protection = prepared(protectionParams(profile, 0_s), fs);
+            test::SimulatedResonator mass(profile.resonance.frequency, profile.resonance.q, *profile.drive.excursion,
+                                          fs);
+            // with the velocity; against it to gather way for a turn; from either end of the travel
+            std::vector<float> drive;
+            for (std::size_t n = 0; n < 8000; ++n)
+            {
+                const double pushed = n % 4000 < 3000 ? mass.velocity() : mass.displacement();
+                float u = pushed < 0.0 ? -10.0f : 10.0f;
+                protection.process(std::span(&u, 1), std::span(&u, 1));
+                mass.hold(static_cast<double>(u));
+                drive.push_back(u);
+            }
+            checkUnharmed(profile, drive, fs);
+            if (profile.drive.maxPower.value_or(1.0) > 0.1) // where heat is no issue the travel is really used
+                CHECK(mass.peak() > 0.98 * *profile.drive.maxExcursion);
+        }
+}
+
+TEST_CASE("Random actuators stay unharmed by random signals", "[actuator][protection]")
+{
+    for (std::uint64_t seed = 1; seed <= 150; ++seed)
+    {
+        CAPTURE(seed);
+        Random random(seed);
+        const auto logarithmic = [&](double low, double high)
+        {
+            return low * std::pow(high / low, random.uniform());
+        };
+        const double fs = logarithmic(8000.0, 192000.0);
+        Profile profile = profileOf(logarithmic(5.0, 0.3 * fs), logarithmic(0.05, 60.0), logarithmic(5.0, 200.0),
+                                    logarithmic(1e-5, 1e-2), 1e-3);
+        if (random.uniform() < 0.5)
+            profile = withCoil(profile, logarithmic(0.01, 10.0));
+
+        // pieces of steps, tones, noise and silence, each of a level of its own
+        std::vector<float> x;
+        while (x.size() < 6000)
+        {
+            const auto length = static_cast<std::size_t>(logarithmic(1.0, 2000.0));
+            const double level = logarithmic(1e-3, 1e3) * (random.uniform() < 0.5 ? -1.0 : 1.0);
+            const double f = random.uniform() < 0.5 ? profile.resonance.frequency : logarithmic(5.0, 0.5 * fs);
+            const double kind = random.uniform();
+            for (std::size_t n = 0; n < length; ++n)
+            {
+                const double phase = 2.0 * std::numbers::pi * f / fs * static_cast<double>(n);
+                x.push_back(static_cast<float>(kind < 0.2   ? level
+                                               : kind < 0.5 ? level * std::sin(phase)
+                                               : kind < 0.7 ? std::copysign(level, std::sin(phase))
+                                               : kind < 0.9 ? level * random.uniform(-1.0, 1.0)
+                                                            : 0.0));
+            }
+        }
+        x[x.size() / 2] = std::numeric_limits<float>::infinity();
+        x[x.size() / 3] = std::numeric_limits<float>::max();
+        auto protection =
+            prepared(protectionParams(profile, Seconds(random.uniform() < 0.5 ? 0.0 : random.uniform(0.0, 1e-3))), fs);
+        checkUnharmed(profile, test::runInBlocks(protection, x, 100), fs);
+    }
+}
+
+TEST_CASE("A resonance above the sample rate is guarded between the samples", "[actuator][protection]")
+{
+    const Profile profile = profileOf(19000.0, 20.0, 20.0, 1e-3, 1e-3);
+    const auto x = test::noise(4000, 5);
+    auto protection = prepared(protectionParams(profile, 0_s), 8000.0);
+    checkUnharmed(profile, test::runInBlocks(protection, x, 512), 8000.0);
+}
+
+TEST_CASE("Limits may narrow while the mass moves", "[actuator][protection]")
+{
+    const double fs = 48000.0;
+    Profile profile = profileOf(175.0, 15.0, 100.0, 1e-4, 5e-4);
+    auto protection = prepared(protectionParams(profile, 0_s), fs);
+    auto x = test::sine(48000, 175.0, fs);
+    protection.process(std::span(x).first(24000), std::span(x).first(24000));
+    test::SimulatedResonator mass(175.0, 15.0, 1e-4, fs);
+    for (std::size_t n = 0; n < 24000; ++n)
+        mass.hold(static_cast<double>(x[n]));
+    const double before = mass.amplitude();
+    CHECK(before > 4.8e-4);
+    profile.drive.maxExcursion = 1e-4;
+    protection.setParams(protectionParams(profile, 0_s));
+    const auto rest = std::span(x).subspan(24000);
+    protection.process(rest, rest);
+    const double decay = 2.0 * 15.0 / (2.0 * std::numbers::pi * 175.0); // s
+    for (std::size_t n = 0; n < rest.size(); ++n)
+    {
+        mass.hold(static_cast<double>(rest[n]));
+        const double free = before * std::exp(-static_cast<double>(n) / (decay * fs));
+        REQUIRE(mass.amplitude() <= std::max(1e-4, 1.04 * free));
+    }
+    CHECK(mass.amplitude() > 0.9e-4);
+}
+
+TEST_CASE("Below its limits the protection is two first-order high-passes and a delay", "[actuator][protection]")
+{
+    const double fs = 48000.0;
+    const Profile profile = withCoil(profileOf(67.0, 3.97, 20.0, 1e-3, 1.5e-3), 2.0);
+    for (const double lookAhead : {0.0, 0.0005, 0.001})
+    {
+        CAPTURE(lookAhead);
+        auto protection = prepared(protectionParams(profile, Seconds(lookAhead)), fs);
+        CHECK(protection.latencyFrames() == static_cast<std::size_t>(lookAhead * fs));
+        Random random(3);
+        std::vector<float> x(96000);
+        for (std::size_t n = 0; n < x.size(); ++n)
+            x[n] = static_cast<float>(0.25 * std::sin(2.0 * std::numbers::pi * 120.0 * static_cast<double>(n) / fs) +
+                                      random.uniform(-0.15, 0.15));
+        const auto y = test::runInBlocks(protection, x, 512);
+        CHECK(protection.gainReduction() == 0.0);
+
+        const long double keep = std::exp(-2.0L * std::numbers::pi_v<long double> * 2.0L / fs);
+        long double x1 = 0, y1 = 0, z1 = 0, largest = 0;
+        for (std::size_t n = 0; n + protection.latencyFrames() < x.size(); ++n)
+        {
+            const long double once = keep * y1 + x[n] - x1;
+            const long double twice = keep * z1 + once - y1;
+            x1 = x[n];
+            y1 = once;
+            z1 = twice;
+            largest = std::max(largest, std::abs(twice - y[n + protection.latencyFrames()]));
+        }
+        CHECK(static_cast<double>(largest) < 1e-6);
+    }
+}
+
+TEST_CASE("The high-passes cost a tenth of a decibel at the low end of the range", "[actuator][protection]")
+{
+    const double fs = 8000.0;
+    Profile profile;
+    for (const double low : {5.0, 20.0, 100.0})
+    {
+        CAPTURE(low);
+        profile.range.lowFrequency = low;
+        auto protection = prepared(protectionParams(profile, 1_ms), fs);
+        const auto x = test::sine(80000, low, fs, 0.5);
+        const auto y = test::runInBlocks(protection, x, 512);
+        const double level =
+            20.0 * std::log10(test::rms(std::span(y).last(40000)) / test::rms(std::span(x).last(40000)));
+        CHECK(level > -0.1);
+        CHECK(level < 0.03);
+    }
+}
+
+TEST_CASE("No input leaves a mean in the output", "[actuator][protection]")
+{
+    const double fs = 8000.0;
+    const auto half = [](double t)
+    {
+        return std::max(0.0, std::sin(2.0 * std::numbers::pi * 60.0 * t));
+    };
+    const auto pulses = [](double t)
+    {
+        return std::fmod(t, 0.05) < 0.002 ? 1.0 : 0.0;
+    };
+    const auto blips = [](double t) // so far apart that the limiter lets go between them
+    {
+        return std::fmod(t, 0.5) < 0.01 ? 1.0 : -0.02;
+    };
+    const std::vector<NamedSignal> signals{{"step",
+                                            [](double)
+                                            {
+                                                return 1.0;
+                                            }},
+                                           {"half waves", half},
+                                           {"pulses", pulses},
+                                           {"blips", blips}};
+    for (const auto& [name, profile] : actuators())
+        for (const auto& signal : signals)
+            for (const double gain : {0.3, 1.0, 10.0})
+                for (const double lookAhead : {0.0, 0.001})
+                {
+                    CAPTURE(name, signal.name, gain, lookAhead);
+                    auto protection = prepared(protectionParams(profile, Seconds(lookAhead)), fs);
+                    const auto x = sampled([&](double t) { return gain * signal.at(t); }, 4.0, fs);
+                    const auto y = test::runInBlocks(protection, x, 512);
+                    CHECK(std::abs(mean(std::span(y).last(8000))) < 0.01);
+                    CHECK(std::abs(mean(std::span(y).last(16000))) < 0.005);
+                }
+}
+
+TEST_CASE("A sinusoid 6 dB over a limit stays a sinusoid at the limit", "[actuator][protection]")
+{
+    const double fs = 48000.0;
+    struct Case
+    {
+        Profile profile;
+        double frequency;
+        double amplitude;
+    };
+    const Profile l5 = profileOf(67.0, 3.97, 20.0, 1e-3, 1.5e-3);
+    const Profile lra = profileOf(175.0, 15.0, 100.0, 1e-4, 5e-4);
+    Profile coil = withCoil(Profile{}, 0.5);
+    const std::vector<Case> cases{
+        {l5, 67.0, 2.0 * 1.5 / 3.97}, {l5, 20.0, 2.0},         {lra, 175.0, 2.0 * 5.0 / 15.0},
+        {coil, 40.0, 0.98},           {Profile{}, 100.0, 2.0},
+    };
+    for (const auto& c : cases)
+        for (const double lookAhead : {0.0, 0.001})
+        {
+            CAPTURE(c.profile.resonance.frequency, c.frequency, lookAhead);
+            auto protection = prepared(protectionParams(c.profile, Seconds(lookAhead)), fs);
+            const auto x = test::sine(6 * 48000, c.frequency, fs, c.amplitude);
+            const auto y = test::runInBlocks(protection, x, 512);
+            const double harmonics = distortion(std::span(y).last(48000), c.frequency, fs);
+            const double level =
+                20.0 * std::log10(test::rms(std::span(y).last(48000)) / test::rms(std::span(x).last(48000)));
+            CAPTURE(level);
+            CHECK(harmonics < -60.0);
+            CHECK(level == Approx(-6.2).margin(0.6));
+            CHECK(protection.gainReduction() == Approx(-level).margin(0.2));
+            CHECK(protection.meter().excursion == c.profile.drive.maxExcursion.has_value());
+            CHECK(protection.meter().heat == c.profile.drive.maxPower.has_value());
+            CHECK(protection.meter().guardedFrames == 0);
+        }
+}
+
+TEST_CASE("A cold coil lets bursts pass", "[actuator][protection]")
+{
+    const double fs = 8000.0;
+    const Profile profile = withCoil(Profile{}, 2.0);
+    auto protection = prepared(protectionParams(profile, 1_ms), fs);
+    const auto x = test::sine(32000, 150.0, fs, 0.85);
+    const auto y = test::runInBlocks(protection, x, 512);
+    CHECK(test::rms(std::span(y).first(1600)) > 0.98 * test::rms(std::span(x).first(1600)));
+    CHECK(test::rms(std::span(y).last(1600)) < 0.6 * test::rms(std::span(x).last(1600)));
+    // and warm it is played nearly as loud as it may be: 0.03 W of 0.25 W at a standing drive of 1
+    CHECK(test::rms(std::span(y).last(1600)) > 0.95 * std::sqrt(0.03 / 0.25));
+}
+
+TEST_CASE("Limits that no drive can reach are left out", "[actuator][protection]")
+{
+    using Limit = ProtectionNeeds::Limit;
+    Profile profile;
+    CHECK(protectionNeeds(profile).excursion == Limit::unknown);
+    CHECK(protectionNeeds(profile).heat == Limit::unknown);
+    CHECK_FALSE(protectionParams(profile, 0_s).excursion.has_value());
+
+    profile = withCoil(profileOf(67.0, 3.97, 20.0, 1e-3, 1e-3), 1.0);
+    auto needs = protectionNeeds(profile);
+    CHECK(needs.excursion == Limit::guarded);
+    CHECK(needs.heat == Limit::guarded);
+    CHECK(needs.worstPower == Approx(0.25));
+    CHECK(protectionParams(profile, 0_s).heat->thermalTime == 1.0);
+    profile.drive.thermalTime.reset();
+    CHECK(protectionParams(profile, 0_s).heat->thermalTime == defaultThermalTime);
+
+    // The worst drive follows the velocity of the mass: what it reaches is the bound.
+    for (const double q : {0.3, 0.5, 0.8, 3.97, 30.0})
+    {
+        CAPTURE(q);
+        const double fs = 48000.0;
+        const ExcursionParams params{67.0, q, 1e-3, 1e-3};
+        test::SimulatedResonator mass(67.0, q, 1e-3, fs);
+        for (int n = 0; n < 96000; ++n)
+            mass.hold(mass.velocity() < 0.0 ? -1.0 : 1.0);
+        CHECK(mass.peak() <= worstExcursion(params) * (1.0 + 1e-9));
+        if (q > 0.5)
+            CHECK(mass.peak() > 0.98 * worstExcursion(params));
+    }
+
+    profile.drive.maxPower = 0.25;
+    profile.drive.maxExcursion = protectionNeeds(profile).worstExcursion;
+    needs = protectionNeeds(profile);
+    CHECK(needs.excursion == Limit::unharmed);
+    CHECK(needs.heat == Limit::unharmed);
+    CHECK(protectionParams(profile, 0_s) == ProtectionParams{std::nullopt, std::nullopt, Hertz(20.0), Seconds(0.0)});
+}
+
+TEST_CASE("The held step is exact for any damping and rate", "[actuator][protection]")
+{
+    for (const double q : {0.01, 0.3, 0.5, 0.5000001, 4.0, 100.0})
+        for (const double duration : {1.0 / 768000.0, 1.0 / 48000.0, 1.0 / 2000.0})
+        {
+            CAPTURE(q, duration);
+            const double f = 150.0;
+            const HeldStep step = designHeldStep(f, q, 1.0, duration);
+            // x and v/w0 from roots of the characteristic polynomial, in long double
+            using Complex = std::complex<long double>;
+            const long double angle = 2.0L * std::numbers::pi_v<long double> * f * duration;
+            const Complex root = std::sqrt(Complex(1.0L / (4.0L * q * q) - 1.0L));
+            const Complex r1 = -1.0L / (2.0L * q) + root;
+            const Complex r2 = -1.0L / (2.0L * q) - root;
+            if (std::abs(root) < 1e-9L)
+                continue;                    // the formula divides by it
+            const auto expm1 = [](Complex z) // without cancellation
+            {
+                const Complex half = z / 2.0L;
+                return 2.0L * std::exp(half) * std::sinh(half);
+            };
+            const Complex e1 = expm1(r1 * angle);
+            const Complex e2 = expm1(r2 * angle);
+            const auto xx = static_cast<double>(((r1 * e2 - r2 * e1) / (r1 - r2)).real());
+            const auto vx = static_cast<double>((r1 * r2 * (e2 - e1) / (r1 - r2)).real());
+            CHECK(step.xx == Approx(xx).epsilon(1e-9));
+            CHECK(step.vx == Approx(vx).epsilon(1e-9));
+            CHECK(step.driveToX == Approx(-xx).epsilon(1e-9));
+            CHECK(step.driveToV == Approx(-vx).epsilon(1e-9));
+        }
+}
