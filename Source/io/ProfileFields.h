@@ -43,11 +43,12 @@ template <typename E, std::size_t Count>
     return {};
 }
 
-/// Whether an entry must be in the file; what is optional keeps the default of its struct.
+/// Whether an entry must be in the file; others keep the default of their struct when they are missing.
 enum class Need
 {
     required,
-    optional
+    usual,   ///< may be missing, but is always written
+    optional ///< an object that is not written when it equals its default
 };
 
 /// Shows `visitor` all entries of `profile` (a Profile, const for a writer) in the order of the file. The visitor has
@@ -63,23 +64,23 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
                    [&](auto& resonance)
                    {
                        visitor.number("frequency", resonance.frequency, required);
-                       visitor.number("q", resonance.q, optional);
+                       visitor.number("q", resonance.q, usual);
                    });
-    visitor.object("range", profile.range, optional,
+    visitor.object("range", profile.range, usual,
                    [&](auto& range)
                    {
-                       visitor.number("lowFrequency", range.lowFrequency, optional);
-                       visitor.number("highFrequency", range.highFrequency, optional);
-                       visitor.number("dynamicRange", range.dynamicRange, optional);
+                       visitor.number("lowFrequency", range.lowFrequency, usual);
+                       visitor.number("highFrequency", range.highFrequency, usual);
+                       visitor.number("dynamicRange", range.dynamicRange, usual);
                    });
     visitor.object("response", profile.response, optional,
                    [&](auto& response)
                    {
-                       visitor.number("riseTime", response.riseTime, optional);
-                       visitor.number("fallTime", response.fallTime, optional);
+                       visitor.number("riseTime", response.riseTime, usual);
+                       visitor.number("fallTime", response.fallTime, usual);
                    });
     visitor.integer("polyphony", profile.polyphony, "must be a whole number of voices, 0 to 64");
-    visitor.choice("frequencyMapping", profile.frequencyMapping, frequencyMappings, optional);
+    visitor.choice("frequencyMapping", profile.frequencyMapping, frequencyMappings, usual);
     visitor.object("drive", profile.drive, optional,
                    [&](auto& drive)
                    {
@@ -89,36 +90,35 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
                        visitor.optionalNumber("thermalTime", drive.thermalTime);
                        visitor.optionalNumber("maxExcursion", drive.maxExcursion);
                        visitor.optionalNumber("excursion", drive.excursion);
-                       visitor.number("overdrive", drive.overdrive, optional);
+                       visitor.number("overdrive", drive.overdrive, usual);
                    });
     visitor.list("equalizer", profile.equalizer, "sections",
                  [&](auto& section)
                  {
                      visitor.choice("type", section.type, equalizerTypes, required);
                      visitor.number("frequency", section.frequency, required);
-                     visitor.number("gain", section.gain,
-                                    section.type == EqualizerType::highpass ? optional : required);
-                     visitor.number("q", section.q, optional);
+                     visitor.number("gain", section.gain, section.type == EqualizerType::highpass ? usual : required);
+                     visitor.number("q", section.q, usual);
                      visitor.integer("order", section.order, "must be a whole number, 1 to 8");
                  });
     visitor.object("transient", profile.transient, optional,
                    [&](auto& transient)
                    {
-                       visitor.choice("shape", transient.shape, transientShapes, optional);
-                       visitor.number("frequency", transient.frequency, optional);
-                       visitor.number("cycles", transient.cycles, optional);
+                       visitor.choice("shape", transient.shape, transientShapes, usual);
+                       visitor.number("frequency", transient.frequency, usual);
+                       visitor.number("cycles", transient.cycles, usual);
                    });
     visitor.optionalObject("body", profile.body,
                            [&](auto& body)
                            {
-                               visitor.number("force", body.force, optional);
-                               visitor.number("movingMass", body.movingMass, optional);
-                               visitor.number("deviceMass", body.deviceMass, optional);
-                               visitor.number("jointStiffness", body.jointStiffness, optional);
-                               visitor.number("jointDamping", body.jointDamping, optional);
-                               visitor.number("skinMass", body.skinMass, optional);
-                               visitor.number("skinStiffness", body.skinStiffness, optional);
-                               visitor.number("skinDamping", body.skinDamping, optional);
+                               visitor.number("force", body.force, usual);
+                               visitor.number("movingMass", body.movingMass, usual);
+                               visitor.number("deviceMass", body.deviceMass, usual);
+                               visitor.number("jointStiffness", body.jointStiffness, usual);
+                               visitor.number("jointDamping", body.jointDamping, usual);
+                               visitor.number("skinMass", body.skinMass, usual);
+                               visitor.number("skinStiffness", body.skinStiffness, usual);
+                               visitor.number("skinDamping", body.skinDamping, usual);
                            });
     visitor.sources("sources", profile.sources);
 }

@@ -25,8 +25,9 @@ inline constexpr std::size_t largestProfileText = std::size_t(1) << 20;
 [[nodiscard]] Result<Profile> readProfileJson(std::string_view text);
 
 /// The text of a profile for which validate() holds: UTF-8, one line for each entry, numbers in the shortest form that
-/// reads back exactly. What equals its default is left out. readProfileJson(profileJson(profile)) == profile, except
-/// that bytes which are not UTF-8 become U+FFFD.
+/// reads back exactly. `response`, `drive` and
+/// `transient` are left out when they equal their default, and so is what is empty.
+/// readProfileJson(profileJson(profile)) == profile, except that bytes which are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string profileJson(const Profile& profile);
 
 } // namespace pacini

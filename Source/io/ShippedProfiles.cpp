@@ -14,22 +14,18 @@ std::vector<ShippedProfile> shippedProfiles(const fs::path& beside)
     std::vector<ShippedProfile> found;
     std::error_code error;
     fs::path folder = fs::absolute(beside, error);
-    for (int up = 0; up < foldersUp && !folder.empty(); ++up, folder = folder.parent_path())
+    for (int up = 0; up < foldersUp && !folder.empty() && found.empty(); ++up, folder = folder.parent_path())
         for (const fs::path& place : {folder / "profiles", folder / "share" / "pacini" / "profiles"})
+        {
             for (fs::directory_iterator entry(place, error); !error && entry != fs::directory_iterator();
                  entry.increment(error))
                 if (entry->path().extension() == ".json")
                     found.push_back({entry->path().stem().string(), entry->path()});
-    const auto byName = [](const ShippedProfile& a, const ShippedProfile& b)
-    {
-        return a.name < b.name;
-    };
-    std::stable_sort(found.begin(), found.end(), byName);
-    const auto sameName = [](const ShippedProfile& a, const ShippedProfile& b)
-    {
-        return a.name == b.name;
-    };
-    found.erase(std::unique(found.begin(), found.end(), sameName), found.end());
+            if (!found.empty())
+                break;
+        }
+    std::sort(found.begin(), found.end(),
+              [](const ShippedProfile& a, const ShippedProfile& b) { return a.name < b.name; });
     return found;
 }
 

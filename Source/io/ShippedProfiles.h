@@ -17,8 +17,8 @@ struct ShippedProfile
     std::filesystem::path path;
 };
 
-/// The files `profiles/NAME.json` and `share/pacini/profiles/NAME.json` in `beside` and the five folders above it, by
-/// name; of two with one name the nearer.
+/// The files NAME.json, by name, of the first folder that has any: `profiles` or `share/pacini/profiles` in `beside` or
+/// in one of the five folders above it.
 [[nodiscard]] std::vector<ShippedProfile> shippedProfiles(const std::filesystem::path& beside);
 
 /// Finds the profile that the user named: a file, or the name of a shipped one. Errors: io, listing the shipped names.
