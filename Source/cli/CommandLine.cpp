@@ -5,6 +5,7 @@
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
 #include "cli/PlotCommand.h"
+#include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<ProfilesCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
     commands.push_back(std::make_unique<BenchCommand>());

@@ -7,7 +7,7 @@
 namespace pacini::cli
 {
 
-/// `pacini convert`: one clip format becomes another.
+/// `pacini convert`: one format of clips, or of profiles, becomes another.
 class ConvertCommand : public Command
 {
 public:
@@ -15,6 +15,11 @@ public:
     Exit run(Console& console) override;
 
 private:
+    Exit convertClip(Console& console);
+    Exit convertProfile(Console& console);
+    /// Whether output would overwrite input, which is said.
+    bool overwritesInput(Console& console) const;
+
     std::string input;
     std::string output;
     std::string format;

@@ -1,8 +1,13 @@
 #include "cli/InfoCommand.h"
 
+#include "cli/ProfileReport.h"
+#include "cli/ProgramFolder.h"
+#include "io/AcfFile.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
+#include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 
 #include <pacini/clip/ClipSize.h>
 #include <pacini/clip/PackedClip.h>
@@ -12,6 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 namespace pacini::cli
 {
@@ -103,12 +111,31 @@ Result<Json> describeAudio(const std::string& file)
                 {"frames", frames},
                 {"peak", peak}};
 }
+
+/// The profile that `file` is, or that ships under this name; nothing when it is something else.
+std::optional<Result<Profile>> profileOf(const std::string& file)
+{
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+    {
+        const auto shipped = findProfile(file, programFolder());
+        return shipped ? std::optional(readProfile(*shipped)) : std::nullopt;
+    }
+    if (hasAcfExtension(file))
+    {
+        auto acf = readAcfFile(file);
+        return acf ? Result<Profile>(std::move(acf->profile)) : Result<Profile>(acf.error());
+    }
+    return isProfile(file) ? std::optional(readProfile(file)) : std::nullopt;
+}
 } // namespace
 
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("info", "Say what a clip or a sound file holds");
-    command->add_option("inputs", inputs, "Clips or audio files")->required()->type_name("FILE");
+    auto* command = app.add_subcommand("info", "Say what a clip, a sound or an actuator profile holds");
+    command->add_option("inputs", inputs, "Clips, audio files, profiles or names of shipped profiles")
+        ->required()
+        ->type_name("FILE");
     command->add_flag("--json", json, "Print one JSON object (a list of them for several files)");
     return command;
 }
@@ -119,6 +146,19 @@ Exit InfoCommand::run(Console& console)
     bool failed = false;
     for (const std::string& file : inputs)
     {
+        if (const auto profile = profileOf(file))
+        {
+            if (!*profile)
+            {
+                console.error(file, profile->error());
+                failed = true;
+            }
+            else if (json)
+                reports.push_back(describe(**profile));
+            else
+                console.print(profileText(file, **profile));
+            continue;
+        }
         const auto clip = readClip(file);
         if (clip)
         {

@@ -8,7 +8,7 @@
 namespace pacini::cli
 {
 
-/// `pacini info`: what a clip or a sound file holds.
+/// `pacini info`: what a clip, a sound file or a profile holds.
 class InfoCommand : public Command
 {
 public:

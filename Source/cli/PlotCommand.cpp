@@ -8,6 +8,7 @@
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -7,6 +7,7 @@
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
 
 #include <fmt/format.h>
 

@@ -1,26 +1,24 @@
 #pragma once
 
-// Actuator profiles as JSON files.
+// Actuator profiles in files.
 
-#include <pacini/actuator/Profile.h>
+#include "io/ProfileJson.h"
 
+#include <cstddef>
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 namespace pacini
 {
 
-/// Reads a profile ("format": "pacini.profile", "version": 1). Required: format, version, name, resonance.frequency;
-/// equalizer[{type,frequency,gain,q,order}] is optional, other keys are ignored. Errors carry the place, such as
-/// `equalizer[1].gain`; codes invalidData, unsupportedVersion, tooLarge.
-[[nodiscard]] Result<Profile> readProfileJson(std::string_view text);
-
-/// The same from a file. Errors also: io.
+/// Reads a profile. Errors: io as in readWholeFile, and those of readProfileJson(); an ACF file, known by its extension
+/// `.acf`, must be converted first.
 [[nodiscard]] Result<Profile> readProfile(const std::filesystem::path& path);
 
-/// Finds the profile that the user named: a file, or the name of a shipped one, which is looked for as
-/// `profiles/NAME.json` in `beside` and the folders above it. Errors: io, listing the shipped names.
-[[nodiscard]] Result<std::filesystem::path> findProfile(const std::string& name, const std::filesystem::path& beside);
+/// Whether the file's content says that it is a profile, valid or not. False for what cannot be read or is no JSON.
+[[nodiscard]] bool isProfile(const std::filesystem::path& path);
+
+/// Writes a profile and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io
+/// as in AtomicFile.
+[[nodiscard]] Result<std::size_t> writeProfile(const std::filesystem::path& path, const Profile& profile);
 
 } // namespace pacini

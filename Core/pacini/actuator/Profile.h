@@ -3,6 +3,7 @@
 // What is known of an actuator.
 
 #include <pacini/actuator/Equalizer.h>
+#include <pacini/actuator/ProfileSource.h>
 #include <pacini/foundation/Result.h>
 
 #include <optional>
@@ -116,6 +117,7 @@ struct Profile
     EqualizerSections equalizer;
     ActuatorTransient transient;
     std::optional<BodyParams> body;
+    ProfileSources sources;
     bool operator==(const Profile&) const = default;
 };
 
@@ -182,7 +184,7 @@ struct Profile
     }
     if (error)
         return *error;
-    return {};
+    return validate(profile.sources);
 }
 
 } // namespace pacini

@@ -1,0 +1,70 @@
+#include "cli/ProfilesCommand.h"
+
+#include "cli/ProfileReport.h"
+#include "cli/ProgramFolder.h"
+#include "io/ProfileFields.h"
+#include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pacini::cli
+{
+
+CLI::App* ProfilesCommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("profiles", "List the actuator profiles that come with Pacini");
+    command->add_flag("--json", json, "Print one JSON object");
+    command->footer("'pacini info NAME' shows one of them, 'pacini render --profile NAME' renders for it.");
+    return command;
+}
+
+Exit ProfilesCommand::run(Console& console)
+{
+    using Json = nlohmann::ordered_json;
+    const auto shipped = shippedProfiles(programFolder());
+    if (shipped.empty())
+    {
+        console.error(programFolder().string(), {ErrorCode::io, "", "has no folder 'profiles' in it or above it"});
+        return Exit::failed;
+    }
+    std::size_t width = 0;
+    for (const ShippedProfile& entry : shipped)
+        width = std::max(width, entry.name.size());
+    bool failed = false;
+    Json list = Json::array();
+    std::string lines;
+    for (const ShippedProfile& entry : shipped)
+    {
+        const auto profile = readProfile(entry.path);
+        if (!profile)
+        {
+            console.error(entry.path.string(), profile.error());
+            failed = true;
+            continue;
+        }
+        list.push_back({{"name", entry.name},
+                        {"title", profile->name},
+                        {"technology", profileFields::nameOf(profile->technology, profileFields::technologies)},
+                        {"resonance", profile->resonance.frequency},
+                        {"lowFrequency", profile->range.lowFrequency},
+                        {"highFrequency", profile->range.highFrequency},
+                        {"polyphony", profile->polyphony},
+                        {"path", entry.path.string()}});
+        lines += fmt::format("{:<{}}  {:<24}  {:>4.0f} Hz in {:>3.0f}-{:<4.0f} Hz  voices: {}\n", printable(entry.name),
+                             width, technologyText(profile->technology), profile->resonance.frequency,
+                             profile->range.lowFrequency, profile->range.highFrequency, voicesText(profile->polyphony));
+    }
+    const auto folder = shipped.front().path.parent_path();
+    if (json)
+        console.print(
+            Json{{"folder", folder.string()}, {"profiles", list}}.dump(2, ' ', false, Json::error_handler_t::replace));
+    else
+        console.print(lines + "They are in " + printable(folder.string()));
+    return failed ? Exit::failed : Exit::ok;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,126 @@
+#pragma once
+
+// The entries of a profile file: one table that the reader and the writer both follow.
+
+#include <pacini/actuator/Profile.h>
+
+#include <array>
+#include <string_view>
+
+namespace pacini::profileFields
+{
+
+/// A name in the file for one value of an enumeration.
+template <typename E>
+struct Choice
+{
+    std::string_view name;
+    E value;
+};
+
+inline constexpr std::array<Choice<Technology>, 6> technologies{{{"erm", Technology::erm},
+                                                                 {"lra", Technology::lra},
+                                                                 {"piezo", Technology::piezo},
+                                                                 {"eap", Technology::eap},
+                                                                 {"vca", Technology::vca},
+                                                                 {"pcm", Technology::pcm}}};
+inline constexpr std::array<Choice<FrequencyMapping>, 3> frequencyMappings{
+    {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}}};
+inline constexpr std::array<Choice<TransientShape>, 3> transientShapes{
+    {{"adaptive", TransientShape::adaptive}, {"square", TransientShape::square}, {"sine", TransientShape::sine}}};
+inline constexpr std::array<Choice<EqualizerType>, 4> equalizerTypes{{{"peak", EqualizerType::peak},
+                                                                      {"lowShelf", EqualizerType::lowShelf},
+                                                                      {"highShelf", EqualizerType::highShelf},
+                                                                      {"highpass", EqualizerType::highpass}}};
+
+/// The name of `value` in a file.
+template <typename E, std::size_t Count>
+[[nodiscard]] constexpr std::string_view nameOf(E value, const std::array<Choice<E>, Count>& choices) noexcept
+{
+    for (const auto& choice : choices)
+        if (choice.value == value)
+            return choice.name;
+    return {};
+}
+
+/// Whether an entry must be in the file; others keep the default of their struct when they are missing.
+enum class Need
+{
+    required,
+    usual,   ///< may be missing, but is always written
+    optional ///< an object that is not written when it equals its default
+};
+
+/// Shows `visitor` all entries of `profile` (a Profile, const for a writer) in the order of the file. The visitor has
+/// text, number, optionalNumber, integer and choice for single entries, object and optionalObject for entries in
+/// braces, list for the equalizer and sources for the sources.
+template <typename AnyProfile, typename Visitor>
+void visitFields(AnyProfile& profile, Visitor& visitor)
+{
+    using enum Need;
+    visitor.text("name", profile.name);
+    visitor.choice("technology", profile.technology, technologies, required);
+    visitor.object("resonance", profile.resonance, required,
+                   [&](auto& resonance)
+                   {
+                       visitor.number("frequency", resonance.frequency, required);
+                       visitor.number("q", resonance.q, usual);
+                   });
+    visitor.object("range", profile.range, usual,
+                   [&](auto& range)
+                   {
+                       visitor.number("lowFrequency", range.lowFrequency, usual);
+                       visitor.number("highFrequency", range.highFrequency, usual);
+                       visitor.number("dynamicRange", range.dynamicRange, usual);
+                   });
+    visitor.object("response", profile.response, optional,
+                   [&](auto& response)
+                   {
+                       visitor.number("riseTime", response.riseTime, usual);
+                       visitor.number("fallTime", response.fallTime, usual);
+                   });
+    visitor.integer("polyphony", profile.polyphony, "must be a whole number of voices, 0 to 64");
+    visitor.choice("frequencyMapping", profile.frequencyMapping, frequencyMappings, usual);
+    visitor.object("drive", profile.drive, optional,
+                   [&](auto& drive)
+                   {
+                       visitor.optionalNumber("impedance", drive.impedance);
+                       visitor.optionalNumber("maxVoltageRms", drive.maxVoltageRms);
+                       visitor.optionalNumber("maxPower", drive.maxPower);
+                       visitor.optionalNumber("thermalTime", drive.thermalTime);
+                       visitor.optionalNumber("maxExcursion", drive.maxExcursion);
+                       visitor.optionalNumber("excursion", drive.excursion);
+                       visitor.number("overdrive", drive.overdrive, usual);
+                   });
+    visitor.list("equalizer", profile.equalizer, "sections",
+                 [&](auto& section)
+                 {
+                     visitor.choice("type", section.type, equalizerTypes, required);
+                     visitor.number("frequency", section.frequency, required);
+                     visitor.number("gain", section.gain, section.type == EqualizerType::highpass ? usual : required);
+                     visitor.number("q", section.q, usual);
+                     visitor.integer("order", section.order, "must be a whole number, 1 to 8");
+                 });
+    visitor.object("transient", profile.transient, optional,
+                   [&](auto& transient)
+                   {
+                       visitor.choice("shape", transient.shape, transientShapes, usual);
+                       visitor.number("frequency", transient.frequency, usual);
+                       visitor.number("cycles", transient.cycles, usual);
+                   });
+    visitor.optionalObject("body", profile.body,
+                           [&](auto& body)
+                           {
+                               visitor.number("force", body.force, usual);
+                               visitor.number("movingMass", body.movingMass, usual);
+                               visitor.number("deviceMass", body.deviceMass, usual);
+                               visitor.number("jointStiffness", body.jointStiffness, usual);
+                               visitor.number("jointDamping", body.jointDamping, usual);
+                               visitor.number("skinMass", body.skinMass, usual);
+                               visitor.number("skinStiffness", body.skinStiffness, usual);
+                               visitor.number("skinDamping", body.skinDamping, usual);
+                           });
+    visitor.sources("sources", profile.sources);
+}
+
+} // namespace pacini::profileFields
