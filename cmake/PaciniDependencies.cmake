@@ -6,6 +6,9 @@ find_path(PACINI_KISSFFT_INCLUDE_DIR kissfft.hh PATH_SUFFIXES kissfft REQUIRED)
 add_library(pacini_kissfft INTERFACE)
 target_include_directories(pacini_kissfft SYSTEM INTERFACE "${PACINI_KISSFFT_INCLUDE_DIR}")
 
+# Eigen: small dense matrices. Its imported target marks its headers as those of a system.
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_FUZZERS)
     find_package(nlohmann_json 3.10 REQUIRED)
     find_package(fmt REQUIRED)

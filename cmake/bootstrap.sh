@@ -10,7 +10,7 @@ help=$(sed -n '2,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
-    libkissfft-dev libcairo2-dev)
+    libkissfft-dev libeigen3-dev libcairo2-dev)
 test_packages=(catch2 python3 python3-jsonschema clang-format)
 
 say() { printf '\n== %s\n' "$*"; }
@@ -21,10 +21,10 @@ install_packages() {
     if [ "$(uname -s)" != Linux ] || ! command -v apt-get >/dev/null; then
         cat <<'TEXT'
 bootstrap: installs by itself on Debian and Ubuntu only. Elsewhere, install a C++20 compiler, CMake 3.25, Ninja, pkg-config,
-nlohmann-json, fmt, CLI11, libsndfile, kissfft and cairo (for the tests also Catch2 and Python 3 with jsonschema), then run
+nlohmann-json, fmt, CLI11, libsndfile, kissfft, Eigen and cairo (for the tests also Catch2 and Python 3 with jsonschema), then run
     cmake --workflow --preset test
-  macOS (Homebrew):  brew install cmake ninja pkg-config nlohmann-json fmt cli11 libsndfile kissfft cairo catch2 python
-  Windows (vcpkg):   vcpkg install nlohmann-json fmt cli11 libsndfile kissfft cairo catch2 pkgconf
+  macOS (Homebrew):  brew install cmake ninja pkg-config nlohmann-json fmt cli11 libsndfile kissfft eigen cairo catch2 python
+  Windows (vcpkg):   vcpkg install nlohmann-json fmt cli11 libsndfile kissfft eigen3 cairo catch2 pkgconf
 TEXT
         exit 1
     fi
