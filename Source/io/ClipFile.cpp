@@ -50,7 +50,7 @@ Error notAClip()
 }
 } // namespace
 
-Result<Clip> readClip(const std::filesystem::path& path)
+Result<std::string> readClipBytes(const std::filesystem::path& path)
 {
     // A recording of hundreds of megabytes is not read just to find that it is no clip. Pipes can be read only once.
     std::error_code ignored;
@@ -58,16 +58,26 @@ Result<Clip> readClip(const std::filesystem::path& path)
         if (const auto start = startOf(path);
             !isBlank(start) && !start.starts_with(packedMagic) && !looksLikeJson(start))
             return notAClip();
-    const auto bytes = readWholeFile(path, largestClipText);
-    if (!bytes)
-        return bytes.error();
-    if (bytes->starts_with(packedMagic))
-        return unpackClip(std::as_bytes(std::span(*bytes)));
-    if (looksLikeJson(*bytes))
-        return readClipJson(*bytes);
-    if (bytes->empty())
+    return readWholeFile(path, largestClipText);
+}
+
+Result<Clip> clipOf(std::string_view bytes)
+{
+    if (bytes.starts_with(packedMagic))
+        return unpackClip(std::as_bytes(std::span(bytes)));
+    if (looksLikeJson(bytes))
+        return readClipJson(bytes);
+    if (bytes.empty())
         return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
     return notAClip();
+}
+
+Result<Clip> readClip(const std::filesystem::path& path)
+{
+    const auto bytes = readClipBytes(path);
+    if (!bytes)
+        return bytes.error();
+    return clipOf(*bytes);
 }
 
 std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path)

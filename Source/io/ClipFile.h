@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace pacini
 {
@@ -20,6 +22,10 @@ enum class ClipFormat
 /// Reads a clip; the content decides the format, not the name. Errors: io as in readWholeFile, tooLarge beyond 512 MB,
 /// invalidData when it is neither format, and those of the format's reader.
 [[nodiscard]] Result<Clip> readClip(const std::filesystem::path& path);
+
+/// The two halves of readClip(): the bytes of a file that may be a clip, and the clip that such bytes are.
+[[nodiscard]] Result<std::string> readClipBytes(const std::filesystem::path& path);
+[[nodiscard]] Result<Clip> clipOf(std::string_view bytes);
 
 /// The format that the file's content starts as; none when that is no clip's or the file cannot be read.
 [[nodiscard]] std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path);

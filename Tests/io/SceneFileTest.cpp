@@ -1,0 +1,319 @@
+#include "io/SceneFile.h"
+
+#include "io/ClipFile.h"
+#include "io/ClipJson.h"
+#include "io/SceneJson.h"
+#include "support/Catch.h"
+#include "support/ClipSamples.h"
+#include "support/TempFolder.h"
+
+#include <cmath>
+#include <string>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// A clip of any shape whose texts are UTF-8.
+Clip sampleClip(std::uint64_t seed)
+{
+    Clip clip = randomClip(seed);
+    clip.markers.clear();
+    clip.name = "clip " + std::to_string(seed);
+    return clip;
+}
+
+Scene randomScene(std::uint64_t seed)
+{
+    Random random(seed);
+    const auto below = [&](double n)
+    {
+        return static_cast<std::size_t>(random.uniform(0.0, n));
+    };
+    Scene scene;
+    scene.name = "scene \"" + std::to_string(seed) + "\"\n\xC3\xA4";
+    scene.duration = 1.0 + random.uniform(0.0, 5.0);
+    scene.gain = random.uniform(-40.0, 6.0);
+    scene.actuators = 1 + static_cast<int>(below(16.0));
+    scene.panLaw = static_cast<PanLaw>(below(3.0));
+    scene.panDelay = random.uniform(0.0, 0.1);
+    for (std::size_t i = below(4.0) + 1; i > 0; --i)
+        scene.clips.push_back(sampleClip(seed * 100 + i));
+    for (std::size_t i = below(20.0) + 1; i > 0; --i)
+    {
+        ScenePlay play;
+        play.name = "play " + std::to_string(i);
+        play.clip = below(static_cast<double>(scene.clips.size()));
+        play.start = random.uniform(0.0, 4.0);
+        play.loop = random.uniform() < 0.5 ? 0.0 : std::min(0.01, scene.clips[play.clip].duration);
+        play.passes = below(9.0);
+        play.gain = random.uniform(-140.0, 6.0);
+        play.pan = random.uniform();
+        play.transposition = random.uniform(-12.0, 12.0);
+        play.stretch = random.uniform(0.5, 2.0);
+        play.priority = static_cast<int>(below(9.0)) - 4;
+        play.variation = {random.uniform(), static_cast<VariationScope>(below(2.0)), random.next()};
+        scene.plays.push_back(play);
+    }
+    for (double time = 0.0; time < 1.0; time += random.uniform(0.0, 0.2))
+    {
+        const auto parameter = static_cast<SceneParameter>(below(4.0));
+        scene.changes.push_back({time, below(static_cast<double>(scene.plays.size())), parameter,
+                                 0.5 + 0.5 * random.uniform(), random.uniform()});
+    }
+    return scene;
+}
+
+/// Clips called a.pacb and folder/b.json, and none else.
+Result<Clip> twoClips(const std::string& file)
+{
+    if (file == "a.pacb")
+        return sampleClip(3);
+    if (file == "folder/b.json")
+        return sampleClip(4);
+    return Error{ErrorCode::io, "", "does not exist"};
+}
+
+const std::string head = R"({"format": "pacini.scene", "version": 1, )";
+
+Scene sceneOf(const std::string& members)
+{
+    const auto scene = readSceneJson(head + members + "}", twoClips);
+    INFO(members);
+    INFO((scene.ok() ? "" : scene.error().text()));
+    REQUIRE(scene.ok());
+    return *scene;
+}
+
+std::string whereOf(const std::string& members)
+{
+    INFO(members);
+    const auto scene = readSceneJson(head + members + "}", twoClips);
+    REQUIRE_FALSE(scene.ok());
+    CHECK(scene.error().message.size() > 5);
+    return scene.error().where;
+}
+} // namespace
+
+TEST_CASE("A scene that is written and read is the same scene", "[io][scene]")
+{
+    const TempFolder folder;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    {
+        CAPTURE(seed);
+        const Scene scene = randomScene(seed);
+        REQUIRE(validate(scene).ok());
+        const std::string text = writeSceneJson(scene);
+        const auto read = readSceneJson(text, twoClips);
+        INFO((read.ok() ? "" : read.error().text()));
+        REQUIRE(read.ok());
+        CHECK((*read == scene));
+        CHECK(writeSceneJson(*read) == text);
+        const auto path = folder / "x.scene.json";
+        const auto bytes = writeScene(path, scene);
+        REQUIRE(bytes.ok());
+        CHECK(*bytes == text.size());
+        const auto again = readScene(path);
+        REQUIRE(again.ok());
+        CHECK((*again == scene));
+    }
+    Scene tooWide;
+    tooWide.actuators = 99;
+    CHECK_FALSE(writeScene(folder / "no.json", tooWide).ok());
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("Only the clip of a play is needed", "[io][scene]")
+{
+    const Scene scene = sceneOf(R"("plays": [{"clip": "a.pacb"}])");
+    CHECK((scene.plays == std::vector<ScenePlay>{ScenePlay{}}));
+    CHECK((scene.clips == std::vector<Clip>{sampleClip(3)}));
+    CHECK(scene.actuators == 1);
+    CHECK(
+        (sceneOf(R"("unknown": {"clips": [1, {"x": null}]}, "plays": [{"clip": "a.pacb", "colour": [[]]}])") == scene));
+    CHECK((sceneOf("\"name\": \"empty\"").plays.empty()));
+}
+
+TEST_CASE("A play names its clip by index, file, file name or name", "[io][scene]")
+{
+    const std::string embedded = writeClipJson(sampleClip(7));
+    const std::string clips = R"("clips": ["a.pacb", {"file": "folder/b.json"}, {"clip": )" + embedded + "}], ";
+    const auto clipOfPlay = [&](const std::string& reference)
+    {
+        const Scene scene = sceneOf(clips + R"("plays": [{"clip": )" + reference + "}]");
+        CHECK(scene.clips.size() == 3);
+        return scene.plays[0].clip;
+    };
+    CHECK(clipOfPlay("1") == 1);
+    CHECK(clipOfPlay("\"a.pacb\"") == 0);
+    CHECK(clipOfPlay("\"./a.pacb\"") == 0);
+    CHECK(clipOfPlay("\"folder/b.json\"") == 1);
+    CHECK(clipOfPlay("\"b.json\"") == 1);
+    CHECK(clipOfPlay("\"clip 4\"") == 1);
+    CHECK(clipOfPlay("\"clip 7\"") == 2);
+    CHECK(whereOf(clips + R"("plays": [{"clip": 0}, {"clip": 3}])") == "plays[1].clip");
+    CHECK(whereOf(clips + R"("plays": [{"clip": 0.5}])") == "plays[0].clip");
+    CHECK(whereOf(clips + R"("plays": [{"clip": "c.pacb"}])") == "plays[0].clip");
+    // Two clips of one name: it would be a guess which is meant.
+    CHECK(whereOf(R"("clips": [{"clip": )" + embedded + R"(}, {"clip": )" + embedded +
+                  R"(}], "plays": [{"clip": "clip 7"}])") == "plays[0].clip");
+}
+
+TEST_CASE("A clip file is read once, however often a scene names it", "[io][scene]")
+{
+    int reads = 0;
+    const auto counting = [&](const std::string& file)
+    {
+        ++reads;
+        return twoClips(file);
+    };
+    const auto scene = readSceneJson(head + R"("clips": ["a.pacb", "folder/b.json", {"file": "./a.pacb"}],
+        "plays": [{"clip": 2}, {"clip": "a.pacb"}, {"clip": 1}, {"clip": "folder/../a.pacb"}]})",
+                                     counting);
+    REQUIRE(scene.ok());
+    CHECK(reads == 2);
+    CHECK(scene->clips.size() == 2);
+    CHECK(scene->plays[0].clip == 0);
+    CHECK(scene->plays[2].clip == 1);
+    CHECK(scene->plays[3].clip == 0);
+}
+
+TEST_CASE("A loop of true is the whole clip, a variation may be just a number, plays are changed by name",
+          "[io][scene]")
+{
+    const Scene scene = sceneOf(R"("duration": 9,
+        "plays": [{"clip": "a.pacb", "name": "rain", "loop": true, "variation": 0.3},
+                  {"clip": "a.pacb", "name": "hit", "loop": false,
+                   "variation": {"amount": 0.2, "scope": "band", "seed": "18446744073709551615"}}],
+        "changes": [{"time": 1, "play": "hit", "parameter": "pan", "value": 1},
+                    {"time": 1, "play": 0, "parameter": "stretch", "value": 2, "glide": 0}])");
+    CHECK(scene.plays[0].loop == scene.clips[0].duration);
+    CHECK(scene.plays[1].loop == 0.0);
+    CHECK((scene.plays[0].variation == VariationParams{0.3, VariationScope::breakpoint, 0}));
+    CHECK((scene.plays[1].variation == VariationParams{0.2, VariationScope::band, ~std::uint64_t(0)}));
+    CHECK((scene.changes[0] == SceneChange{1.0, 1, SceneParameter::pan, 1.0, 0.005}));
+    CHECK((scene.changes[1] == SceneChange{1.0, 0, SceneParameter::stretch, 2.0, 0.0}));
+}
+
+TEST_CASE("A bad scene is refused with its place", "[io][scene]")
+{
+    CHECK(whereOf(R"("plays": 1)") == "plays");
+    CHECK(whereOf(R"("plays": {})") == "plays");
+    CHECK(whereOf(R"("plays": [1])") == "plays[0]");
+    CHECK(whereOf(R"("plays": ["a.pacb"])") == "plays[0]");
+    CHECK(whereOf(R"("plays": [{}])") == "plays[0].clip");
+    CHECK(whereOf(R"("plays": [{"clip": null}])") == "plays[0].clip");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "start": "now"}])") == "plays[0].start");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "start": -1}])") == "plays[0].start");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "start": 1, "start": 2}])") == "plays[0].start");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "loop": "yes"}])") == "plays[0].loop");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "loop": true}])") == "plays[0].passes");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "passes": 0.5}])") == "plays[0].passes");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "passes": 1e300}])") == "plays[0].passes");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "priority": 1e12}])") == "plays[0].priority");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "pan": 2}])") == "plays[0].pan");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "variation": []}])") == "plays[0].variation");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "variation": {"scope": "note"}}])") == "plays[0].variation.scope");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "variation": {"seed": "1x"}}])") == "plays[0].variation.seed");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "variation": 2}])") == "plays[0].variation");
+    CHECK(whereOf(R"("actuators": 2.5)") == "actuators");
+    CHECK(whereOf(R"("actuators": 17)") == "actuators");
+    CHECK(whereOf(R"("panLaw": "loud")") == "panLaw");
+    CHECK(whereOf(R"("gain": true)") == "gain");
+    CHECK(whereOf(R"("duration": 1e999)") == "duration");
+    CHECK(whereOf(R"("duration": NaN)") == "line 1, column 54");
+    CHECK(whereOf(R"("clips": [{}])") == "clips[0]");
+    CHECK(whereOf(R"("clips": [{"file": "a.pacb", "clip": {"format": "pacini.clip", "version": 1, "duration": 0,
+        "bands": []}}])") == "clips[0]");
+    CHECK(whereOf(R"("clips": [7])") == "clips[0]");
+    CHECK(whereOf(R"("clips": [""])") == "clips[0]");
+    CHECK(whereOf(R"("clips": ["a.pacb", "no.pacb"])") == "clips[1]");
+    CHECK(whereOf(R"("clips": [{"clip": []}])") == "clips[0].clip");
+    CHECK(whereOf(R"("clips": [{"clip": {"format": "pacini.clip", "version": 2}}])") == "clips[0].clip.version");
+    CHECK(whereOf(R"("clips": [{"clip": {"format": "pacini.clip", "version": 1, "bands": []}}])") ==
+          "clips[0].clip.duration");
+    CHECK(whereOf(R"("clips": [{"clip": {"format": "pacini.clip", "version": 1, "duration": 0, "bands": [],
+        "envelope": [{"time": 3, "amplitude": 0}]}}])") == "clips[0].clip.envelope[0].time");
+    const std::string play = R"("plays": [{"clip": "a.pacb", "name": "x"}, {"clip": "a.pacb", "name": "x"}], )";
+    CHECK(whereOf(play + R"("changes": [{}])") == "changes[0].time");
+    const auto change = [&](const std::string& members)
+    {
+        return play + R"("changes": [{"time": 1, "parameter": "gain", "value": 0, )" + members + "}]";
+    };
+    CHECK(whereOf(change(R"("play": 2)")) == "changes[0].play");
+    CHECK(whereOf(change(R"("play": "y")")) == "changes[0].play");
+    CHECK(whereOf(change(R"("play": "x")")) == "changes[0].play"); // two are called so
+    CHECK(whereOf(change(R"("play": 0, "glide": -1)")) == "changes[0].glide");
+    CHECK(whereOf(play + R"("changes": [{"time": 1, "play": 0, "parameter": "speed", "value": 0}])") ==
+          "changes[0].parameter");
+
+    const auto errorOf = [](const std::string& text)
+    {
+        const auto scene = readSceneJson(text, twoClips);
+        REQUIRE_FALSE(scene.ok());
+        return scene.error();
+    };
+    CHECK(errorOf(R"({"format": "pacini.scene", "version": 2})").code == ErrorCode::unsupportedVersion);
+    CHECK(errorOf(R"({"format": "pacini.scene"})").where == "version");
+    CHECK(errorOf(R"({"version": 1})").where == "format");
+    CHECK(errorOf(R"({"format": "pacini.clip", "version": 1})").where == "format");
+    CHECK(errorOf("[]").message.find("object") != std::string::npos);
+    CHECK(errorOf(head + R"("x": )" + std::string(100'000, '[')).code == ErrorCode::tooLarge);
+}
+
+TEST_CASE("Absurd counts are refused as they come", "[io][scene]")
+{
+    const auto repeated = [](const std::string& name, const std::string& item, std::size_t count)
+    {
+        std::string text = head + "\"" + name + "\": [";
+        for (std::size_t i = 0; i < count; ++i)
+            text += (i > 0 ? "," : "") + item;
+        return text;
+    };
+    // None of the texts is closed: more is not looked at.
+    for (const auto& [name, item, count] :
+         {std::tuple("plays", R"({"clip":0})", 10'001u), std::tuple("clips", "\"a.pacb\"", 10'001u),
+          std::tuple("changes", R"({"time":0,"play":0,"parameter":"gain","value":0})", 1'000'001u)})
+    {
+        const auto scene = readSceneJson(repeated(name, item, count), twoClips);
+        REQUIRE_FALSE(scene.ok());
+        CHECK(scene.error().code == ErrorCode::tooLarge);
+        CHECK(scene.error().where == name + ("[" + std::to_string(count - 1) + "]"));
+    }
+}
+
+TEST_CASE("Clip files are found beside the scene, or in a folder that is named", "[io][scene]")
+{
+    const TempFolder folder;
+    std::filesystem::create_directories(folder / "scenes");
+    std::filesystem::create_directories(folder / "clips");
+    REQUIRE(writeClip(folder / "clips" / "door.pacb", sampleClip(5), ClipFormat::packed).ok());
+    const auto path = put(folder / "scenes" / "a.json", head + R"("plays": [{"clip": "../clips/door.pacb"}]})");
+    CHECK(readScene(path).ok());
+    const auto bare = put(folder / "scenes" / "b.json", head + R"("clips": ["door.pacb"]})");
+    CHECK(readScene(bare, folder / "clips").ok());
+    const auto missing = readScene(bare);
+    REQUIRE_FALSE(missing.ok());
+    CHECK(missing.error().where == "clips[0]");
+    CHECK(missing.error().message.find("door.pacb: does not exist") == 0);
+    put(folder / "scenes" / "door.pacb", "PACBroken");
+    CHECK(readScene(bare).error().message.find("door.pacb: ") == 0);
+    CHECK_FALSE(readScene(folder / "none.json").ok());
+}
+
+TEST_CASE("What is rendered is a scene when its format says so", "[io][scene]")
+{
+    const TempFolder folder;
+    REQUIRE(writeClip(folder / "clip.json", sampleClip(5), ClipFormat::json).ok());
+    REQUIRE(writeClip(folder / "clip.pacb", sampleClip(5), ClipFormat::packed).ok());
+    REQUIRE(writeScene(folder / "scene", randomScene(2)).ok());
+    put(folder / "late.json", R"({"nested": {"format": "pacini.clip"}, "version": 1, "format": "pacini.scene"})");
+    CHECK(readClipOrScene(folder / "clip.json")->index() == 0);
+    CHECK(readClipOrScene(folder / "clip.pacb")->index() == 0);
+    CHECK(readClipOrScene(folder / "scene")->index() == 1);
+    CHECK(readClipOrScene(folder / "late.json")->index() == 1);
+    put(folder / "other.json", R"({"format": "pacini.profile", "version": 1})");
+    CHECK(readClipOrScene(folder / "other.json").error().where == "format");
+    CHECK_FALSE(readClipOrScene(folder / "none").ok());
+}
