@@ -10,6 +10,8 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
+#include <pacini/synthesis/ScenePlayer.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -80,40 +82,34 @@ Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plo
 }
 
 /// The drive signal as `pacini render` makes it, for long clips at a lower rate: a pixel is much longer than a sample.
-plot::NamedWaveform driveWaveform(const Clip& clip, const std::optional<Profile>& profile, plot::TimeRange range,
-                                  std::size_t columns, const Progress& progress)
+Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<Profile>& profile,
+                                          plot::TimeRange range, std::size_t columns, const Progress& progress)
 {
     constexpr double longClip = 300.0; // s
     constexpr std::size_t blockFrames = 4096;
-    RenderSettings settings;
-    settings.profile = profile;
+    CompileParams params;
     if (clip.duration > longClip)
-        settings.decoder.sampleRate = 8000.0;
-    const double fs = settings.decoder.sampleRate;
-    Decoder decoder(clip, decoderParamsFor(clip, settings));
-    Equalizer equalizer;
-    if (profile)
-    {
-        equalizer.prepare({fs, blockFrames});
-        equalizer.setParams(profile->equalizer);
-    }
+        params.sampleRate = 8000.0;
+    const double fs = params.sampleRate;
+    auto plan = compilePlan(sceneOf(clip), profile ? &*profile : nullptr, params);
+    if (!plan)
+        return plan.error();
+    ScenePlayer player(std::move(*plan), fs);
     plot::Waveform waveform(range, columns, fs, 1);
     std::vector<float> block(blockFrames);
-    const auto last = std::min(decoder.totalFrames(), static_cast<std::int64_t>(range.to * fs) + 2);
+    const auto last = std::min(player.totalFrames(), static_cast<std::int64_t>(range.to * fs) + 2);
     for (std::int64_t done = 0; done < last;)
     {
         const auto part = std::span(block).first(
             static_cast<std::size_t>(std::min(last - done, static_cast<std::int64_t>(blockFrames))));
-        decoder.process(part);
-        if (profile)
-            equalizer.process(part, part);
+        player.process(std::span(&part, 1));
         waveform.push(part);
         done += static_cast<std::int64_t>(part.size());
         progress(static_cast<double>(done) / static_cast<double>(last));
     }
-    return {profile ? fmt::format("Drive signal for {} (1 = full drive)", profile->name)
-                    : "Drive signal rendered from the clip (1 = full drive)",
-            waveform.points()};
+    return plot::NamedWaveform{profile ? fmt::format("Drive signal for {} (1 = full drive)", profile->name)
+                                       : "Drive signal rendered from the clip (1 = full drive)",
+                               waveform.points()};
 }
 } // namespace
 
@@ -210,7 +206,12 @@ Exit PlotCommand::run(Console& console)
         waveforms.push_back(std::move(waveform.value()));
     }
     if (heard.empty() || actuator)
-        waveforms.push_back(driveWaveform(*clip, actuator, range, columns, progress));
+    {
+        auto waveform = driveWaveform(*clip, actuator, range, columns, progress);
+        if (!waveform)
+            return fail(input, waveform.error());
+        waveforms.push_back(std::move(waveform.value()));
+    }
     console.endProgress();
 
     const std::string title = clip->name.empty() ? path.filename().string() : clip->name;

@@ -4,6 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/ProgramFolder.h"
 #include "cli/RenderJob.h"
+#include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/ProfileFile.h"
@@ -22,37 +23,22 @@ namespace
 {
 using RenderTask = Task<RenderResult>;
 
-nlohmann::ordered_json toJson(const RenderTask& task)
+nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
 {
     const RenderResult& r = *task.result;
-    return {{"input", task.input.string()},
-            {"output", task.output.string()},
-            {"bytes", r.bytes},
-            {"duration", r.duration},
-            {"seconds", r.seconds},
-            {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
-            {"peak", r.peak},
-            {"clippedSamples", r.clippedSamples},
-            {"plan",
-             {{"innerRate", r.report.innerRate},
-              {"carriers", r.report.carriers},
-              {"silentBands", r.report.silentBands},
-              {"noiseBands", r.report.noiseBands},
-              {"levelled", r.report.levelled},
-              {"pulses", r.report.pulses},
-              {"maskedTransients", r.report.maskedTransients}}}};
-}
-
-std::string explanation(const RenderTask& task)
-{
-    const DecoderReport& plan = task.result->report;
-    return fmt::format("{}:\n"
-                       "  {} sinusoids and {} bands of noise at an inner rate of {:.0f} Hz{}\n"
-                       "  left out: {} silent bands, {} events that the bands reach by themselves\n"
-                       "  {} pulses",
-                       printable(task.input.string()), plan.carriers, plan.noiseBands, plan.innerRate,
-                       plan.levelled ? ", levelled to the envelope" : "", plan.silentBands, plan.maskedTransients,
-                       plan.pulses);
+    nlohmann::ordered_json report{{"input", task.input.string()},
+                                  {"output", task.output.string()},
+                                  {"kind", r.isScene ? "scene" : "clip"},
+                                  {"bytes", r.bytes},
+                                  {"duration", r.duration},
+                                  {"seconds", r.seconds},
+                                  {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
+                                  {"peak", r.peak},
+                                  {"clippedSamples", r.clippedSamples},
+                                  {"plan", planJson(r, settings.compile)}};
+    if (explain)
+        report["plan"].update(planLists(r));
+    return report;
 }
 
 std::string summary(const std::vector<RenderTask>& tasks)
@@ -85,11 +71,14 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("render", "Turn clips into drive signals (WAV)");
-    command->add_option("inputs", inputs, "Clips (JSON or packed), or folders of them")->required()->type_name("CLIP");
+    auto* command = app.add_subcommand("render", "Turn clips and scenes into drive signals (WAV)");
+    command->add_option("inputs", inputs, "Clips (JSON or packed) and scenes (JSON), or folders of them")
+        ->required()
+        ->type_name("CLIP|SCENE");
     command
-        ->add_option("-o,--output", output,
-                     "Sound file (.wav or .flac), or folder for several clips [beside each clip]")
+        ->add_option(
+            "-o,--output", output,
+            "Sound file (.wav or .flac) with a channel for each actuator, or folder for several [beside each input]")
         ->type_name("OUT|DIR");
     command
         ->add_option("--profile", profile,
@@ -110,10 +99,12 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->capture_default_str()
         ->check(numberFrom(0.01, 100.0))
         ->type_name("R");
-    command->add_option("--delay", delay, "Silence before the clip, s")
+    command->add_option("--delay", delay, "Silence before the start, s")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
-    command->add_option("--variation", variation, "Random variation of the bands, 0 to 1")
+    command
+        ->add_option("--variation", variation,
+                     "Random variation of the bands, 0 to 1; in a scene of the plays that have none")
         ->capture_default_str()
         ->check(numberFrom(0.0, 1.0))
         ->type_name("V");
@@ -139,35 +130,54 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_option("--pulse-cycles", pulseCycles, "Periods of square and sine pulses")
         ->capture_default_str()
         ->check(numberFrom(0.1, 100.0));
-    command->add_flag("--explain", explain, "Say what is played and what is left out");
-    command->add_option("-j,--jobs", jobs, "Clips to work on at a time [number of processors]")
+    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
+        ->type_name("DIR");
+    command
+        ->add_option("--tolerance", tolerance,
+                     "Leave out what costs less, all together, than this many dB below the whole")
+        ->capture_default_str()
+        ->check(numberFrom(-300.0, 0.0))
+        ->type_name("DB");
+    auto* all = command->add_flag("--everything", everything, "Leave nothing out");
+    command->get_option("--tolerance")->excludes(all);
+    command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
+    command->add_flag("--measured", measured,
+                      "Like --explain, and play everything too, to measure what leaving out costs");
+    command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
     command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
-                    "  pacini render step.json -o step3.wav --variation 0.3 --seed 3");
+                    "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
+                    "  pacini render hall.scene.json -o hall.wav --explain");
     return command;
 }
 
 Exit RenderCommand::run(Console& console)
 {
     RenderSettings settings;
-    settings.decoder.sampleRate = std::round(rate);
-    settings.decoder.transposition = transpose;
-    settings.decoder.stretch = stretch;
-    settings.decoder.gain = Decibels(gain).gain();
-    settings.decoder.delay = delay;
-    settings.decoder.variation = {variation, variationPer == "band" ? VariationScope::band : VariationScope::breakpoint,
-                                  seed};
-    settings.carriers = chosen<CarrierMode>(
+    settings.compile.sampleRate = std::round(rate);
+    settings.compile.tolerance = tolerance;
+    settings.compile.leaveOut = !everything;
+    settings.transposition = transpose;
+    settings.stretch = stretch;
+    settings.gain = gain;
+    settings.delay = delay;
+    settings.variation = {variation, variationPer == "band" ? VariationScope::band : VariationScope::breakpoint, seed};
+    DecoderChoice& decoder = settings.compile.decoder;
+    decoder.carriers = chosen<CarrierMode>(
         carriers, {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
-    settings.followEnvelope = chosen<bool>(envelope, {{"on", true}, {"off", false}});
-    settings.pulseShape = chosen<PulseShape>(
+    decoder.followEnvelope = chosen<bool>(envelope, {{"on", true}, {"off", false}});
+    decoder.pulseShape = chosen<PulseShape>(
         pulse, {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
     if (pulseFrequency > 0.0)
-        settings.pulseFrequency = pulseFrequency;
-    settings.pulseCycles = pulseCycles;
+        decoder.pulseFrequency = pulseFrequency;
+    decoder.pulseCycles = pulseCycles;
+    settings.clipFolder = clipFolder;
+    explain = explain || measured;
+    settings.describe = explain || json;
+    settings.measure = measured;
     settings.encoding = encoding == "pcm16"   ? SampleEncoding::pcm16
                         : encoding == "pcm24" ? SampleEncoding::pcm24
                                               : SampleEncoding::float32;
@@ -212,12 +222,13 @@ Exit RenderCommand::run(Console& console)
              });
 
     if (json)
-        console.print(jsonReport(tasks, toJson));
+        console.print(jsonReport(tasks, [&](const RenderTask& task) { return toJson(task, settings, explain); }));
     else
     {
         for (const RenderTask& task : tasks)
             if (explain && task.result)
-                console.print(explanation(task));
+                console.print(
+                    fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
         console.note(summary(tasks));
     }
     return anyFailed(tasks) ? Exit::failed : Exit::ok;

@@ -2,8 +2,6 @@
 
 #include "cli/Command.h"
 
-#include <pacini/synthesis/Decoder.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,7 +9,7 @@
 namespace pacini::cli
 {
 
-/// `pacini render`: clips become drive signals.
+/// `pacini render`: clips and scenes become drive signals.
 class RenderCommand : public Command
 {
 public:
@@ -36,8 +34,12 @@ private:
     double stretch = 1.0;
     double gain = 0.0;
     double delay = 0.0;
+    double tolerance = -60.0;
+    std::string clipFolder;
     unsigned jobs = 0;
+    bool everything = false;
     bool explain = false;
+    bool measured = false;
     bool json = false;
 };
 

@@ -2,95 +2,225 @@
 
 #include "cli/Stopwatch.h"
 #include "cli/Task.h"
-#include "io/ClipFile.h"
+#include "io/SceneFile.h"
+
+#include <pacini/synthesis/ScenePlayer.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <vector>
+#include <span>
+#include <utility>
+#include <variant>
 
 namespace pacini::cli
 {
 
-DecoderParams decoderParamsFor(const Clip& clip, const RenderSettings& settings)
+namespace
 {
-    DecoderParams params = settings.decoder;
-    if (encoderText(clip, "method", "a2vt") == "thesis")
+constexpr std::size_t blockFrames = 4096;
+constexpr double buildAhead = 0.1; // s: decoders are made this early, so that no more than sound are in memory
+
+/// One buffer for each actuator.
+class Channels
+{
+public:
+    explicit Channels(std::size_t count) : samples(count, std::vector<float>(blockFrames)), spans(count) {}
+
+    [[nodiscard]] std::span<const std::span<float>> first(std::size_t frames)
     {
-        const DecoderParams thesis =
-            thesisDecoderParams(params.sampleRate, settings.profile ? settings.profile->resonance.frequency : 67.0);
-        params.carriers = thesis.carriers;
-        params.followEnvelope = thesis.followEnvelope;
-        params.fullRate = thesis.fullRate;
-        params.pulses = thesis.pulses;
+        for (std::size_t a = 0; a < samples.size(); ++a)
+            spans[a] = std::span(samples[a]).first(frames);
+        return spans;
     }
-    params.carriers = settings.carriers.value_or(params.carriers);
-    params.followEnvelope = settings.followEnvelope.value_or(params.followEnvelope);
-    params.pulses.shape = settings.pulseShape.value_or(params.pulses.shape);
-    if (settings.pulseShape)
+    [[nodiscard]] std::size_t count() const { return samples.size(); }
+    [[nodiscard]] const std::vector<float>& operator[](std::size_t a) const { return samples[a]; }
+
+private:
+    std::vector<std::vector<float>> samples;
+    std::vector<std::span<float>> spans;
+};
+
+/// Energies of a signal and of its difference from another, over all channels.
+struct ErrorMeter
+{
+    double wanted = 0.0, difference = 0.0;
+
+    void add(const Channels& reference, const Channels& found, std::size_t frames)
     {
-        params.pulses.cycles = settings.pulseCycles;
-        params.pulses.frequency =
-            settings.pulseFrequency.value_or(settings.profile ? settings.profile->resonance.frequency : 67.0);
+        for (std::size_t a = 0; a < reference.count(); ++a)
+            for (std::size_t n = 0; n < frames; ++n)
+            {
+                const auto x = static_cast<double>(reference[a][n]);
+                const double d = static_cast<double>(found[a][n]) - x;
+                wanted += x * x;
+                difference += d * d;
+            }
     }
-    return params;
+    [[nodiscard]] double decibels() const
+    {
+        return difference > 0.0 ? 10.0 * std::log10(difference / wanted) : -std::numeric_limits<double>::infinity();
+    }
+};
+
+/// What each decoder of a plan plays. They are made one after the other, not to fill the memory.
+std::vector<PlayReport> describe(const RenderPlan& plan, const Scene& scene)
+{
+    std::vector<PlayReport> reports;
+    for (const PlannedPlay& planned : plan.plays)
+    {
+        const Decoder decoder(planned.clip, planned.decoder, planned.timeline.changes);
+        const ScenePlay& play = scene.plays[planned.play];
+        reports.push_back({planned.play, play.name.empty() ? scene.clips[play.clip].name : play.name, planned.start,
+                           static_cast<double>(decoder.totalFrames()) / planned.decoder.sampleRate, decoder.report()});
+    }
+    return reports;
+}
+
+void process(ScenePlayer& player, std::uint64_t done, std::size_t frames, double fs, Channels& out)
+{
+    player.build((static_cast<double>(done) + static_cast<double>(frames)) / fs + buildAhead);
+    player.process(out.first(frames));
+}
+} // namespace
+
+Scene sceneOf(Clip clip)
+{
+    Scene scene;
+    scene.clips.push_back(std::move(clip));
+    scene.plays.push_back({});
+    return scene;
+}
+
+Scene adjusted(Scene scene, const RenderSettings& settings)
+{
+    const double r = settings.stretch;
+    const auto moved = [&](double time)
+    {
+        return settings.delay + r * time;
+    };
+    scene.gain += settings.gain;
+    if (scene.duration > 0.0)
+        scene.duration = moved(scene.duration);
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        ScenePlay& play = scene.plays[i];
+        play.start = moved(play.start);
+        play.stretch *= r;
+        play.transposition += settings.transposition;
+        if (play.variation.amount == 0.0 && settings.variation.amount > 0.0)
+        {
+            play.variation = settings.variation;
+            play.variation.seed += 0x9E3779B97F4A7C15u * i; // plays of one clip differ
+        }
+        else
+            play.variation.seed += settings.variation.seed;
+    }
+    for (SceneChange& change : scene.changes)
+    {
+        change.time = moved(change.time);
+        change.glide *= r;
+        if (change.parameter == SceneParameter::stretch)
+            change.value *= r;
+        if (change.parameter == SceneParameter::transposition)
+            change.value += settings.transposition;
+    }
+    return scene;
 }
 
 Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
                             const RenderSettings& settings, const std::function<void(double)>& progress)
 {
-    const auto clip = readClip(input);
-    if (!clip)
-        return clip.error();
-
-    const double fs = settings.decoder.sampleRate;
+    auto read = readClipOrScene(input, settings.clipFolder);
+    if (!read)
+        return read.error();
     RenderResult result;
+    result.isScene = std::holds_alternative<Scene>(*read);
+    Scene scene = result.isScene ? std::get<Scene>(std::move(*read)) : sceneOf(std::get<Clip>(std::move(*read)));
+
+    const double fs = settings.compile.sampleRate;
     Stopwatch work;
-    std::unique_ptr<Decoder> decoder;
-    work.run([&] { decoder = std::make_unique<Decoder>(*clip, decoderParamsFor(*clip, settings)); });
-    result.report = decoder->report();
-    const auto total = static_cast<std::uint64_t>(decoder->totalFrames());
-    result.duration = static_cast<double>(total) / fs;
-    if (result.duration > limits::duration)
+    double length = 0.0; // s
+    std::optional<Result<RenderPlan>> compiled;
+    const Profile* profile = settings.profile ? &*settings.profile : nullptr;
+    work.run(
+        [&]
+        {
+            scene = adjusted(std::move(scene), settings);
+            length = result.isScene ? scene.duration
+                                    : scene.plays.front().start + scene.clips.front().duration * settings.stretch;
+            if (length <= limits::duration)
+                compiled = compilePlan(scene, profile, settings.compile);
+        });
+    if (!compiled)
         return Error{ErrorCode::tooLarge, "",
                      fmt::format("would last {:.1f} hours, at most 24 are written; make --stretch or --delay smaller",
-                                 result.duration / 3600.0)};
+                                 length / 3600.0)};
+    if (!*compiled)
+        return compiled->error();
+    RenderPlan& plan = **compiled;
+    result.actuators = plan.actuators;
+    result.givenPlays = scene.plays.size();
+    result.keptPlays = plan.plays.size();
+    result.predictedError = plan.predictedError;
+    result.leftOut = std::move(plan.leftOut);
+    if (settings.describe)
+        result.plays = describe(plan, scene);
 
-    constexpr std::size_t blockFrames = 4096;
-    Equalizer equalizer;
-    if (settings.profile)
+    std::unique_ptr<ScenePlayer> whole; // plays everything, to compare with
+    if (settings.measure)
     {
-        equalizer.prepare({fs, blockFrames});
-        equalizer.setParams(settings.profile->equalizer);
+        CompileParams all = settings.compile;
+        all.leaveOut = false;
+        auto planned = compilePlan(scene, profile, all);
+        if (!planned)
+            return planned.error();
+        whole = std::make_unique<ScenePlayer>(std::move(*planned), fs, 0.0);
     }
+    scene = {};
+    std::unique_ptr<ScenePlayer> player;
+    work.run([&] { player = std::make_unique<ScenePlayer>(std::move(plan), fs, 0.0); });
+    const auto total = static_cast<std::uint64_t>(player->totalFrames());
+    result.duration = static_cast<double>(total) / fs;
+
     AudioWriteParams format;
     format.sampleRate = static_cast<int>(std::lround(fs));
+    format.channels = static_cast<int>(result.actuators);
     format.encoding = settings.encoding;
     format.expectedFrames = total;
     auto writer = AudioWriter::create(output, format);
     if (!writer)
         return atOutput(output, writer.error());
-    std::vector<float> block(blockFrames);
+    Channels block(result.actuators), wholeBlock(result.actuators);
+    std::vector<float> interleaved(blockFrames * result.actuators);
+    ErrorMeter error;
     for (std::uint64_t done = 0; done < total;)
     {
-        const auto part =
-            std::span(block).first(static_cast<std::size_t>(std::min<std::uint64_t>(blockFrames, total - done)));
-        work.run(
-            [&]
+        const auto frames = static_cast<std::size_t>(std::min<std::uint64_t>(blockFrames, total - done));
+        work.run([&] { process(*player, done, frames, fs, block); });
+        if (whole)
+        {
+            process(*whole, done, frames, fs, wholeBlock);
+            error.add(wholeBlock, block, frames);
+        }
+        const auto part = std::span(interleaved).first(frames * result.actuators);
+        for (std::size_t a = 0; a < result.actuators; ++a)
+            for (std::size_t n = 0; n < frames; ++n)
             {
-                decoder->process(part);
-                if (settings.profile)
-                    equalizer.process(part, part);
-            });
-        for (const float v : part)
-            result.peak = std::max(result.peak, std::abs(static_cast<double>(v)));
+                part[n * result.actuators + a] = block[a][n];
+                result.peak = std::max(result.peak, std::abs(static_cast<double>(block[a][n])));
+            }
         if (auto written = writer->write(part); !written)
             return atOutput(output, written.error());
-        done += part.size();
+        done += frames;
         progress(static_cast<double>(done) / static_cast<double>(total));
     }
+    if (whole)
+        result.measured = error.decibels();
+    result.mostSounding = player->mostSounding();
     const auto report = writer->finish();
     if (!report)
         return atOutput(output, report.error());

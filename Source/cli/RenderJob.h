@@ -1,33 +1,48 @@
 #pragma once
 
-// Renders one clip into one sound file.
+// Renders one clip or scene into one sound file.
 
 #include "io/AudioWriter.h"
 
 #include <pacini/actuator/Profile.h>
-#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/Scene.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <string>
+#include <vector>
 
 namespace pacini::cli
 {
 
-/// How to render; what is not set follows from the clip's method.
+/// How to render. The first group is done to the whole scene; a clip is a scene of one play.
 struct RenderSettings
 {
-    DecoderParams decoder; ///< the fields below win over its carriers, followEnvelope, pulses
-    std::optional<CarrierMode> carriers;
-    std::optional<bool> followEnvelope;
-    std::optional<PulseShape> pulseShape;
-    std::optional<double> pulseFrequency;
-    double pulseCycles = 1.0;
+    double gain = 0.0;          ///< dB
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;
+    double delay = 0.0;        ///< s
+    VariationParams variation; ///< of plays that have none of their own; its seed moves all seeds
+
+    CompileParams compile;
     std::optional<Profile> profile;
+    std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
+    bool describe = false; ///< find out what each decoder plays
+    bool measure = false;  ///< also play everything, to measure what leaving out costs
+};
+
+/// One play as it was rendered.
+struct PlayReport
+{
+    std::size_t play = 0; ///< index in the scene
+    std::string name;
+    double start = 0.0;    ///< s
+    double duration = 0.0; ///< s
+    DecoderReport decoder;
 };
 
 struct RenderResult
@@ -37,13 +52,24 @@ struct RenderResult
     double seconds = 0.0;  ///< s of work, without access to files
     double peak = 0.0;     ///< largest magnitude, 1 = full drive
     std::uint64_t clippedSamples = 0;
-    DecoderReport report;
+    bool isScene = false;
+    std::size_t actuators = 1;
+    std::size_t givenPlays = 0;
+    std::size_t keptPlays = 0;
+    std::size_t mostSounding = 0;   ///< decoders at a time
+    double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
+    std::optional<double> measured; ///< dB, the error that leaving out really cost
+    std::vector<LeftOut> leftOut;   ///< in order of what it costs
+    std::vector<PlayReport> plays;  ///< when they were to be described; in order of start
 };
 
-/// The decoder's parameters for a clip: those of the thesis for its clips, else Pacini's own, changed by what is set.
-[[nodiscard]] DecoderParams decoderParamsFor(const Clip& clip, const RenderSettings& settings);
+/// A scene in which a clip plays once, as it is.
+[[nodiscard]] Scene sceneOf(Clip clip);
 
-/// Errors: those of readClip and AudioWriter, without the file's name.
+/// Moves, stretches, transposes and varies a whole scene as the settings say. Times and changes come along.
+[[nodiscard]] Scene adjusted(Scene scene, const RenderSettings& settings);
+
+/// Errors: those of readClipOrScene, compilePlan and AudioWriter, without the file's name.
 [[nodiscard]] Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
                                           const RenderSettings& settings, const std::function<void(double)>& progress);
 

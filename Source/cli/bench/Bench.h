@@ -55,11 +55,13 @@ struct Bench
 [[nodiscard]] Bench methodsBench();
 [[nodiscard]] Bench stagesBench();
 [[nodiscard]] Bench synthesisBench();
+[[nodiscard]] Bench scenesBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(), stagesBench(), methodsBench()};
+    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(),
+            scenesBench(),   stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli

@@ -1,4 +1,3 @@
-#include "cli/RenderJob.h"
 #include "cli/bench/Bench.h"
 #include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
@@ -9,6 +8,7 @@
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/Judge.h>
 #include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderChoice.h>
 
 #include <fmt/format.h>
 
@@ -92,9 +92,10 @@ constexpr int candidateRate = 8000; // Hz, of the judge
 
 std::vector<float> decoded(const Clip& clip)
 {
-    RenderSettings settings;
-    settings.decoder.sampleRate = candidateRate;
-    Decoder decoder(clip, decoderParamsFor(clip, settings));
+    constexpr double resonance = 67.0; // Hz, of the thesis' actuator
+    DecoderParams params;
+    params.sampleRate = candidateRate;
+    Decoder decoder(clip, decoderParamsFor(clip, params, {}, resonance));
     std::vector<float> signal(static_cast<std::size_t>(decoder.totalFrames()));
     decoder.process(signal);
     return signal;

@@ -1,0 +1,163 @@
+#include "cli/RenderReport.h"
+
+#include "cli/Console.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t mostShown = 20;
+
+Json decibels(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+std::string decibelText(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.1f} dB", value) : "nothing lost";
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view several)
+{
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
+Json decoderJson(const DecoderReport& report)
+{
+    return {{"innerRate", report.innerRate},
+            {"carriers", report.carriers},
+            {"silentBands", report.silentBands},
+            {"noiseBands", report.noiseBands},
+            {"levelled", report.levelled},
+            {"pulses", report.pulses},
+            {"maskedTransients", report.maskedTransients}};
+}
+
+/// All decoders as one; silent bands that the plan left out count too.
+DecoderReport sumOf(const RenderResult& result)
+{
+    DecoderReport sum;
+    for (const PlayReport& play : result.plays)
+    {
+        sum.innerRate = std::max(sum.innerRate, play.decoder.innerRate);
+        sum.carriers += play.decoder.carriers;
+        sum.silentBands += play.decoder.silentBands;
+        sum.noiseBands += play.decoder.noiseBands;
+        sum.levelled = sum.levelled || play.decoder.levelled;
+        sum.pulses += play.decoder.pulses;
+        sum.maskedTransients += play.decoder.maskedTransients;
+    }
+    for (const LeftOut& item : result.leftOut)
+        if (item.reason == "is silent" && item.where.find(".bands[") != std::string::npos)
+            ++sum.silentBands;
+    return sum;
+}
+
+std::string playText(const PlayReport& play)
+{
+    const DecoderReport& d = play.decoder;
+    std::string text = fmt::format("plays[{}]{}: {:.3f} s from {:.3f} s on; {}", play.play,
+                                   play.name.empty() ? "" : " \"" + printable(play.name) + "\"", play.duration,
+                                   play.start, counted(d.carriers, "sinusoid", "sinusoids"));
+    if (d.noiseBands > 0)
+        text += " and " + counted(d.noiseBands, "band of noise", "bands of noise");
+    text += fmt::format(" at an inner rate of {:.0f} Hz{}, {}", d.innerRate,
+                        d.levelled ? ", levelled to the envelope" : "", counted(d.pulses, "pulse", "pulses"));
+    if (d.maskedTransients > 0)
+        text += fmt::format(" ({} that the bands reach by themselves)", counted(d.maskedTransients, "event", "events"));
+    return text;
+}
+
+/// The items of one kind, which share their reason and are plays, bands, or whatever else.
+using Kind = std::pair<std::string, std::vector<const LeftOut*>>;
+
+std::vector<Kind> kindsOf(const std::vector<LeftOut>& items)
+{
+    std::vector<Kind> kinds;
+    for (const LeftOut& item : items)
+    {
+        const auto same = [&](const Kind& kind)
+        {
+            const auto isPlay = [](const LeftOut& x)
+            {
+                return x.where.find('.') == std::string::npos;
+            };
+            return kind.first == item.reason && isPlay(*kind.second.front()) == isPlay(item);
+        };
+        auto found = std::find_if(kinds.begin(), kinds.end(), same);
+        if (found == kinds.end())
+            found = kinds.insert(kinds.end(), {item.reason, {}});
+        found->second.push_back(&item);
+    }
+    return kinds;
+}
+} // namespace
+
+nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams& params)
+{
+    Json plan = decoderJson(sumOf(result));
+    plan["actuators"] = result.actuators;
+    plan["givenPlays"] = result.givenPlays;
+    plan["keptPlays"] = result.keptPlays;
+    plan["mostSounding"] = result.mostSounding;
+    plan["tolerance"] = params.leaveOut ? Json(params.tolerance) : Json(nullptr);
+    plan["predictedError"] = decibels(result.predictedError);
+    if (result.measured)
+        plan["measuredError"] = decibels(*result.measured);
+    plan["leftOutCount"] = result.leftOut.size();
+    return plan;
+}
+
+nlohmann::ordered_json planLists(const RenderResult& result)
+{
+    Json plays = Json::array(), leftOut = Json::array();
+    for (const PlayReport& play : result.plays)
+    {
+        plays.push_back({{"play", play.play}, {"name", play.name}, {"start", play.start}, {"duration", play.duration}});
+        plays.back().update(decoderJson(play.decoder));
+    }
+    for (const LeftOut& item : result.leftOut)
+        leftOut.push_back({{"where", item.where}, {"reason", item.reason}, {"error", decibels(item.error)}});
+    return {{"plays", plays}, {"leftOut", leftOut}};
+}
+
+std::string planText(const RenderResult& result, const CompileParams& params)
+{
+    std::string text = fmt::format(
+        "  {} of {} on {}, at most {} at a time", result.keptPlays, counted(result.givenPlays, "play", "plays"),
+        counted(result.actuators, "actuator", "actuators"), counted(result.mostSounding, "decoder", "decoders"));
+    for (std::size_t i = 0; i < std::min(result.plays.size(), mostShown); ++i)
+        text += "\n  " + playText(result.plays[i]);
+    if (result.plays.size() > mostShown)
+        text += fmt::format("\n  and {} more plays; --json lists them", result.plays.size() - mostShown);
+
+    text += result.leftOut.empty() ? "\n  nothing is left out" : "\n  left out:";
+    for (const auto& [reason, items] : kindsOf(result.leftOut))
+    {
+        for (std::size_t i = 0; i < std::min(items.size(), mostShown); ++i)
+            text += fmt::format("\n    {} {}: {}", items[i]->where, reason, decibelText(items[i]->error));
+        if (items.size() > mostShown)
+            text += fmt::format("\n    and {} more of the same kind", items.size() - mostShown);
+    }
+    text += "\n  predicted error: " + decibelText(result.predictedError);
+    if (params.leaveOut)
+        text += fmt::format(" (tolerance {:.1f} dB)", params.tolerance);
+    if (result.measured)
+        text += "; measured: " + decibelText(*result.measured);
+    return text;
+}
+
+} // namespace pacini::cli

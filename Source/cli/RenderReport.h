@@ -1,0 +1,24 @@
+#pragma once
+
+// What a rendering did and what it left out, for programs and for people.
+
+#include "cli/RenderJob.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace pacini::cli
+{
+
+/// The "plan" of a report: sums over all decoders that were described, counts and errors in dB, null where nothing is
+/// lost.
+[[nodiscard]] nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams& params);
+
+/// {"plays": [...], "leftOut": [...]}: every play that was described and everything that is left out.
+[[nodiscard]] nlohmann::ordered_json planLists(const RenderResult& result);
+
+/// All of it in lines of text without the last line's end; of long lists the first entries and how many more there are.
+[[nodiscard]] std::string planText(const RenderResult& result, const CompileParams& params);
+
+} // namespace pacini::cli

@@ -1,0 +1,162 @@
+#include "cli/bench/Bench.h"
+#include "cli/bench/BenchEncode.h"
+#include "cli/bench/Timed.h"
+
+#include <pacini/foundation/Random.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+constexpr double longest = 5.0; // s of each sound
+constexpr std::size_t playCount = 64;
+
+/// Plays that begin within a second of each other, each at its own pitch and with its own variation. `audible` of them
+/// are at most 12 dB down; of the others one in eight comes after the end and the rest are 70 to 100 dB down.
+Scene crowd(const Clip& clip, std::size_t audible)
+{
+    Random random(64);
+    Scene scene;
+    scene.clips = {clip};
+    scene.duration = clip.duration + 1.0;
+    for (std::size_t i = 0; i < playCount; ++i)
+    {
+        ScenePlay play;
+        play.start = random.uniform(0.0, 1.0);
+        play.transposition = random.uniform(-6.0, 6.0);
+        play.variation = {0.3, VariationScope::band, i};
+        play.gain = random.uniform(-12.0, 0.0);
+        if (i >= audible)
+        {
+            if (i % 8 == 7)
+                play.start += scene.duration;
+            else
+                play.gain = random.uniform(-100.0, -70.0);
+        }
+        scene.plays.push_back(play);
+    }
+    return scene;
+}
+
+struct Rendered
+{
+    std::vector<float> signal;
+    std::size_t plays = 0;
+    double predictedError = 0.0; // dB
+};
+
+/// A scene as `pacini render` plays it, from the plan on.
+Rendered rendered(const Scene& scene, const CompileParams& params)
+{
+    constexpr std::size_t blockFrames = 4096;
+    Rendered result;
+    auto plan = compilePlan(scene, nullptr, params);
+    if (!plan)
+        return result;
+    result.plays = plan->plays.size();
+    result.predictedError = plan->predictedError;
+    ScenePlayer player(std::move(*plan), params.sampleRate, 0.0);
+    result.signal.resize(static_cast<std::size_t>(player.totalFrames()));
+    for (std::size_t done = 0; done < result.signal.size();)
+    {
+        const auto part = std::span(result.signal).subspan(done, std::min(blockFrames, result.signal.size() - done));
+        done += part.size();
+        player.build(static_cast<double>(done) / params.sampleRate);
+        player.process(std::span(&part, 1));
+    }
+    return result;
+}
+
+/// The energy of the difference, dB below that of the whole.
+double errorOf(const std::vector<float>& found, const std::vector<float>& whole)
+{
+    double energy = 0.0, difference = 0.0;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+    {
+        const double d = static_cast<double>(found[i]) - static_cast<double>(whole[i]);
+        energy += static_cast<double>(whole[i]) * static_cast<double>(whole[i]);
+        difference += d * d;
+    }
+    return difference > 0.0 ? 10.0 * std::log10(difference / energy) : -std::numeric_limits<double>::infinity();
+}
+
+/// Nothing to take a mean of where nothing is lost.
+BenchCell decibels(double value)
+{
+    return std::isfinite(value) ? BenchCell(value) : BenchCell();
+}
+
+void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+{
+    Encoder encoder{EncoderParams{}};
+    const Clip clip = encoded(encoder, sound.beginning(longest), sound.sampleRate, 1);
+    if (clip.bands.empty())
+        return;
+    for (const std::size_t audible : {std::size_t(1), std::size_t(8), std::size_t(32), std::size_t(64)})
+    {
+        const Scene scene = crowd(clip, audible);
+        const std::string key = fmt::format("{} of {}", audible, playCount);
+        CompileParams params;
+        params.leaveOut = false;
+        const auto whole = timed(settings.repeats, [&] { return rendered(scene, params); });
+        if (whole.result.signal.empty())
+            return;
+        rows.add({sound.name, key, "everything", scene.duration, whole.seconds, whole.seconds,
+                  static_cast<double>(playCount), BenchCell(), BenchCell(), BenchCell(), BenchCell()});
+        params.leaveOut = true;
+        for (const double tolerance : {-80.0, -60.0, -40.0})
+        {
+            params.tolerance = tolerance;
+            const auto run = timed(settings.repeats, [&] { return rendered(scene, params); });
+            const double error = errorOf(run.result.signal, whole.result.signal);
+            const double predicted = run.result.predictedError;
+            rows.add({sound.name, key, fmt::format("{:.0f} dB", tolerance), scene.duration, run.seconds, whole.seconds,
+                      static_cast<double>(run.result.plays), decibels(predicted), decibels(error), errorShare(-error),
+                      error <= predicted && predicted <= tolerance ? 100.0 : 0.0});
+        }
+    }
+}
+} // namespace
+
+Bench scenesBench()
+{
+    return {"scenes",
+            "Scenes: what leaving out saves and costs",
+            "64 plays of the clip that the encoder makes of each sound (first 5 s), each transposed and varied by "
+            "itself, begin within a second; some are audible, of the others one in eight comes after the end of the "
+            "scene and the rest are 70 to 100 dB down. The tolerance is what leaving out may cost all together; time "
+            "is that of the plan and of 48 kHz output. Errors are energies below the scene's with everything; bounds "
+            "hold where the measured error is at most the predicted one and that at most the tolerance.",
+            {{"clip", "", Reduction::sound},
+             {"audible", "", Reduction::key},
+             {"tolerance", "", Reduction::key},
+             summed("duration", "s"),
+             summed("seconds", "s"),
+             summed("everythingSeconds", "s"),
+             {"plays", ""},
+             {"predicted", "dB"},
+             {"measured", "dB"},
+             {"error", "%"},
+             {"boundsHold", "%"},
+             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+             {"timesFaster", "", Reduction::ratio, "everythingSeconds", "seconds"}},
+            {{"", "Error of leaving out against time", "audible", "time", "error", "tolerance"}},
+            {},
+            measure};
+}
+
+} // namespace pacini::cli
