@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -229,6 +230,14 @@ private:
     }
 };
 
+/// A file name fit for an error message: all of it, control characters as '?'.
+std::string onOneLine(std::string name)
+{
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+    return name;
+}
+
 /// Names and what they stand for.
 class Names
 {
@@ -272,7 +281,7 @@ public:
             }
             else
             {
-                const auto index = fileIndex(drafts[i].file, where, drafts[i].file + ": ");
+                const auto index = fileIndex(drafts[i].file, where, "");
                 if (!index)
                     return index.error();
                 listed.push_back(*index);
@@ -301,7 +310,7 @@ public:
                                              shownText(name))};
                 return *index;
             }
-        return fileIndex(name, where, shownText(name) + ": is not one of the scene's clips, and as a file it ");
+        return fileIndex(name, where, "is not one of the scene's clips, and as a file it ");
     }
 
 private:
@@ -315,7 +324,7 @@ private:
         return {};
     }
 
-    /// The index of a file's clip, which is read when it is not there yet.
+    /// The index of a file's clip, which is read when it is not there yet. `prefix` comes before what is wrong with it.
     Result<std::size_t> fileIndex(const std::string& file, const std::string& where, const std::string& prefix)
     {
         const std::filesystem::path path(file);
@@ -326,7 +335,7 @@ private:
         {
             auto clip = load(file);
             if (!clip)
-                return Error{clip.error().code, where, prefix + clip.error().text()};
+                return Error{clip.error().code, where, onOneLine(file) + ": " + prefix + clip.error().text()};
             if (auto added = add(std::move(*clip), where); !added)
                 return added.error();
         }

@@ -62,11 +62,11 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 6);
+    CHECK(printed["benches"].size() == 7);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
-    for (const std::string name : {"simplify", "decimate", "analysis", "synthesis", "stages", "methods"})
+    for (const std::string name : {"simplify", "decimate", "analysis", "synthesis", "scenes", "stages", "methods"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -81,7 +81,7 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
             CHECK(lines[0].find(key) != std::string::npos);
     }
     for (const std::string chart : {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands",
-                                    "synthesis", "methods", "methods-rate"})
+                                    "synthesis", "scenes", "methods", "methods-rate"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);
@@ -126,6 +126,25 @@ TEST_CASE("pacini bench stages gives shares that add up", "[cli][bench]")
         sum += row["share"].get<double>();
     }
     CHECK(sum == Approx(100.0));
+}
+
+TEST_CASE("pacini bench scenes finds the bounds of what is left out kept and fewer plays faster", "[cli][bench]")
+{
+    const TempFolder folder;
+    writeSound(folder / "tone.wav");
+    REQUIRE(bench(folder, "scenes . -o . --repeat 1") == 0);
+    const auto json = nlohmann::json::parse(bytesOf(folder / "scenes.json"));
+    REQUIRE(json["rows"].size() == 16);
+    for (const auto& row : json["rows"])
+    {
+        INFO(row.dump());
+        const bool everything = row["tolerance"] == "everything";
+        CHECK(row["boundsHold"].is_null() == everything);
+        if (!everything)
+            CHECK(row["boundsHold"] == 100.0);
+        if (row["audible"] == "8 of 64" && row["tolerance"] == "-40 dB")
+            CHECK(row["plays"].get<double>() < 20.0);
+    }
 }
 
 TEST_CASE("pacini bench says what is wrong with its inputs and measures the others", "[cli][bench]")

@@ -7,15 +7,19 @@ import unittest
 from command import COMMAND, SANITIZED, CommandTest, wav_header
 
 
+def peak_of(arguments, folder):
+    """The largest resident size of the command in bytes."""
+    process = subprocess.Popen([COMMAND, *arguments], cwd=folder, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0, arguments
+    return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
 @unittest.skipIf(SANITIZED, "sanitizers need memory of their own")
 class Memory(CommandTest):
     def peak(self, *arguments):
-        """The largest resident size of the command in bytes."""
-        process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        self.assertEqual(process.returncode, 0, arguments)
-        return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+        return peak_of(arguments, self.folder)
 
     def test_a_sound_five_times_as_long_needs_hardly_more(self):
         peaks = {}

@@ -104,8 +104,17 @@ class Render(CommandTest):
     def test_explain_names_what_is_left_out(self):
         self.clip()
         text = self.succeeds("render", "clip.json", "--explain")
-        self.assertIn("silent bands", text)
-        self.assertIn("1 rendered", text)
+        for part in ("1 sinusoid at an inner rate of 4000 Hz, levelled to the envelope, 1 pulse",
+                     "nothing is left out", "1 rendered"):
+            self.assertIn(part, text)
+        curve = [{"time": 0, "amplitude": 0.5}]
+        bands = [{"lowFrequency": f, "centreFrequency": f, "highFrequency": f,
+                  "amplitude": [{"time": 0, "amplitude": level}]} for f, level in ((100, 0.5), (200, 0), (300, 1e-5))]
+        self.clip(envelope=curve, bands=bands)
+        text = self.succeeds("render", "clip.json", "--explain")
+        self.assertIn("plays[0].bands[1] is silent: nothing lost", text)
+        self.assertRegex(text, r"plays\[0\]\.bands\[2\] is too weak to matter: -\d\d\.\d dB")
+        self.assertNotIn("left out:", self.succeeds("render", "clip.json", "--explain", "--everything"))
 
     def test_a_bad_clip_does_not_stop_the_others(self):
         self.clip("a.json")
