@@ -131,6 +131,7 @@ TEST_CASE("A wrong entry of a profile fails at its place and says what is right"
     CHECK(errorAfter([](Json& j) { j["body"] = nullptr; }) == "body: must be an object in braces");
     CHECK(errorAfter([](Json& j) { j["sources"]["drive"] = 1; }) == "sources.drive: must be a text in quotes");
     CHECK(errorAfter([](Json& j) { j["sources"]["drive"] = ""; }) == "sources.drive: must say something");
+    CHECK(errorAfter([](Json& j) { j["sources"]["a\nb"] = ""; }) == "sources.a?b: must say something");
     CHECK(errorAfter([](Json& j) { j["sources"][""] = "x"; }) == "sources: has an entry without a path");
     CHECK(errorAfter(
               [](Json& j)
