@@ -3,7 +3,7 @@
 // What of a body need not be computed.
 
 #include <pacini/actuator/BodyChain.h>
-#include <pacini/actuator/PolePairs.h>
+#include <pacini/actuator/PoleGroups.h>
 #include <pacini/foundation/FixedVector.h>
 #include <pacini/foundation/Units.h>
 
@@ -46,7 +46,7 @@ struct BodyPlan
     for (int i = 0; i < points; ++i)
         look(BodyBand::lowest * std::pow(BodyBand::highest / BodyBand::lowest, static_cast<double>(i) / (points - 1)));
     for (const BodyChain* one : {&chain, &simpler})
-        for (const PolePair& pair : findPolePairs(one->denominator(RealPolynomial::identity())))
+        for (const PoleGroup& pair : findPoleGroups(one->denominator(RealPolynomial::identity())))
         {
             const double f = std::sqrt(std::max(-pair.spread, 0.0)) / (2.0 * std::numbers::pi);
             if (f > BodyBand::lowest && f < BodyBand::highest)
