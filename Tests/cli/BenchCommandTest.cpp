@@ -119,24 +119,24 @@ TEST_CASE("pacini bench body shows which integrators break at stiff joints, and 
     REQUIRE(bench(folder, "body tone.wav -o . --repeat 1") == 0);
     const auto json = nlohmann::json::parse(bytesOf(folder / "body.json"));
     REQUIRE(json["means"].size() == 3 * 4 * 7);
-    int broken = 0;
     for (const auto& row : json["means"])
     {
         INFO(row.dump());
         const std::string integrator = row["integrator"];
         if (integrator == "body model" || integrator == "modes and taps")
         {
-            CHECK(row["error"].get<double>() < (row["rate"] == "8 kHz" ? 0.3 : 0.1));
+            CHECK(row["error"].get<double>() < 0.1);
             CHECK(row["breaksAt"].is_null());
         }
         if (integrator == "semi-implicit Euler" || integrator == "Runge-Kutta 4")
         {
-            const bool breaks = row["breaksAt"].get<double>() < std::stod(row["stiffness"].get<std::string>());
-            broken += breaks ? 1 : 0;
-            CHECK((row["error"].is_null() || row["error"].get<double>() > 10.0) == breaks);
+            CHECK(row["breaksAt"].get<double>() < 1e9);
+            if (row["stiffness"] == "1e+11")
+                CHECK(row["error"].is_null());
+            if (row["stiffness"] == "4e+04")
+                CHECK(row["error"].get<double>() < 50.0);
         }
     }
-    CHECK(broken >= 3 * 2 * 2);
 }
 
 TEST_CASE("pacini bench stages gives shares that add up", "[cli][bench]")
