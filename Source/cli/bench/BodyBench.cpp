@@ -222,7 +222,8 @@ Bench bodyBench()
                            "error",
                            "stiffness",
                            "rate",
-                           fmt::format("{} kHz", kilohertz)};
+                           fmt::format("{} kHz", kilohertz),
+                           false};
     };
     return {
         "body",
