@@ -51,6 +51,7 @@ struct Bench
 
 [[nodiscard]] Bench simplifyBench();
 [[nodiscard]] Bench analysisBench();
+[[nodiscard]] Bench bodyBench();
 [[nodiscard]] Bench decimateBench();
 [[nodiscard]] Bench methodsBench();
 [[nodiscard]] Bench stagesBench();
@@ -59,7 +60,8 @@ struct Bench
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(), stagesBench(), methodsBench()};
+    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(),
+            bodyBench(),     stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli
