@@ -94,7 +94,9 @@ Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<
     auto plan = compilePlan(sceneOf(clip), profile ? &*profile : nullptr, params);
     if (!plan)
         return plan.error();
-    ScenePlayer player(std::move(*plan), fs);
+    ScenePlayerParams playing;
+    playing.sampleRate = fs;
+    ScenePlayer player(std::move(*plan), playing);
     plot::Waveform waveform(range, columns, fs, 1);
     std::vector<float> block(blockFrames);
     const auto last = std::min(player.totalFrames(), static_cast<std::int64_t>(range.to * fs) + 2);

@@ -82,7 +82,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("OUT|DIR");
     command
         ->add_option("--profile", profile,
-                     "Actuator profile: a file, or a shipped one such as l5-wristband; applies its equaliser")
+                     "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it")
         ->type_name("P");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
@@ -140,6 +140,8 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("DB");
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
+    command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
+    command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
     command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
     command->add_flag("--measured", measured,
                       "Like --explain, and play everything too, to measure what leaving out costs");
@@ -160,6 +162,8 @@ Exit RenderCommand::run(Console& console)
     settings.compile.sampleRate = std::round(rate);
     settings.compile.tolerance = tolerance;
     settings.compile.leaveOut = !everything;
+    settings.compile.adapt = !noAdaptation;
+    settings.protect = !noProtection;
     settings.transposition = transpose;
     settings.stretch = stretch;
     settings.gain = gain;

@@ -38,6 +38,8 @@ private:
     std::string clipFolder;
     unsigned jobs = 0;
     bool everything = false;
+    bool noAdaptation = false;
+    bool noProtection = false;
     bool explain = false;
     bool measured = false;
     bool json = false;

@@ -167,9 +167,14 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.keptPlays = plan.plays.size();
     result.predictedError = plan.predictedError;
     result.leftOut = std::move(plan.leftOut);
+    result.adaptations = std::move(plan.adaptations);
     if (settings.describe)
         result.plays = describe(plan, scene);
 
+    ScenePlayerParams playing;
+    playing.sampleRate = fs;
+    playing.builtUntil = 0.0;
+    playing.protect = settings.protect;
     std::unique_ptr<ScenePlayer> whole; // plays everything, to compare with
     if (settings.measure)
     {
@@ -178,11 +183,11 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         auto planned = compilePlan(scene, profile, all);
         if (!planned)
             return planned.error();
-        whole = std::make_unique<ScenePlayer>(std::move(*planned), fs, 0.0);
+        whole = std::make_unique<ScenePlayer>(std::move(*planned), playing);
     }
     scene = {};
     std::unique_ptr<ScenePlayer> player;
-    work.run([&] { player = std::make_unique<ScenePlayer>(std::move(plan), fs, 0.0); });
+    work.run([&] { player = std::make_unique<ScenePlayer>(std::move(plan), playing); });
     const auto total = static_cast<std::uint64_t>(player->totalFrames());
     result.duration = static_cast<double>(total) / fs;
 

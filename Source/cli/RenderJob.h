@@ -29,6 +29,7 @@ struct RenderSettings
 
     CompileParams compile;
     std::optional<Profile> profile;
+    bool protect = true;              ///< keep within the limits of the profile
     std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
     bool describe = false; ///< find out what each decoder plays
@@ -59,8 +60,9 @@ struct RenderResult
     std::size_t mostSounding = 0;   ///< decoders at a time
     double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measured; ///< dB, the error that leaving out really cost
-    std::vector<LeftOut> leftOut;   ///< in order of what it costs
-    std::vector<PlayReport> plays;  ///< when they were to be described; in order of start
+    std::vector<Adaptation> adaptations;
+    std::vector<LeftOut> leftOut;  ///< in order of what it costs
+    std::vector<PlayReport> plays; ///< when they were to be described; in order of start
 };
 
 /// A scene in which a clip plays once, as it is.

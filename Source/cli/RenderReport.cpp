@@ -123,15 +123,17 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
 
 nlohmann::ordered_json planLists(const RenderResult& result)
 {
-    Json plays = Json::array(), leftOut = Json::array();
+    Json plays = Json::array(), adaptations = Json::array(), leftOut = Json::array();
     for (const PlayReport& play : result.plays)
     {
         plays.push_back({{"play", play.play}, {"name", play.name}, {"start", play.start}, {"duration", play.duration}});
         plays.back().update(decoderJson(play.decoder));
     }
+    for (const Adaptation& item : result.adaptations)
+        adaptations.push_back({{"where", item.where}, {"what", item.what}});
     for (const LeftOut& item : result.leftOut)
         leftOut.push_back({{"where", item.where}, {"reason", item.reason}, {"error", decibels(item.error)}});
-    return {{"plays", plays}, {"leftOut", leftOut}};
+    return {{"plays", plays}, {"adaptations", adaptations}, {"leftOut", leftOut}};
 }
 
 std::string planText(const RenderResult& result, const CompileParams& params)
@@ -144,6 +146,12 @@ std::string planText(const RenderResult& result, const CompileParams& params)
     if (result.plays.size() > mostShown)
         text += fmt::format("\n  and {} more plays; --json lists them", result.plays.size() - mostShown);
 
+    if (!result.adaptations.empty())
+        text += "\n  fitted to the actuator:";
+    for (std::size_t i = 0; i < std::min(result.adaptations.size(), mostShown); ++i)
+        text += fmt::format("\n    {} {}", result.adaptations[i].where, result.adaptations[i].what);
+    if (result.adaptations.size() > mostShown)
+        text += fmt::format("\n    and {} more", result.adaptations.size() - mostShown);
     text += result.leftOut.empty() ? "\n  nothing is left out" : "\n  left out:";
     for (const auto& [reason, items] : kindsOf(result.leftOut))
     {

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace pacini
 {
@@ -26,7 +28,7 @@ public:
 
     std::optional<Error> error;
 
-    /// The object at a path without dots in its names; null with an error when there is none.
+    /// The object at a path; null when there is none, which is an error if it is required.
     const Json* object(std::string_view path, bool required = true)
     {
         const Json* found = &root;
@@ -41,7 +43,10 @@ public:
                 return nullptr;
             }
             if (!entry->is_object())
-                return fail(std::string(path.substr(0, end)), "must be an object in braces"), nullptr;
+            {
+                fail(std::string(path.substr(0, end)), "must be an object in braces");
+                return nullptr;
+            }
             found = &*entry;
             start = end + 1;
         }

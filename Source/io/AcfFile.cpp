@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace pacini
 {

@@ -134,6 +134,8 @@ public:
                   {
                       if (!text.is_string())
                           return fail(shownText(path), "must be a text in quotes");
+                      if (text.get_ref<const std::string&>().empty())
+                          return fail(shownText(path), "must say something");
                       values.push_back({path, text.get<std::string>()});
                   }
               });

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <iterator>
+#include <optional>
+#include <utility>
 
 namespace pacini
 {

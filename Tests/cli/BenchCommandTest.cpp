@@ -62,11 +62,12 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 7);
+    CHECK(printed["benches"].size() == 8);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
-    for (const std::string name : {"simplify", "decimate", "analysis", "synthesis", "scenes", "stages", "methods"})
+    for (const std::string name :
+         {"simplify", "decimate", "analysis", "synthesis", "scenes", "body", "stages", "methods"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -81,7 +82,7 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
             CHECK(lines[0].find(key) != std::string::npos);
     }
     for (const std::string chart : {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands",
-                                    "synthesis", "scenes", "methods", "methods-rate"})
+                                    "synthesis", "scenes", "body-8", "body-16", "body-48", "methods", "methods-rate"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);
@@ -110,6 +111,33 @@ TEST_CASE("pacini bench methods measures size, quality and speed of every method
     // All of this sound lies below 1 kHz: a low-pass there keeps it, a shift by two octaves does not.
     CHECK(json["rows"][6]["lsd"].get<double>() < 1.0);
     CHECK(json["rows"][7]["lsd"].get<double>() > 5.0);
+}
+
+TEST_CASE("pacini bench body shows which integrators break at stiff joints, and where", "[cli][bench]")
+{
+    const TempFolder folder;
+    writeSound(folder / "tone.wav");
+    REQUIRE(bench(folder, "body tone.wav -o . --repeat 1") == 0);
+    const auto json = nlohmann::json::parse(bytesOf(folder / "body.json"));
+    REQUIRE(json["means"].size() == 3 * 4 * 7);
+    for (const auto& row : json["means"])
+    {
+        INFO(row.dump());
+        const std::string integrator = row["integrator"];
+        if (integrator == "body model" || integrator == "modes and taps")
+        {
+            CHECK(row["error"].get<double>() < 0.1);
+            CHECK(row["breaksAt"].is_null());
+        }
+        if (integrator == "semi-implicit Euler" || integrator == "Runge-Kutta 4")
+        {
+            CHECK(row["breaksAt"].get<double>() < 1e9);
+            if (row["stiffness"] == "1e+11")
+                CHECK(row["error"].is_null());
+            if (row["stiffness"] == "4e+04")
+                CHECK(row["error"].get<double>() < 50.0);
+        }
+    }
 }
 
 TEST_CASE("pacini bench stages gives shares that add up", "[cli][bench]")

@@ -109,7 +109,7 @@ class BrokenClips(CommandTest):
                 (lambda c: c.pop("duration"), "duration", "missing"),
                 (lambda c: c.update(duration="1"), "duration"),
                 (lambda c: c.update(version=2), "version", "newer"),
-                (lambda c: c.update(format="pacini.profile"), "format"),
+                (lambda c: c.update(format="pacini.other"), "format"),
                 (lambda c: points(c).reverse(), "bands[0].amplitude[1].time", "earlier"),
                 (lambda c: points(c)[1].update(time=None), "bands[0].amplitude[1].time"),
                 (lambda c: points(c)[1].update(amplitude=float("nan")), "line 1, column"),

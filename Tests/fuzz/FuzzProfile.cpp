@@ -1,4 +1,4 @@
-// Any bytes are either refused with a proper error or are a valid profile, read the same twice.
+// Any bytes are either refused with a proper error or are a valid profile, read the same twice and from its own text.
 
 #include "FuzzCheck.h"
 #include "io/ProfileFile.h"
@@ -19,5 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     FUZZ_CHECK(validate(*profile).ok());
     FUZZ_CHECK(*readProfileJson(text) == *profile);
+    const auto back = readProfileJson(profileJson(*profile));
+    FUZZ_CHECK(back.ok());
+    FUZZ_CHECK(*back == *profile);
     return 0;
 }

@@ -35,7 +35,7 @@ Channels render(const Scene& scene, const CompileParams& params = {}, const Prof
 {
     const auto plan = compilePlan(scene, profile, params);
     REQUIRE(plan.ok());
-    ScenePlayer player(*plan, params.sampleRate);
+    ScenePlayer player(*plan, {.sampleRate = params.sampleRate});
     return render(player, block);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("A scene does not depend on the block size", "[scene]")
     REQUIRE(plan.ok());
     const auto whole = [&](std::size_t block)
     {
-        ScenePlayer player(*plan, 48000.0);
+        ScenePlayer player(*plan);
         return render(player, block);
     };
     const auto reference = whole(1u << 20);
@@ -256,7 +256,7 @@ TEST_CASE("What is left out costs less than predicted, and that less than the to
             params.tolerance = tolerance;
             const auto plan = compilePlan(scene, nullptr, params);
             REQUIRE(plan.ok());
-            ScenePlayer player(*plan, 48000.0);
+            ScenePlayer player(*plan);
             const double measured = errorInDecibels(render(player, 4096), render(scene, everything()));
             CHECK(measured <= plan->predictedError);
             CHECK(plan->predictedError <= tolerance);
@@ -347,7 +347,7 @@ TEST_CASE("Ten thousand plays are played in bounded memory, a few decoders at a 
     }
     const auto plan = compilePlan(scene);
     REQUIRE(plan.ok());
-    ScenePlayer player(*plan, 8000.0, 0.0);
+    ScenePlayer player(*plan, {.sampleRate = 8000.0, .builtUntil = 0.0});
     std::vector<float> block(80);
     double sum = 0.0;
     for (std::int64_t done = 0; done < player.totalFrames(); done += 80)
@@ -369,7 +369,7 @@ TEST_CASE("Playing a scene makes no heap traffic, live changes included", "[scen
     scene.panLaw = PanLaw::both;
     const auto plan = compilePlan(scene);
     REQUIRE(plan.ok());
-    ScenePlayer player(*plan, 48000.0);
+    ScenePlayer player(*plan);
     std::vector<float> left(512), right(512);
     const std::array<std::span<float>, 2> out = {left, right};
     const test::HeapGuard guard;
@@ -388,7 +388,7 @@ TEST_CASE("A live gain glides to its value and stays", "[scene]")
     scene.clips = {tone(100.0, 1.0)};
     scene.plays = {ScenePlay{}};
     const auto plan = compilePlan(scene);
-    ScenePlayer player(*plan, 48000.0);
+    ScenePlayer player(*plan);
     std::vector<float> y(48000);
     const std::span<float> first(y.data(), 24000), second(y.data() + 24000, 24000);
     player.process(std::span(&first, 1));

@@ -1,9 +1,9 @@
 #pragma once
 
-// From a chain of masses to a filter: one second-order section per pair of modes, and five taps.
+// From a chain of masses to a filter: sections of two modes each, and five taps.
 
 #include <pacini/actuator/BodyChain.h>
-#include <pacini/actuator/PolePairs.h>
+#include <pacini/actuator/PoleGroups.h>
 #include <pacini/foundation/FixedVector.h>
 
 #include <array>
@@ -22,20 +22,19 @@ enum class BodyHold
     linear     ///< exact for a force that is linear between frames; the first-order hold as it is in textbooks
 };
 
-/// One pair of modes: x1' = a x1 + b x2, x2' = c x1 + a x2 + input; output = out1 x1 + out2 x2, before the step.
+/// Two modes: x1' = a x1 + b x2 + g input, x2' = c x1 + d x2 + input; output = out1 x1 + out2 x2, before the step.
 struct BodySection
 {
-    double a = 0.0;
-    double b = 0.0;
-    double c = 0.0;
-    double out1 = 0.0;
-    double out2 = 0.0;
+    double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+    double g = 0.0;
+    double out1 = 0.0, out2 = 0.0;
     bool operator==(const BodySection&) const = default;
 
     [[nodiscard]] std::complex<double> response(std::complex<double> z) const noexcept
     {
-        const std::complex<double> distance = z - a;
-        return (out1 * b + out2 * distance) / (distance * distance - b * c);
+        const std::complex<double> x1 = g * (z - d) + b;
+        const std::complex<double> x2 = (z - a) + c * g;
+        return (out1 * x1 + out2 * x2) / ((z - a) * (z - d) - b * c);
     }
 };
 
@@ -65,11 +64,25 @@ struct BodyModelCoefficients
 
 namespace detail
 {
-/// The section whose impulse response is the inverse transform of numerator / (pole pair), numerator per frame.
-[[nodiscard]] inline BodySection makeSection(const PolePair& perFrame, const PairNumber& numerator) noexcept
+/// Adds the recursion whose impulse response is the inverse transform of numerator / (factor of the group), all per
+/// frame. Two single poles share a section.
+inline void addSection(const PoleGroup& group, const PoleNumber& numerator, BodyModelCoefficients& filter) noexcept
 {
-    const PairNumber step = expAt(perFrame);
-    return {step.a, step.b, perFrame.spread * step.b, numerator.a, numerator.b};
+    const PoleNumber step = expAt(group);
+    if (!group.single)
+    {
+        filter.sections.pushBack({step.a, step.b, group.spread * step.b, step.a, 0.0, numerator.a, numerator.b});
+        return;
+    }
+    for (BodySection& section : filter.sections)
+        if (section.b == 0.0 && section.g == 0.0)
+        {
+            section.a = step.a;
+            section.g = 1.0;
+            section.out1 = numerator.a;
+            return;
+        }
+    filter.sections.pushBack({0.0, 0.0, 0.0, step.a, 0.0, 0.0, numerator.a});
 }
 
 /// Sets the taps so that the whole follows `chain` up to 1000 Hz. What the sections leave is smooth there: it
@@ -142,12 +155,12 @@ inline void fitTaps(const BodyChain& chain, BodyPoint point, double fs, BodyMode
 
 /// The filter that `point` of a chain is to a drive at `fs` Hz.
 ///
-/// The response is split into partial fractions, one second-order fraction per pair of poles, so that nothing grows
-/// where the two of a pair meet (critical damping); where two different pairs meet their fractions become large and
-/// cancel, which costs half the digits at worst. Each fraction becomes the recursion with the poles exp(p / fs) and
-/// with the right residues there. That is the first-order hold but for its gain at the pole, which is (sinh(x) / x)^2
-/// with x = p / (2 fs): this droop, 0.14 % at 1 kHz of 48 kHz and 5 % of 8 kHz, would be the largest error of all.
-/// Pairs above 0.4 fs are left out, since their images would fall into the band of touch: a lightly damped mode near a
+/// The response is split into partial fractions, one for each group of poles, so that nothing grows where the two of a
+/// pair meet (critical damping); where two different groups meet their fractions become large and cancel, which costs
+/// half the digits at worst. Each fraction becomes the recursion with the poles exp(p / fs) and with the right residues
+/// there. That is the first-order hold but for its gain at the pole, which is (sinh(x) / x)^2 with x = p / (2 fs): this
+/// droop, 0.14 % at 1 kHz of 48 kHz and 5 % of 8 kHz, would be the largest error of all.
+/// Poles above 0.4 fs are left out, since their images would fall into the band of touch: a lightly damped mode near a
 /// multiple of fs appears at any frequency in the plain first-order hold. What they do at low frequencies is smooth and
 /// goes, with what is smooth of the hold's error, into the five taps. The taps stand around the frame they correct: the
 /// response of an undamped stiff joint has no phase, which taps of the past could imitate only with large gains above
@@ -156,38 +169,43 @@ inline void fitTaps(const BodyChain& chain, BodyPoint point, double fs, BodyMode
                                                            BodyHold hold = BodyHold::corrected) noexcept
 {
     const RealPolynomial denominator = chain.denominator(RealPolynomial::identity());
-    const PolePairList pairs = findPolePairs(denominator);
+    const PoleGroupList groups = findPoleGroups(denominator);
     const double leading = denominator.c[denominator.degree()];
     const double fastest = 0.4 * 2.0 * std::numbers::pi; // per frame
+    const double slowest = 1e-12;                        // creeping over days: exp(p / fs) cannot be told from 1
 
-    BodyModelCoefficients c;
-    for (std::size_t k = 0; k < pairs.size(); ++k)
+    BodyModelCoefficients filter;
+    double& middle = filter.tap[BodyModelCoefficients::latency];
+    for (std::size_t k = 0; k < groups.size(); ++k)
     {
-        const PolePair perFrame = pairs[k].perFrame(1.0 / fs);
-        if (hold == BodyHold::corrected && perFrame.slowest() > fastest)
+        const PoleGroup perFrame = groups[k].perFrame(1.0 / fs);
+        if (perFrame.slowest() < slowest || (hold == BodyHold::corrected && perFrame.slowest() > fastest))
             continue;
-        const PairNumber s = valueAt(pairs[k]);
-        const PairNumber fraction = chain.force * (chain.numerator(point, s) / (leading * otherFactors(pairs, k)));
-        // The same per frame: e is scaled by 1 / fs, and so is time.
-        const PairNumber numerator{fraction.a / (fs * fs), fraction.b / fs, perFrame.spread};
+        const PoleNumber fraction =
+            chain.force * (chain.numerator(point, valueAt(groups[k])) / (leading * otherFactors(groups, k)));
+        // The same per frame: e and time are scaled by 1 / fs.
+        const PoleNumber numerator = groups[k].single
+                                         ? PoleNumber{fraction.a / fs, 0.0, 0.0}
+                                         : PoleNumber{fraction.a / (fs * fs), fraction.b / fs, perFrame.spread};
         if (hold == BodyHold::corrected)
         {
-            c.sections.pushBack(detail::makeSection(perFrame, numerator * expAt(perFrame)));
+            detail::addSection(perFrame, numerator * expAt(perFrame), filter);
             continue;
         }
-        const PairNumber phi1 = phiAt(perFrame, 1);
-        c.sections.pushBack(detail::makeSection(perFrame, numerator * (phi1 * phi1)));
-        c.tap[BodyModelCoefficients::latency] += (numerator * phiAt(perFrame, 2)).b;
+        const PoleNumber phi1 = phiAt(perFrame, 1);
+        const PoleNumber ramp = numerator * phiAt(perFrame, 2);
+        detail::addSection(perFrame, numerator * (phi1 * phi1), filter);
+        middle += groups[k].single ? ramp.a : ramp.b;
     }
     if (hold == BodyHold::corrected)
-        detail::fitTaps(chain, point, fs, c);
+        detail::fitTaps(chain, point, fs, filter);
     else
     {
         // What a force does at once.
         const RealPolynomial numerator = chain.numerator(point, RealPolynomial::identity());
-        c.tap[BodyModelCoefficients::latency] += chain.force * numerator.c[denominator.degree()] / leading;
+        middle += chain.force * numerator.c[denominator.degree()] / leading;
     }
-    return c;
+    return filter;
 }
 
 } // namespace pacini

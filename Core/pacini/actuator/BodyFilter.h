@@ -66,8 +66,8 @@ private:
                 const double x1 = s.x1[k];
                 const double x2 = s.x2[k];
                 y += section.out1 * x1 + section.out2 * x2;
-                s.x1[k] = section.a * x1 + section.b * x2;
-                s.x2[k] = section.c * x1 + (section.a * x2 + s.past[1]);
+                s.x1[k] = section.a * x1 + (section.b * x2 + section.g * s.past[1]);
+                s.x2[k] = section.c * x1 + (section.d * x2 + s.past[1]);
             }
             s.past = {x, s.past[0], s.past[1], s.past[2]};
             return y;

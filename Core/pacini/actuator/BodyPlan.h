@@ -3,7 +3,7 @@
 // What of a body need not be computed.
 
 #include <pacini/actuator/BodyChain.h>
-#include <pacini/actuator/PolePairs.h>
+#include <pacini/actuator/PoleGroups.h>
 #include <pacini/foundation/FixedVector.h>
 #include <pacini/foundation/Units.h>
 
@@ -30,57 +30,78 @@ struct BodyPlan
     FixedVector<BodyOmission, 1> omissions;
 };
 
-/// The largest relative difference of two chains' responses at `point`, 30-1000 Hz: on a logarithmic grid and at the
-/// resonances of both, which may be narrower than the grid.
-[[nodiscard]] inline double largestDifference(const BodyChain& chain, const BodyChain& simpler,
-                                              BodyPoint point) noexcept
+/// The frequencies at which two chains are compared: a logarithmic grid over 30-1000 Hz, and the resonances of both,
+/// which may be narrower than the grid. Hz.
+[[nodiscard]] inline auto comparedFrequencies(const BodyChain& chain, const BodyChain& simpler) noexcept
 {
     constexpr int points = 48;
-    double largest = 0.0;
-    const auto look = [&](double f)
-    {
-        const auto wanted = chain.response(point, Hertz(f));
-        const auto found = simpler.response(point, Hertz(f));
-        largest = std::max(largest, std::abs(found - wanted) / std::max(std::abs(wanted), 1e-300));
-    };
+    FixedVector<double, points + 2 * RealPolynomial::maxDegree> frequencies;
     for (int i = 0; i < points; ++i)
-        look(BodyBand::lowest * std::pow(BodyBand::highest / BodyBand::lowest, static_cast<double>(i) / (points - 1)));
+        frequencies.pushBack(BodyBand::lowest *
+                             std::pow(BodyBand::highest / BodyBand::lowest, static_cast<double>(i) / (points - 1)));
     for (const BodyChain* one : {&chain, &simpler})
-        for (const PolePair& pair : findPolePairs(one->denominator(RealPolynomial::identity())))
+        for (const PoleGroup& group : findPoleGroups(one->denominator(RealPolynomial::identity())))
         {
-            const double f = std::sqrt(std::max(-pair.spread, 0.0)) / (2.0 * std::numbers::pi);
+            const double f = std::sqrt(std::max(-group.spread, 0.0)) / (2.0 * std::numbers::pi);
             if (f > BodyBand::lowest && f < BodyBand::highest)
-                look(f);
+                frequencies.pushBack(f);
         }
-    return largest;
+    return frequencies;
+}
+
+/// The relative difference of two chains' responses at `point` and f Hz.
+[[nodiscard]] inline double relativeDifference(const BodyChain& chain, const BodyChain& simpler, BodyPoint point,
+                                               double f) noexcept
+{
+    const auto wanted = chain.response(point, Hertz(f));
+    return std::abs(simpler.response(point, Hertz(f)) - wanted) / std::max(std::abs(wanted), 1e-300);
 }
 
 /// The body with all parts left out whose absence changes the response of `point` by less than `tolerance`.
 ///
-/// The joint is rigid when (1000 Hz / its frequency)^2 is below the tolerance: so much does a mass on a spring move
-/// beyond its base that far below its resonance. Where a sharp resonance of the actuator is shifted by more than that,
-/// the difference found there counts. The skin is left out only when the whole difference is below the tolerance.
+/// The joint is rigid when (1000 Hz / its frequency)^2 is below the tolerance: so much more than its base does a mass
+/// move on a spring, that far below its resonance. Beside a sharp resonance the little that the joint gives may cost
+/// more than the same rule says for that frequency; then it is kept. The skin is left out only when the whole
+/// difference that it makes is below the tolerance.
 [[nodiscard]] inline BodyPlan planBody(const BodyParams& body, const Resonance& resonance,
                                        Decibels tolerance = Decibels(-60.0), BodyPoint point = BodyPoint::skin,
                                        BodyForce driven = BodyForce::coil) noexcept
 {
     const double allowed = tolerance.gain();
-    BodyPlan plan{makeBodyChain(body, resonance, driven), {}};
-    BodyChain simpler = plan.chain;
-    simpler.shape = BodyShape::skinless;
-    const double withoutSkin = largestDifference(plan.chain, simpler, point);
-    if (withoutSkin < allowed)
-        return {simpler, {{"skin", withoutSkin}}};
+    const BodyPlan whole{makeBodyChain(body, resonance, driven), {}};
 
-    const double ratio = BodyBand::highest / plan.chain.jointFrequency().value;
-    if (ratio * ratio < allowed)
+    BodyPlan skinless = whole;
+    skinless.chain.shape = BodyShape::skinless;
+    double largest = 0.0;
+    for (const double f : comparedFrequencies(whole.chain, skinless.chain))
+        largest = std::max(largest, relativeDifference(whole.chain, skinless.chain, point, f));
+    if (largest < allowed)
     {
-        simpler.shape = BodyShape::rigid;
-        const double whenRigid = std::max(ratio * ratio, largestDifference(plan.chain, simpler, point));
-        if (whenRigid < allowed)
-            return {simpler, {{"joint", whenRigid}}};
+        skinless.omissions.pushBack({"skin", largest});
+        return skinless;
     }
-    return plan;
+
+    const auto rule = [&](double f)
+    {
+        const double ratio = f / whole.chain.jointFrequency().value;
+        return ratio * ratio;
+    };
+    if (!(rule(BodyBand::highest) < allowed))
+        return whole;
+    BodyPlan rigid = whole;
+    rigid.chain.shape = BodyShape::rigid;
+    largest = rule(BodyBand::highest);
+    for (const double f : comparedFrequencies(whole.chain, rigid.chain))
+    {
+        const double difference = relativeDifference(whole.chain, rigid.chain, point, f);
+        if (difference > 1.05 * rule(f) + 1e-6) // 1e-6 counts nowhere
+            return whole;
+        largest = std::max(largest, difference);
+    }
+    if (!(largest < allowed))
+        return whole;
+    rigid.omissions.pushBack({"joint", largest});
+    return rigid;
 }
 
 } // namespace pacini

@@ -47,9 +47,12 @@ struct DriveShapingParams
 /// first order with tau = q / (pi f0); the drive's frequency must be the resonance, or the reversed phase does not
 /// brake.
 ///
+/// What plays a rated amplitude of 1 at 1 / overdrive divides the result by the overdrive.
+///
 /// Without latency: the strength reaches the wanted value at the end of the sample, as far as the limits let it. The
 /// modelled actuator never goes past the wanted strength; a real one whose time constant is off by some part does so by
-/// about that part of what the overdrive added.
+/// about that part of what the overdrive added. Overdrives that change an LRA by much within half a period (more than
+/// about q / 4) find no whole period to act in and leave a rest of ringing.
 class DriveShaping
 {
 public:

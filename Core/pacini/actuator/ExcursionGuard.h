@@ -2,13 +2,14 @@
 
 // Keeps the moving mass of an actuator within its travel, whatever the drive.
 
-#include <pacini/actuator/HeldResonator.h>
+#include <pacini/actuator/HeldStep.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace pacini
@@ -39,9 +40,8 @@ struct ExcursionCoefficients
 {
     static constexpr std::size_t maxSubsteps = 64;
 
-    FixedVector<HeldStep, maxSubsteps>
-        steps;                ///< from one sample to points in the hold; the last one to the next sample
-    double energyLimit = 0.0; ///< m^2
+    FixedVector<HeldStep, maxSubsteps> steps; ///< to points in the hold, the last one to the next sample
+    double energyLimit = 0.0;                 ///< m^2
     double driveLimit = 0.0;
 };
 

@@ -2,8 +2,6 @@
 
 // The gain of a limiter: soft knee, hold, release, look-ahead.
 
-#include <pacini/foundation/DspBlock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -3,7 +3,7 @@
 // The filter that takes an actuator's resonance away.
 
 #include <pacini/actuator/BodyChain.h>
-#include <pacini/actuator/PolePairs.h>
+#include <pacini/actuator/PoleGroups.h>
 #include <pacini/filters/Biquad.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pacini
 {
 
 /// The pole pair of a resonance: s^2 + w s / q + w^2.
-[[nodiscard]] inline PolePair polePairOf(const Resonance& resonance) noexcept
+[[nodiscard]] inline PoleGroup polePairOf(const Resonance& resonance) noexcept
 {
     const double w = 2.0 * std::numbers::pi * clampTo(resonance.frequency, 0.1, 1e5);
     const double decay = 0.5 * w / clampTo(resonance.q, 1e-3, 1e4);
@@ -36,7 +36,7 @@ namespace pacini
     };
     const auto factor = [fs](const Resonance& resonance)
     {
-        const PolePair pair = polePairOf(resonance).perFrame(1.0 / fs);
+        const PoleGroup pair = polePairOf(resonance).perFrame(1.0 / fs);
         const double decay = std::exp(pair.centre);
         const double root = std::sqrt(std::abs(pair.spread));
         if (pair.spread < 0.0)
@@ -45,7 +45,9 @@ namespace pacini
             const double rest = std::expm1(pair.centre);
             return Factor{-2.0 * decay * std::cos(root), decay * decay, rest * rest + 4.0 * decay * half * half};
         }
-        const double slow = -pair.slowest(), fast = pair.centre - root;
+        const double fast = pair.centre - root;
+        const double w = 2.0 * std::numbers::pi * clampTo(resonance.frequency, 0.1, 1e5) / fs;
+        const double slow = w * w / fast; // centre + root would cancel
         return Factor{-std::exp(slow) - std::exp(fast), decay * decay, std::expm1(slow) * std::expm1(fast)};
     };
     const Factor zeros = factor(actuator);
@@ -63,14 +65,14 @@ namespace pacini
     const BodyChain chain = makeBodyChain(body, resonance);
     const double together = chain.deviceMass + chain.skinMass;
     const double free = std::sqrt(chain.suspensionStiffness / chain.movingMass * (1.0 + chain.movingMass / together));
-    const auto frequency = [](const PolePair& pair)
+    const auto frequency = [](const PoleGroup& pair)
     {
         return std::sqrt(std::max(pair.centre * pair.centre - pair.spread, 1e-300));
     };
-    const PolePairList pairs = findPolePairs(chain.denominator(RealPolynomial::identity()));
-    const PolePair nearest =
+    const PoleGroupList pairs = findPoleGroups(chain.denominator(RealPolynomial::identity()));
+    const PoleGroup nearest =
         *std::min_element(pairs.begin(), pairs.end(),
-                          [&](const PolePair& x, const PolePair& y) {
+                          [&](const PoleGroup& x, const PoleGroup& y) {
                               return std::abs(std::log(frequency(x) / free)) < std::abs(std::log(frequency(y) / free));
                           });
     const double w = frequency(nearest);

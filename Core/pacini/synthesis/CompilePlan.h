@@ -2,6 +2,8 @@
 
 // Scene -> RenderPlan.
 
+#include <pacini/actuator/EqualizerPruning.h>
+#include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/LoopUnroll.h>
 #include <pacini/synthesis/PlayEnergy.h>
@@ -30,6 +32,8 @@ struct CompileParams
     bool leaveOut = true;        ///< false plays everything, for comparison
     double sampleRate = 48000.0; ///< Hz, of the players to come; levels of the equaliser depend on it a little
     DecoderChoice decoder;
+    bool adapt = true; ///< fit clips to the actuator; false plays them as they are
+    AdaptationParams adaptation;
     bool operator==(const CompileParams&) const = default;
 };
 
@@ -80,6 +84,18 @@ inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, do
 }
 
 inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
+
+/// How an actuator's own events are played, after the clip's method and the user.
+inline void fitPulses(DecoderParams& params, const Profile& profile, const DecoderChoice& choice)
+{
+    params.pulses.lowest = profile.range.lowFrequency;
+    params.pulses.highest = profile.range.highFrequency;
+    if (choice.pulseShape || profile.transient.shape == TransientShape::adaptive)
+        return;
+    params.pulses.shape = profile.transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine;
+    params.pulses.frequency = profile.transient.frequency;
+    params.pulses.cycles = profile.transient.cycles;
+}
 } // namespace detail
 
 /// Works out what a scene needs on an actuator (none: the plain drive signal). What costs least is left out first,
@@ -99,6 +115,18 @@ inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
     plan.actuators = static_cast<std::size_t>(scene.actuators);
     if (profile != nullptr)
         plan.profile = *profile;
+    const bool adapts = profile != nullptr && params.adapt && profile->technology != Technology::pcm;
+    plan.motor = adapts && params.adaptation.voices && profile->technology == Technology::erm;
+    std::vector<Clip> adapted;
+    if (adapts)
+        for (std::size_t i = 0; i < scene.clips.size(); ++i)
+        {
+            AdaptedClip fitted = adaptClip(scene.clips[i], *profile, params.adaptation);
+            adapted.push_back(std::move(fitted.clip));
+            for (std::string& what : fitted.changes)
+                plan.adaptations.push_back({detail::indexed("clips", i), std::move(what)});
+        }
+    const std::vector<Clip>& clips = adapts ? adapted : scene.clips;
     const double resonance = profile != nullptr ? profile->resonance.frequency : 67.0;
 
     std::vector<std::vector<SceneChange>> changesOf(scene.plays.size());
@@ -150,7 +178,7 @@ inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
         planned.play = i;
         planned.start = play.start;
         planned.timeline = std::move(timelines[i]);
-        const Clip& clip = scene.clips[play.clip];
+        const Clip& clip = clips[play.clip];
         if (play.loop > 0.0)
         {
             double fastest = play.stretch;
@@ -175,6 +203,10 @@ inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
         base.stretch = play.stretch;
         base.variation.seed = play.variation.seed; // of the noise; the bands have been varied
         planned.decoder = decoderParamsFor(planned.clip, base, params.decoder, resonance);
+        if (adapts)
+            detail::fitPulses(planned.decoder, *profile, params.decoder);
+        if (plan.motor)
+            planned.decoder.carriers = CarrierMode::none;
         // Without its highest bands a clip would get another inner rate, and with it other rounding.
         planned.decoder.reach = highestFrequency(planned.clip, planned.decoder.carriers);
         energies.push_back(playEnergy(planned.clip, planned.decoder, planned.timeline, play.start, plan.duration,
@@ -201,7 +233,8 @@ inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
         }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
-    const double bearable = whole * std::pow(10.0, params.tolerance / 10.0);
+    // The equaliser may take a quarter of the energy, which is half of the amplitude (see below).
+    const double bearable = 0.7 * whole * std::pow(10.0, params.tolerance / 10.0);
     detail::ErrorSum error;
     std::vector<bool> playOut(plan.plays.size(), false);
     std::vector<std::vector<bool>> bandOut;
@@ -231,7 +264,23 @@ inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
             plan.leftOut.push_back({where, candidate.energy > 0.0 ? "is too weak to matter" : "is silent", cost});
         }
     }
-    plan.predictedError = detail::errorInDecibels(error.total(), whole);
+    double lost = error.total();
+    if (plan.profile && params.leaveOut)
+    {
+        // A deviation of some dB everywhere is an error of that part of all the energy. Half the tolerance is for it.
+        const double bearableGain = 1.0 + 0.5 * std::pow(10.0, params.tolerance / 20.0);
+        PruningParams pruning;
+        pruning.lowFrequency = Hertz(plan.profile->range.lowFrequency);
+        pruning.highFrequency = Hertz(plan.profile->range.highFrequency);
+        pruning.tolerance = Decibels(std::min(0.1, 20.0 * std::log10(bearableGain) / 4.0));
+        const auto pruned = pruneEqualizer(plan.profile->equalizer, pruning, params.sampleRate);
+        for (const DroppedSection& section : pruned.dropped)
+            plan.leftOut.push_back({detail::indexed("equalizer", section.index), "is flat in the actuator's range",
+                                    20.0 * std::log10(std::pow(10.0, section.deviation / 20.0) - 1.0 + 1e-30)});
+        plan.profile->equalizer = pruned.kept;
+        lost += whole * std::pow(std::pow(10.0, pruned.predictedError / 20.0) - 1.0, 2.0);
+    }
+    plan.predictedError = detail::errorInDecibels(lost, whole);
 
     std::vector<PlannedPlay> kept;
     for (std::size_t i = 0; i < plan.plays.size(); ++i)

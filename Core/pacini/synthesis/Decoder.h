@@ -31,6 +31,7 @@ enum class CarrierMode
     fixed,    ///< at the band's centre frequency
     pitch,    ///< on the band's pitch curve, at the centre where there is none
     centroid, ///< all bands move with the clip's centroid, in the ratios of their centres (Weber 2020, section 4.3.3)
+    none,     ///< no sinusoids: the sum of the amplitudes itself, for motors
 };
 
 struct DecoderParams
@@ -281,6 +282,11 @@ private:
             if (params.carriers == CarrierMode::centroid)
                 for (const Breakpoint& point : clip.centroid)
                     addFrequency(point.time, point.value * band.centreFrequency / reference);
+            if (params.carriers == CarrierMode::none)
+            {
+                carrier.frequency = {{0.0, 0.0}};
+                carrier.phase = 0.25; // where the sine is 1
+            }
             if (carrier.frequency.empty())
                 addFrequency(0.0, band.centreFrequency);
             const bool silent = std::all_of(carrier.amplitude.begin(), carrier.amplitude.end(),

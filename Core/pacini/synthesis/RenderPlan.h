@@ -34,12 +34,22 @@ struct LeftOut
     bool operator==(const LeftOut&) const = default;
 };
 
+/// What was changed to fit the actuator.
+struct Adaptation
+{
+    std::string where; ///< such as `clips[2]`
+    std::string what;  ///< in plain words
+    bool operator==(const Adaptation&) const = default;
+};
+
 struct RenderPlan
 {
     double duration = 0.0; ///< s
     std::size_t actuators = 1;
     std::optional<Profile> profile; ///< with the sections of its equaliser that matter
+    bool motor = false;             ///< plays are strengths, which become the voltage of a motor
     std::vector<PlannedPlay> plays; ///< in order of start
+    std::vector<Adaptation> adaptations;
     std::vector<LeftOut> leftOut;
     double predictedError = 0.0; ///< dB below the scene, of all that is left out together; -infinity = nothing lost
 };

@@ -3,6 +3,8 @@
 // RenderPlan -> drive signals.
 
 #include <pacini/actuator/Equalizer.h>
+#include <pacini/actuator/MotorDrive.h>
+#include <pacini/actuator/Protection.h>
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DelayTap.h>
@@ -22,19 +24,24 @@
 namespace pacini
 {
 
+struct ScenePlayerParams
+{
+    double sampleRate = 48000.0;                                 ///< Hz, 2000 to 192000
+    double builtUntil = std::numeric_limits<double>::infinity(); ///< s: makes the decoders of plays that start before
+    bool protect = true;                                         ///< keep within the limits of the profile
+    Seconds lookAhead{0.001}; ///< of the protection, 0 to 1 ms; taken out of the output
+};
+
 /// Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend on how it is
 /// cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have ended, from a
 /// thread that may wait; the constructor makes all of them, so that live use need not call it.
 class ScenePlayer
 {
 public:
-    static constexpr double all = std::numeric_limits<double>::infinity();
-
-    /// Makes the decoders of plays that start before `builtUntil` (s).
-    ScenePlayer(RenderPlan planToPlay, double sampleRate, double builtUntil = all)
+    explicit ScenePlayer(RenderPlan planToPlay, const ScenePlayerParams& params = {})
         : plan(std::move(planToPlay)),
-          fs(sampleRate),
-          endFrame(static_cast<std::int64_t>(std::floor(plan.duration * sampleRate + 0.5)))
+          fs(std::clamp(params.sampleRate, 2000.0, 192000.0)),
+          endFrame(static_cast<std::int64_t>(std::floor(plan.duration * fs + 0.5)))
     {
         for (const PlannedPlay& planned : plan.plays)
         {
@@ -44,15 +51,12 @@ public:
             voices.push_back(std::move(voice));
         }
         if (plan.profile)
-        {
-            equalizers.resize(plan.actuators);
-            for (Equalizer& equalizer : equalizers)
-            {
-                equalizer.prepare({fs, blockFrames});
-                equalizer.setParams(plan.profile->equalizer);
-            }
-        }
-        build(builtUntil);
+            for (std::size_t a = 0; a < plan.actuators; ++a)
+                outputs.push_back(makeOutput(*plan.profile, params));
+        if (!outputs.empty())
+            preRoll = outputs.front().protection ? outputs.front().protection->latencyFrames() : 0;
+        discarded.resize(plan.actuators * blockFrames);
+        build(params.builtUntil);
     }
 
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
@@ -82,6 +86,17 @@ public:
     void process(std::span<const std::span<float>> out) noexcept
     {
         const std::size_t frames = out.empty() ? 0 : out.front().size();
+        while (preRoll > 0)
+        {
+            // What the protection looks ahead is played before the first frame is given out.
+            const std::size_t n = std::min(preRoll, blockFrames);
+            std::array<std::span<float>, limits::actuators> unheard;
+            const std::size_t channels = std::min(out.size(), plan.actuators);
+            for (std::size_t a = 0; a < channels; ++a)
+                unheard[a] = std::span(discarded).subspan(a * blockFrames, n);
+            processBlock(std::span(unheard).first(channels), 0, n);
+            preRoll -= n;
+        }
         for (std::size_t done = 0; done < frames;)
         {
             const std::size_t n = std::min(frames - done, blockFrames);
@@ -135,6 +150,56 @@ private:
         bool ended = false;
     };
 
+    /// What stands between the sum of the plays and an actuator.
+    struct Output
+    {
+        Equalizer equalizer;
+        std::unique_ptr<MotorDrive> motor;
+        std::unique_ptr<Protection> protection;
+        double scale = 1.0;
+    };
+
+    Output makeOutput(const Profile& profile, const ScenePlayerParams& params) const
+    {
+        Output output;
+        output.equalizer.prepare({fs, blockFrames});
+        output.equalizer.setParams(profile.equalizer);
+        // Room for overdrive: the rated drive is played at 1 / overdrive.
+        output.scale = 1.0 / profile.drive.overdrive;
+        if (plan.motor)
+        {
+            output.motor = std::make_unique<MotorDrive>();
+            output.motor->prepare({fs, blockFrames});
+            output.motor->setParams(motorDriveParams(profile));
+        }
+        else if (params.protect)
+        {
+            ProtectionParams limits = protectionParams(profile, params.lookAhead);
+            if (limits.excursion)
+                limits.excursion->excursion *= profile.drive.overdrive;
+            if (limits.heat)
+                limits.heat->fullDrivePower *= profile.drive.overdrive * profile.drive.overdrive;
+            output.protection = std::make_unique<Protection>();
+            output.protection->prepare({fs, blockFrames});
+            output.protection->setParams(limits);
+            output.protection->reset();
+        }
+        return output;
+    }
+
+    void finish(Output& output, std::span<float> samples) noexcept
+    {
+        if (output.motor)
+            output.motor->process(samples, samples);
+        else
+            output.equalizer.process(samples, samples);
+        if (output.scale != 1.0)
+            for (float& sample : samples)
+                sample = static_cast<float>(output.scale * static_cast<double>(sample));
+        if (output.protection)
+            output.protection->process(samples, samples);
+    }
+
     void make(Voice& voice, const PlannedPlay& planned)
     {
         DecoderParams params = planned.decoder;
@@ -177,8 +242,8 @@ private:
                 ++count;
             }
         most = std::max(most, count);
-        for (std::size_t a = 0; a < equalizers.size() && a < out.size(); ++a)
-            equalizers[a].process(out[a].subspan(at, n), out[a].subspan(at, n));
+        for (std::size_t a = 0; a < outputs.size() && a < out.size(); ++a)
+            finish(outputs[a], out[a].subspan(at, n));
         position += static_cast<std::int64_t>(n);
     }
 
@@ -294,8 +359,10 @@ private:
     double fs;
     std::int64_t endFrame;
     std::vector<Voice> voices; // as plan.plays
-    std::vector<Equalizer> equalizers;
+    std::vector<Output> outputs;
+    std::size_t preRoll = 0;
     std::array<float, blockFrames> mono{}, shifted{};
+    std::vector<float> discarded;
     std::array<double, blockFrames> delays{};
     std::int64_t position = 0;
     std::size_t first = 0; // voices before it have ended

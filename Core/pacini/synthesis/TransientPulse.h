@@ -25,6 +25,8 @@ struct PulseParams
     PulseShape shape = PulseShape::adaptive;
     double frequency = 67.0; ///< Hz, for square and sine
     double cycles = 1.0;     ///< periods, for square and sine
+    double lowest = 1.0;     ///< Hz, for adaptive: frequencies stay within what the actuator shows, pulses keep
+    double highest = 20e3;   ///< their number of periods
     bool operator==(const PulseParams&) const = default;
 };
 
@@ -62,6 +64,7 @@ struct Pulse
             frequency = 100.0 * std::pow(2.8, crispness);
             cycles = 2.0;
         }
+        frequency = std::clamp(frequency, params.lowest, params.highest);
     }
     frequency = std::clamp(frequency * transposition, 1.0, 0.45 * fs);
     return {params.shape, frequency / fs, static_cast<std::size_t>(std::floor(cycles * fs / frequency + 0.5))};

@@ -51,6 +51,7 @@ struct Bench
 
 [[nodiscard]] Bench simplifyBench();
 [[nodiscard]] Bench analysisBench();
+[[nodiscard]] Bench bodyBench();
 [[nodiscard]] Bench decimateBench();
 [[nodiscard]] Bench methodsBench();
 [[nodiscard]] Bench stagesBench();
@@ -61,7 +62,7 @@ struct Bench
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
     return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(),
-            scenesBench(),   stagesBench(),   methodsBench()};
+            scenesBench(),   bodyBench(),     stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli

@@ -1,14 +1,13 @@
 #include "cli/bench/Bench.h"
+#include "cli/bench/BenchSpectrum.h"
 #include "cli/bench/Timed.h"
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/filters/RationalDecimator.h>
 #include <pacini/filters/Resampler.h>
-#include <pacini/foundation/Fft.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numeric>
 
 namespace pacini::cli
@@ -17,8 +16,6 @@ namespace pacini::cli
 namespace
 {
 constexpr double longest = 10.0; // s of each sound
-
-using Spectrum = std::vector<std::complex<double>>;
 
 /// The spectra of the sound at both rates have bins at the same frequencies.
 struct Sizes
@@ -36,16 +33,6 @@ struct Sizes
         output = static_cast<std::size_t>(analysisRate / divisor) * blocks;
     }
 };
-
-Spectrum spectrumOf(std::span<const float> signal, std::size_t size)
-{
-    std::vector<double> padded(size);
-    std::copy_n(signal.begin(), std::min(signal.size(), size), padded.begin());
-    RealFft<double> transform(size);
-    Spectrum spectrum(transform.bins());
-    transform.forward(padded, spectrum);
-    return spectrum;
-}
 
 /// Energy of the ideal signal over that of the difference between `low` and `high` Hz, dB, at most 150.
 double snrBetween(const Spectrum& ideal, const Spectrum& found, std::size_t outputSize, double low, double high)

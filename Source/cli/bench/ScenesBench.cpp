@@ -68,7 +68,10 @@ Rendered rendered(const Scene& scene, const CompileParams& params)
         return result;
     result.plays = plan->plays.size();
     result.predictedError = plan->predictedError;
-    ScenePlayer player(std::move(*plan), params.sampleRate, 0.0);
+    ScenePlayerParams playing;
+    playing.sampleRate = params.sampleRate;
+    playing.builtUntil = 0.0;
+    ScenePlayer player(std::move(*plan), playing);
     result.signal.resize(static_cast<std::size_t>(player.totalFrames()));
     for (std::size_t done = 0; done < result.signal.size();)
     {

@@ -66,15 +66,21 @@ struct HeldStep
     for (; angle * (1.0 + 1.0 / q) > 0.5; ++doublings)
         angle *= 0.5;
 
-    // powers of M = angle [0 1; -1 -1/q], divided by the factorial
-    double pxx = 1.0, pxv = 0.0, pvx = 0.0, pvv = 1.0;
+    // p: powers of M = angle [0 1; -1 -1/q] over the factorial, each from the one before as p M / k
+    double pxx = 1.0;
+    double pxv = 0.0;
+    double pvx = 0.0;
+    double pvv = 1.0;
     HeldStep step;
     for (int k = 1; k <= 16; ++k)
     {
         const double scale = angle / k;
-        const double nxx = scale * -pxv, nvx = scale * -pvv;
-        const double nxv = scale * (pxx - pxv / q), nvv = scale * (pvx - pvv / q);
-        pxx = nxx, pxv = nxv, pvx = nvx, pvv = nvv;
+        const double x = pxx;
+        const double v = pvx;
+        pxx = -scale * pxv;
+        pvx = -scale * pvv;
+        pxv = scale * (x - pxv / q);
+        pvv = scale * (v - pvv / q);
         step.xx += pxx;
         step.xv += pxv;
         step.vx += pvx;

@@ -1,0 +1,94 @@
+#pragma once
+
+// Which limits of an actuator have to be guarded.
+
+#include <pacini/actuator/CoilHeat.h>
+#include <pacini/actuator/ExcursionGuard.h>
+#include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Units.h>
+
+#include <optional>
+
+namespace pacini
+{
+
+struct ProtectionParams
+{
+    std::optional<ExcursionParams> excursion; ///< none: no limit
+    std::optional<CoilHeatParams> heat;       ///< none: no limit
+    Hertz lowFrequency{20.0};                 ///< the lowest tone to be played, 1 to 20000 Hz
+    Seconds lookAhead{0.001};                 ///< 0 (live) to 1 ms
+    bool operator==(const ProtectionParams&) const = default;
+};
+
+/// The most that any drive within +-1 can do to an actuator, and which limits can be reached at all. A limit that the
+/// profile does not name, or that no drive reaches, needs no protection and is left out without any error.
+struct ProtectionNeeds
+{
+    enum class Limit
+    {
+        unknown,  ///< the profile does not say enough to know the limit
+        unharmed, ///< no drive within +-1 reaches it
+        guarded   ///< some drive would exceed it
+    };
+    Limit excursion = Limit::unknown;
+    Limit heat = Limit::unknown;
+    double worstExcursion = 0.0; ///< m, when known
+    double worstPower = 0.0;     ///< W, when known
+};
+
+/// The time constant of coils whose profile has none: short for them, so that protection acts too early, not too late.
+inline constexpr double defaultThermalTime = 1.0; // s
+
+/// The excursion limit of a valid profile, if it has one.
+[[nodiscard]] inline std::optional<ExcursionParams> excursionParams(const Profile& profile) noexcept
+{
+    const ActuatorDrive& drive = profile.drive;
+    if (!drive.maxExcursion || !drive.excursion)
+        return std::nullopt;
+    return ExcursionParams{profile.resonance.frequency, profile.resonance.q, *drive.excursion, *drive.maxExcursion};
+}
+
+/// The heat limit of a valid profile, if it has one. A drive of 1 is the peak of a sinusoid of maxVoltageRms, so that
+/// the power of a drive u is 2 maxVoltageRms^2 u^2 / impedance.
+[[nodiscard]] inline std::optional<CoilHeatParams> coilHeatParams(const Profile& profile) noexcept
+{
+    const ActuatorDrive& drive = profile.drive;
+    if (!drive.maxPower || !drive.impedance || !drive.maxVoltageRms)
+        return std::nullopt;
+    return CoilHeatParams{2.0 * *drive.maxVoltageRms * *drive.maxVoltageRms / *drive.impedance, *drive.maxPower,
+                          drive.thermalTime.value_or(defaultThermalTime)};
+}
+
+[[nodiscard]] inline ProtectionNeeds protectionNeeds(const Profile& profile) noexcept
+{
+    using Limit = ProtectionNeeds::Limit;
+    ProtectionNeeds needs;
+    if (const auto params = excursionParams(profile))
+    {
+        needs.worstExcursion = worstExcursion(*params);
+        needs.excursion = needs.worstExcursion <= params->maxExcursion ? Limit::unharmed : Limit::guarded;
+    }
+    if (const auto params = coilHeatParams(profile))
+    {
+        needs.worstPower = params->fullDrivePower;
+        needs.heat = needs.worstPower <= params->maxPower ? Limit::unharmed : Limit::guarded;
+    }
+    return needs;
+}
+
+/// What the protection of a valid profile needs to know; limits that cannot be reached are left out.
+[[nodiscard]] inline ProtectionParams protectionParams(const Profile& profile, Seconds lookAhead) noexcept
+{
+    const ProtectionNeeds needs = protectionNeeds(profile);
+    ProtectionParams params;
+    if (needs.excursion == ProtectionNeeds::Limit::guarded)
+        params.excursion = excursionParams(profile);
+    if (needs.heat == ProtectionNeeds::Limit::guarded)
+        params.heat = coilHeatParams(profile);
+    params.lowFrequency = Hertz(profile.range.lowFrequency);
+    params.lookAhead = lookAhead;
+    return params;
+}
+
+} // namespace pacini

@@ -1,0 +1,257 @@
+#pragma once
+
+// A clip as an actuator can show it.
+
+#include <pacini/actuator/DriveShaping.h>
+#include <pacini/actuator/DynamicRangeMap.h>
+#include <pacini/actuator/FrequencyMap.h>
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/VoiceMerge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// What is left to the adaptation to do; by default all of it.
+struct AdaptationParams
+{
+    bool frequencies = true;                 ///< move what is outside the actuator's range into it
+    bool voices = true;                      ///< as many sinusoids as the actuator has voices
+    bool dynamicRange = true;                ///< raise what would not be felt
+    bool response = true;                    ///< overdrive and brake a slow actuator
+    std::optional<FrequencyMapping> mapping; ///< instead of the profile's
+    bool operator==(const AdaptationParams&) const = default;
+};
+
+/// A clip made for an actuator.
+struct AdaptedClip
+{
+    Clip clip;
+    std::vector<std::string> changes; ///< what was done, in plain words
+};
+
+namespace detail
+{
+/// The band's energy-weighted mean frequency in Hz.
+inline double meanFrequency(const Band& band)
+{
+    double weighted = 0.0, sum = 0.0;
+    CurveReader pitch(band.pitch);
+    for (std::size_t i = 0; i < band.amplitude.size(); ++i)
+    {
+        const Breakpoint& point = band.amplitude[i];
+        const double span = (i + 1 < band.amplitude.size() ? band.amplitude[i + 1].time : point.time) -
+                            (i > 0 ? band.amplitude[i - 1].time : point.time);
+        const double energy = point.value * point.value * std::max(span, 1e-3);
+        const double f = band.pitch.empty() ? band.centreFrequency : pitch.at(point.time);
+        weighted += energy * std::log(std::max(f, 1.0));
+        sum += energy;
+    }
+    return sum > 0.0 ? std::exp(weighted / sum) : std::max(band.centreFrequency, 1.0);
+}
+
+/// Moves one band by the ratio in which its mean moves, so that its pitch keeps its shape, and clamps it to the range.
+inline bool moveBand(Band& band, const FrequencyMap& map, const ActuatorRange& range)
+{
+    const double mean = meanFrequency(band);
+    const double ratio = map(mean) / mean;
+    bool moved = false;
+    const auto move = [&](double f)
+    {
+        const double to = std::clamp(f * ratio, range.lowFrequency, range.highFrequency);
+        moved = moved || std::abs(to - f) > 1e-9 * f;
+        return to;
+    };
+    band.centreFrequency = move(band.centreFrequency);
+    band.lowFrequency = std::min(band.lowFrequency, band.centreFrequency);
+    band.highFrequency = std::max(band.highFrequency, band.centreFrequency);
+    for (Breakpoint& point : band.pitch)
+        point.value = move(point.value);
+    return moved;
+}
+
+/// Scales all amplitudes of a clip as `map` scales the envelope (its loudest band where there is none) at their time.
+inline void mapLevels(Clip& clip, const DynamicRangeMap& map)
+{
+    const Curve envelope = clip.envelope;
+    const auto gainAt = [&](double time, double own)
+    {
+        const double level = envelope.empty() ? own : valueAt(envelope, time);
+        return level > 0.0 ? map(level) / level : 0.0;
+    };
+    for (Breakpoint& point : clip.envelope)
+        point.value = map(point.value);
+    for (Band& band : clip.bands)
+        for (Breakpoint& point : band.amplitude)
+            point.value *= gainAt(point.time, point.value);
+    for (NoiseBand& band : clip.noise)
+        for (Breakpoint& point : band.amplitude)
+            point.value *= gainAt(point.time, point.value);
+    for (Transient& event : clip.transients)
+        event.amplitude = map(event.amplitude);
+}
+
+inline double peakOf(const Clip& clip)
+{
+    double peak = 0.0;
+    for (const Breakpoint& point : clip.envelope)
+        peak = std::max(peak, point.value);
+    if (clip.envelope.empty())
+        for (const Band& band : clip.bands)
+            for (const Breakpoint& point : band.amplitude)
+                peak = std::max(peak, point.value);
+    for (const Transient& event : clip.transients)
+        peak = std::max(peak, event.amplitude);
+    return peak;
+}
+
+/// Strength over time for an actuator of one voice: the envelope, topped by a burst for every event that lasts `burst`
+/// seconds. Sampled every `step` seconds: what follows it is not a straight line anyway.
+inline std::vector<double> wantedStrength(const Clip& clip, double step, double burst)
+{
+    std::vector<double> strength(static_cast<std::size_t>(std::ceil(clip.duration / step)) + 1, 0.0);
+    CurveReader envelope(clip.envelope);
+    std::vector<CurveReader> bands;
+    for (const Band& band : clip.bands)
+        bands.emplace_back(band.amplitude);
+    for (std::size_t n = 0; n < strength.size(); ++n)
+    {
+        const double t = step * static_cast<double>(n);
+        if (!clip.envelope.empty())
+            strength[n] = envelope.at(t);
+        else
+        {
+            double power = 0.0;
+            for (CurveReader& band : bands)
+                power += std::pow(band.at(t), 2.0);
+            strength[n] = std::sqrt(power);
+        }
+    }
+    for (std::size_t i = 0; i < clip.transients.size(); ++i)
+    {
+        const Transient& event = clip.transients[i];
+        double length = burst;
+        if (i + 1 < clip.transients.size())
+            length = std::min(length, 0.6 * (clip.transients[i + 1].time - event.time));
+        const auto first = static_cast<std::size_t>(event.time / step);
+        const auto last = first + std::max<std::size_t>(1, static_cast<std::size_t>(length / step));
+        for (std::size_t n = first; n < std::min(last, strength.size()); ++n)
+            strength[n] = std::max(strength[n], event.amplitude);
+    }
+    return strength;
+}
+
+/// A curve through equally spaced samples without those that lie on a straight line (within `tolerance`).
+inline Curve curveThrough(const std::vector<double>& samples, double step, double tolerance, double duration)
+{
+    Curve curve;
+    for (std::size_t n = 0; n < samples.size(); ++n)
+    {
+        if (n > 0 && n + 1 < samples.size() &&
+            std::abs(samples[n + 1] - 2.0 * samples[n] + samples[n - 1]) < tolerance &&
+            std::abs(samples[n] - curve.back().value) < 0.02)
+            continue;
+        curve.push_back({std::min(step * static_cast<double>(n), duration), samples[n]});
+    }
+    return curve;
+}
+} // namespace detail
+
+/// Makes a valid clip fit a valid profile:
+///
+/// - frequencies outside the range are moved into it, each band as a whole (see FrequencyMap);
+/// - bands that have no voice of their own join their nearest neighbour that has one (see mergeVoices);
+/// - amplitudes are pressed into what the actuator can show (see DynamicRangeMap);
+/// - an actuator of one voice or none plays its whole strength with it, events as bursts as long as it needs to
+///   respond; an LRA is overdriven and braked (see DriveShaping; the amplitude of its band then turns negative, which
+///   no file may hold). A motor gets its strength as the amplitude of one band: MotorDrive turns it into voltage.
+[[nodiscard]] inline AdaptedClip adaptClip(Clip clip, const Profile& profile, const AdaptationParams& params = {})
+{
+    AdaptedClip result{std::move(clip), {}};
+    Clip& adapted = result.clip;
+    if (profile.technology == Technology::pcm)
+        return result;
+
+    if (params.dynamicRange)
+    {
+        DynamicRangeParams range;
+        range.actuatorRange = profile.range.dynamicRange;
+        range.clipPeak = std::max(detail::peakOf(adapted), 1e-6);
+        const DynamicRangeMap map(range);
+        if (!map.isIdentity())
+        {
+            detail::mapLevels(adapted, map);
+            result.changes.push_back("levels are pressed into " +
+                                     std::to_string(static_cast<int>(std::lround(range.actuatorRange))) + " dB");
+        }
+    }
+
+    if (params.frequencies && profile.polyphony > 0)
+    {
+        Profile mapped = profile;
+        mapped.frequencyMapping = params.mapping.value_or(profile.frequencyMapping);
+        const FrequencyMap map(mapped);
+        std::size_t moved = 0;
+        for (Band& band : adapted.bands)
+            if (detail::moveBand(band, map, profile.range))
+                ++moved;
+        std::erase_if(adapted.noise,
+                      [&](const NoiseBand& band) {
+                          return band.highFrequency < profile.range.lowFrequency ||
+                                 band.lowFrequency > profile.range.highFrequency;
+                      });
+        if (moved > 0)
+            result.changes.push_back(std::to_string(moved) + " of " + std::to_string(adapted.bands.size()) +
+                                     " bands are moved into the range");
+    }
+
+    const auto voices = static_cast<std::size_t>(std::max(profile.polyphony, 1));
+    if (params.voices && adapted.bands.size() > voices)
+    {
+        const auto before = adapted.bands.size();
+        mergeVoices(adapted, voices);
+        result.changes.push_back(std::to_string(before) + " bands share " + std::to_string(adapted.bands.size()) +
+                                 (adapted.bands.size() == 1 ? " voice" : " voices"));
+    }
+
+    if (params.voices && profile.polyphony <= 1)
+    {
+        constexpr double step = 0.001; // s
+        const double resonance = profile.resonance.frequency;
+        const double burst = std::max({0.012, 2.0 / resonance, profile.response.riseTime});
+        std::vector<double> strength = detail::wantedStrength(adapted, step, burst);
+        if (!adapted.transients.empty())
+            result.changes.push_back(std::to_string(adapted.transients.size()) + " events become bursts");
+        if (params.response && profile.technology != Technology::erm && driveShapingNeeded(profile))
+        {
+            DriveShaping shaping;
+            shaping.prepare({1.0 / step, strength.size()});
+            shaping.setParams(driveShapingParams(profile));
+            std::vector<float> samples(strength.begin(), strength.end());
+            shaping.process(samples, samples);
+            strength.assign(samples.begin(), samples.end());
+            result.changes.push_back("overdrive and braking");
+        }
+        Band band;
+        if (!adapted.bands.empty())
+            band = std::move(adapted.bands.front());
+        else
+            band.lowFrequency = band.centreFrequency = band.highFrequency = resonance;
+        band.amplitude = detail::curveThrough(strength, step, 1e-4, adapted.duration);
+        adapted.bands = {std::move(band)};
+        adapted.envelope.clear();
+        adapted.transients.clear();
+        adapted.noise.clear();
+    }
+    return result;
+}
+
+} // namespace pacini

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Checks the schema of profiles with an independent validator against what the library writes and refuses.
+
+check_profile_schema.py PROFILE_TOOL SCHEMA PROFILES     exit 0 when both agree
+"""
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import check_schema as common
+from check_schema import Draft202012Validator, check
+
+# What the schema cannot say and only the reader checks.
+BEYOND_SCHEMA = ("must be above lowFrequency", "is too much")
+
+
+def check_written(tool, schema, profiles):
+    """All samples and shipped profiles keep to the schema, and use every member of it."""
+    validator = Draft202012Validator(schema)
+    documents, used = [], set()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([tool, "write", folder], check=True)
+        paths = sorted(Path(folder).iterdir()) + sorted(profiles.glob("*.json"))
+        check(len(paths) >= 32, "not all profiles are there")
+        for path in paths:
+            document = common.strict_json(path.read_bytes())
+            problems = [error.message for error in validator.iter_errors(document)]
+            check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
+            common.same_order(document, schema["properties"], path.name)
+            for name, value in document.items():
+                check(name in schema["properties"], f"{path.name}: {name} is not in the schema")
+                members = schema["properties"].get(name, {}).get("properties", {})
+                used.add(name)
+                if members and isinstance(value, dict):
+                    common.same_order(value, members, f"{path.name}: {name}")
+                    used.update(f"{name}.{member}" for member in value)
+            for section in document.get("equalizer", []):
+                common.same_order(section, schema["$defs"]["section"]["properties"], f"{path.name}: equalizer")
+            documents.append(document)
+    for name, sub in schema["properties"].items():
+        for member in [name] + [f"{name}.{inner}" for inner in sub.get("properties", {})]:
+            check(member in used, f"no profile was written with {member}")
+    return documents
+
+
+def check_agreement(tool, schema, documents, rounds=1500):
+    """After one random change, schema and reader have the same opinion, but for the rules beyond the schema."""
+    validator = Draft202012Validator(schema)
+    rng = random.Random(20260102)
+    changed = [common.mutate(rng.choice(documents), rng) for _ in range(rounds)]
+    answers = common.read_with_library(tool, [json.dumps(document).encode() for document, _ in changed])
+    counts = {"both accept": 0, "both refuse": 0, "rule beyond the schema": 0}
+    for (document, path), answer in zip(changed, answers):
+        valid = validator.is_valid(document)
+        if valid and answer is None:
+            counts["both accept"] += 1
+        elif not valid and answer is not None:
+            counts["both refuse"] += 1
+        elif valid and answer[1].startswith(BEYOND_SCHEMA):
+            counts["rule beyond the schema"] += 1
+        else:
+            check(False, f"changed at {path}: schema {'accepts' if valid else 'refuses'}, reader says {answer}")
+    print("agreement:", counts)
+    for name, least in (("both accept", 100), ("both refuse", 300), ("rule beyond the schema", 3)):
+        check(counts[name] >= least, f"only {counts[name]} changes where {name}: the test has become weak")
+
+
+def main():
+    tool, schema_path, profiles = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+    schema = common.strict_json(schema_path.read_bytes())
+    common.check_schema_itself(schema)
+    check_agreement(tool, schema, check_written(tool, schema, profiles))
+    print("\n".join(common.failures) if common.failures else "schema and library agree")
+    return 1 if common.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

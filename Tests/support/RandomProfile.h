@@ -1,0 +1,85 @@
+#pragma once
+
+// Valid profiles with everything in them, for round trips.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Random.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace pacini::test
+{
+
+/// A valid profile; every group is there or not by chance, numbers have all their digits.
+inline Profile randomProfile(std::uint64_t seed)
+{
+    Random random(seed);
+    const auto chance = [&]
+    {
+        return random.next() % 2 == 0;
+    };
+    const auto whole = [&](int low, int high)
+    {
+        return low + static_cast<int>(random.next() % static_cast<std::uint64_t>(high - low + 1));
+    };
+    const auto wide = [&](double low, double high)
+    {
+        return std::exp(random.uniform(std::log(low * 1.0001), std::log(high * 0.9999)));
+    };
+    const auto maybe = [&](double low, double high)
+    {
+        return chance() ? std::optional(wide(low, high)) : std::nullopt;
+    };
+
+    Profile profile;
+    profile.name = "Zwölf \"Spulen\" \\ 触覚 \n\t\x01 " + std::to_string(seed);
+    profile.technology = static_cast<Technology>(whole(0, 5));
+    profile.resonance = {wide(1.0, 20000.0), wide(0.01, 100.0)};
+    profile.range.lowFrequency = wide(1.0, 10000.0);
+    profile.range.highFrequency = wide(profile.range.lowFrequency * 1.01, 20000.0);
+    profile.range.dynamicRange = random.uniform(1.0, 140.0);
+    if (chance())
+        profile.response = {random.uniform(0.0, 2.0), random.uniform(0.0, 2.0)};
+    profile.polyphony = whole(0, 64);
+    profile.frequencyMapping = static_cast<FrequencyMapping>(whole(0, 2));
+    ActuatorDrive& drive = profile.drive;
+    drive.impedance = maybe(0.1, 1e6);
+    drive.maxVoltageRms = maybe(1e-3, 1e3);
+    if (drive.impedance && drive.maxVoltageRms)
+        drive.maxPower = maybe(1e-6, 1e3);
+    drive.thermalTime = maybe(0.01, 1e4);
+    drive.excursion = maybe(1e-9, 1.0);
+    if (drive.excursion)
+        drive.maxExcursion = maybe(1e-7, 0.1);
+    drive.overdrive = chance() ? random.uniform(1.0, 10.0) : 1.0;
+    for (int i = whole(0, 16); i > 0; --i)
+    {
+        EqualizerSection section;
+        section.type = static_cast<EqualizerType>(whole(0, 3));
+        section.frequency = wide(1.0, 20000.0);
+        section.gain = random.uniform(-40.0, 40.0);
+        section.q = wide(0.01, 100.0);
+        section.order = whole(1, 4);
+        profile.equalizer.pushBack(section);
+    }
+    if (chance())
+        profile.transient = {static_cast<TransientShape>(whole(0, 2)), wide(1.0, 2000.0), wide(0.1, 100.0)};
+    if (chance())
+        profile.body = BodyParams{wide(1e-6, 1e3),
+                                  wide(1e-7, 10.0),
+                                  wide(1e-6, 100.0),
+                                  wide(1.0, 1e13),
+                                  chance() ? 0.0 : wide(1e-3, 1e9),
+                                  wide(1e-7, 100.0),
+                                  chance() ? 0.0 : wide(1.0, 1e9),
+                                  chance() ? 0.0 : wide(1e-3, 1e6)};
+    for (const char* path : {"body", "drive.overdrive", "resonance", "ä \"\\\n", "ö"})
+        if (chance())
+            profile.sources.push_back({path, "assumed: \"ü\" \x02"});
+    return profile;
+}
+
+} // namespace pacini::test
