@@ -72,6 +72,8 @@ demo)
     "$pacini" encode Resources/demo -o build/demo/clips --format packed --force
     say "Rendering the clips for the L5 wristband to build/demo/wristband"
     "$pacini" render build/demo/clips -o build/demo/wristband --profile l5-wristband
+    say "Rendering a scene of the clips for three actuators to build/demo/workshop.wav"
+    "$pacini" render Resources/demo/workshop.scene.json --clips build/demo/clips -o build/demo/workshop.wav --explain
     say "What the clips hold"
     "$pacini" info build/demo/clips/*.pacb
     say "How close their drive signals are to the sounds"

@@ -4,7 +4,7 @@
 #include "io/ClipJson.h"
 #include "io/SceneJson.h"
 #include "support/Catch.h"
-#include "support/ClipSamples.h"
+#include "support/RandomScene.h"
 #include "support/TempFolder.h"
 
 #include <cmath>
@@ -15,63 +15,13 @@ using namespace pacini::test;
 
 namespace
 {
-/// A clip of any shape whose texts are UTF-8.
-Clip sampleClip(std::uint64_t seed)
-{
-    Clip clip = randomClip(seed);
-    clip.markers.clear();
-    clip.name = "clip " + std::to_string(seed);
-    return clip;
-}
-
-Scene randomScene(std::uint64_t seed)
-{
-    Random random(seed);
-    const auto below = [&](double n)
-    {
-        return static_cast<std::size_t>(random.uniform(0.0, n));
-    };
-    Scene scene;
-    scene.name = "scene \"" + std::to_string(seed) + "\"\n\xC3\xA4";
-    scene.duration = 1.0 + random.uniform(0.0, 5.0);
-    scene.gain = random.uniform(-40.0, 6.0);
-    scene.actuators = 1 + static_cast<int>(below(16.0));
-    scene.panLaw = static_cast<PanLaw>(below(3.0));
-    scene.panDelay = random.uniform(0.0, 0.1);
-    for (std::size_t i = below(4.0) + 1; i > 0; --i)
-        scene.clips.push_back(sampleClip(seed * 100 + i));
-    for (std::size_t i = below(20.0) + 1; i > 0; --i)
-    {
-        ScenePlay play;
-        play.name = "play " + std::to_string(i);
-        play.clip = below(static_cast<double>(scene.clips.size()));
-        play.start = random.uniform(0.0, 4.0);
-        play.loop = random.uniform() < 0.5 ? 0.0 : std::min(0.01, scene.clips[play.clip].duration);
-        play.passes = below(9.0);
-        play.gain = random.uniform(-140.0, 6.0);
-        play.pan = random.uniform();
-        play.transposition = random.uniform(-12.0, 12.0);
-        play.stretch = random.uniform(0.5, 2.0);
-        play.priority = static_cast<int>(below(9.0)) - 4;
-        play.variation = {random.uniform(), static_cast<VariationScope>(below(2.0)), random.next()};
-        scene.plays.push_back(play);
-    }
-    for (double time = 0.0; time < 1.0; time += random.uniform(0.0, 0.2))
-    {
-        const auto parameter = static_cast<SceneParameter>(below(4.0));
-        scene.changes.push_back({time, below(static_cast<double>(scene.plays.size())), parameter,
-                                 0.5 + 0.5 * random.uniform(), random.uniform()});
-    }
-    return scene;
-}
-
 /// Clips called a.pacb and folder/b.json, and none else.
 Result<Clip> twoClips(const std::string& file)
 {
     if (file == "a.pacb")
-        return sampleClip(3);
+        return sceneClip(3);
     if (file == "folder/b.json")
-        return sampleClip(4);
+        return sceneClip(4);
     return Error{ErrorCode::io, "", "does not exist"};
 }
 
@@ -128,7 +78,7 @@ TEST_CASE("Only the clip of a play is needed", "[io][scene]")
 {
     const Scene scene = sceneOf(R"("plays": [{"clip": "a.pacb"}])");
     CHECK((scene.plays == std::vector<ScenePlay>{ScenePlay{}}));
-    CHECK((scene.clips == std::vector<Clip>{sampleClip(3)}));
+    CHECK((scene.clips == std::vector<Clip>{sceneClip(3)}));
     CHECK(scene.actuators == 1);
     CHECK(
         (sceneOf(R"("unknown": {"clips": [1, {"x": null}]}, "plays": [{"clip": "a.pacb", "colour": [[]]}])") == scene));
@@ -137,7 +87,7 @@ TEST_CASE("Only the clip of a play is needed", "[io][scene]")
 
 TEST_CASE("A play names its clip by index, file, file name or name", "[io][scene]")
 {
-    const std::string embedded = writeClipJson(sampleClip(7));
+    const std::string embedded = writeClipJson(sceneClip(7));
     const std::string clips = R"("clips": ["a.pacb", {"file": "folder/b.json"}, {"clip": )" + embedded + "}], ";
     const auto clipOfPlay = [&](const std::string& reference)
     {
@@ -288,7 +238,7 @@ TEST_CASE("Clip files are found beside the scene, or in a folder that is named",
     const TempFolder folder;
     std::filesystem::create_directories(folder / "scenes");
     std::filesystem::create_directories(folder / "clips");
-    REQUIRE(writeClip(folder / "clips" / "door.pacb", sampleClip(5), ClipFormat::packed).ok());
+    REQUIRE(writeClip(folder / "clips" / "door.pacb", sceneClip(5), ClipFormat::packed).ok());
     const auto path = put(folder / "scenes" / "a.json", head + R"("plays": [{"clip": "../clips/door.pacb"}]})");
     CHECK(readScene(path).ok());
     const auto bare = put(folder / "scenes" / "b.json", head + R"("clips": ["door.pacb"]})");
@@ -305,8 +255,8 @@ TEST_CASE("Clip files are found beside the scene, or in a folder that is named",
 TEST_CASE("What is rendered is a scene when its format says so", "[io][scene]")
 {
     const TempFolder folder;
-    REQUIRE(writeClip(folder / "clip.json", sampleClip(5), ClipFormat::json).ok());
-    REQUIRE(writeClip(folder / "clip.pacb", sampleClip(5), ClipFormat::packed).ok());
+    REQUIRE(writeClip(folder / "clip.json", sceneClip(5), ClipFormat::json).ok());
+    REQUIRE(writeClip(folder / "clip.pacb", sceneClip(5), ClipFormat::packed).ok());
     REQUIRE(writeScene(folder / "scene", randomScene(2)).ok());
     put(folder / "late.json", R"({"nested": {"format": "pacini.clip"}, "version": 1, "format": "pacini.scene"})");
     CHECK(readClipOrScene(folder / "clip.json")->index() == 0);
