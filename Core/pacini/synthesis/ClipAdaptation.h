@@ -2,9 +2,9 @@
 
 // A clip as an actuator can show it.
 
-#include <pacini/actuator/DriveShaping.h>
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/FrequencyMap.h>
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -23,10 +23,10 @@ namespace pacini
 /// What is left to the adaptation to do; by default all of it.
 struct AdaptationParams
 {
-    bool frequencies = true;                 ///< move what is outside the actuator's range into it
-    bool voices = true;                      ///< as many sinusoids as the actuator has voices
-    bool dynamicRange = true;                ///< raise what would not be felt
-    bool response = true;                    ///< overdrive and brake a slow actuator
+    bool frequencies = true;  ///< move what is outside the actuator's range into it
+    bool voices = true;       ///< as many sinusoids as the actuator has voices
+    bool dynamicRange = true; ///< raise what would not be felt
+    double maxBoost = 6.0;   ///< dB by which the drive may be raised to flatten a resonance, 0 to 40; 0 leaves it
     std::optional<FrequencyMapping> mapping; ///< instead of the profile's
     bool operator==(const AdaptationParams&) const = default;
 };
@@ -113,7 +113,7 @@ inline double peakOf(const Clip& clip)
     return peak;
 }
 
-/// Strength over time for an actuator of one voice: the envelope, topped by a burst for every event that lasts `burst`
+/// Strength over time for a motor: the envelope, topped by a burst for every event that lasts `burst`
 /// seconds. Sampled every `step` seconds: what follows it is not a straight line anyway.
 inline std::vector<double> wantedStrength(const Clip& clip, double step, double burst)
 {
@@ -167,12 +167,12 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
 /// Makes a valid clip fit a valid profile:
 ///
-/// - frequencies outside the range are moved into it, each band as a whole (see FrequencyMap);
+/// - frequencies outside the range, as far as flattening extends it (see flatteningOf), are moved into it, each band as
+///   a whole (see FrequencyMap);
 /// - bands that have no voice of their own join their nearest neighbour that has one (see mergeVoices);
 /// - amplitudes are pressed into what the actuator can show (see DynamicRangeMap);
-/// - an actuator of one voice or none plays its whole strength with it, events as bursts as long as it needs to
-///   respond; an LRA is overdriven and braked (see DriveShaping; the amplitude of its band then turns negative, which
-///   no file may hold). A motor gets its strength as the amplitude of one band: MotorDrive turns it into voltage.
+/// - a motor gets its strength as the amplitude of one band, events as bursts as long as it needs to spin up:
+///   MotorDrive turns it into voltage.
 [[nodiscard]] inline AdaptedClip adaptClip(Clip clip, const Profile& profile, const AdaptationParams& params = {})
 {
     AdaptedClip result{std::move(clip), {}};
@@ -182,8 +182,10 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
     if (params.dynamicRange)
     {
+        constexpr double felt = 35.0; // dB that a sound's loudest part stands above what is just felt beside it
         DynamicRangeParams range;
         range.actuatorRange = profile.range.dynamicRange;
+        range.clipRange = felt;
         range.clipPeak = std::max(detail::peakOf(adapted), 1e-6);
         const DynamicRangeMap map(range);
         if (!map.isIdentity())
@@ -196,17 +198,23 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
     if (params.frequencies && profile.polyphony > 0)
     {
-        Profile mapped = profile;
-        mapped.frequencyMapping = params.mapping.value_or(profile.frequencyMapping);
-        const FrequencyMap map(mapped);
+        Profile reached = profile;
+        reached.frequencyMapping = params.mapping.value_or(profile.frequencyMapping);
+        if (const auto flattening = flatteningOf(profile, Decibels(params.maxBoost)))
+        {
+            const double ratio = std::exp2(flattening->octaves);
+            reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
+            reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
+        }
+        const FrequencyMap map(reached);
         std::size_t moved = 0;
         for (Band& band : adapted.bands)
-            if (detail::moveBand(band, map, profile.range))
+            if (detail::moveBand(band, map, reached.range))
                 ++moved;
         std::erase_if(adapted.noise,
                       [&](const NoiseBand& band) {
-                          return band.highFrequency < profile.range.lowFrequency ||
-                                 band.lowFrequency > profile.range.highFrequency;
+                          return band.highFrequency < reached.range.lowFrequency ||
+                                 band.lowFrequency > reached.range.highFrequency;
                       });
         if (moved > 0)
             result.changes.push_back(std::to_string(moved) + " of " + std::to_string(adapted.bands.size()) +
@@ -222,29 +230,18 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
                                  (adapted.bands.size() == 1 ? " voice" : " voices"));
     }
 
-    if (params.voices && profile.polyphony <= 1)
+    if (params.voices && profile.technology == Technology::erm)
     {
         constexpr double step = 0.001; // s
-        const double resonance = profile.resonance.frequency;
-        const double burst = std::max({0.012, 2.0 / resonance, profile.response.riseTime});
-        std::vector<double> strength = detail::wantedStrength(adapted, step, burst);
+        const double burst = std::max(0.012, profile.response.riseTime);
+        const std::vector<double> strength = detail::wantedStrength(adapted, step, burst);
         if (!adapted.transients.empty())
             result.changes.push_back(std::to_string(adapted.transients.size()) + " events become bursts");
-        if (params.response && profile.technology != Technology::erm && driveShapingNeeded(profile))
-        {
-            DriveShaping shaping;
-            shaping.prepare({1.0 / step, strength.size()});
-            shaping.setParams(driveShapingParams(profile));
-            std::vector<float> samples(strength.begin(), strength.end());
-            shaping.process(samples, samples);
-            strength.assign(samples.begin(), samples.end());
-            result.changes.push_back("overdrive and braking");
-        }
         Band band;
         if (!adapted.bands.empty())
             band = std::move(adapted.bands.front());
         else
-            band.lowFrequency = band.centreFrequency = band.highFrequency = resonance;
+            band.lowFrequency = band.centreFrequency = band.highFrequency = profile.resonance.frequency;
         band.amplitude = detail::curveThrough(strength, step, 1e-4, adapted.duration);
         adapted.bands = {std::move(band)};
         adapted.envelope.clear();

@@ -127,6 +127,15 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
                 plan.adaptations.push_back({detail::indexed("clips", i), std::move(what)});
         }
     const std::vector<Clip>& clips = adapts ? adapted : scene.clips;
+    if (adapts && !plan.motor)
+        plan.flattening = flatteningOf(*profile, Decibels(params.adaptation.maxBoost));
+    if (plan.flattening)
+        plan.adaptations.push_back(
+            {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +
+                            " Hz is flattened down to " +
+                            std::to_string(std::lround(plan.flattening->target.frequency)) + " Hz"});
+    const auto outputFilter = designOutputFilter(
+        {profile != nullptr ? profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
     const double resonance = profile != nullptr ? profile->resonance.frequency : 67.0;
 
     std::vector<std::vector<SceneChange>> changesOf(scene.plays.size());
@@ -209,8 +218,8 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
             planned.decoder.carriers = CarrierMode::none;
         // Without its highest bands a clip would get another inner rate, and with it other rounding.
         planned.decoder.reach = highestFrequency(planned.clip, planned.decoder.carriers);
-        energies.push_back(playEnergy(planned.clip, planned.decoder, planned.timeline, play.start, plan.duration,
-                                      profile != nullptr ? profile->equalizer : EqualizerSections{}));
+        energies.push_back(
+            playEnergy(planned.clip, planned.decoder, planned.timeline, play.start, plan.duration, outputFilter));
         whole += energies.back().least;
         plan.plays.push_back(std::move(planned));
     }

@@ -2,8 +2,8 @@
 
 // How much of a scene's energy its parts carry, read off their curves without rendering.
 
-#include <pacini/actuator/Equalizer.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/filters/BiquadCascade.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PlayTimeline.h>
@@ -99,14 +99,14 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
 }
 } // namespace detail
 
-/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the
-/// equaliser. Sinusoids carry half their squared amplitude. Where the bands are levelled to the envelope, the envelope
-/// tells the energy, and a band that is missing is made up for by the others: that costs at most its amplitude twice.
+/// The energy that a play's clip (as it will be decoded) brings into a scene of `duration` seconds, after the output
+/// filter `cascade`, which is one for the rate of `params`. Sinusoids carry half their squared amplitude. Where the
+/// bands are levelled to the envelope, the envelope tells the energy, and a band that is missing is made up for by the
+/// others: that costs at most its amplitude twice.
 [[nodiscard]] inline PlayEnergy playEnergy(const Clip& clip, const DecoderParams& params, const PlayTimeline& timeline,
-                                           double start, double duration, const EqualizerSections& equalizer)
+                                           double start, double duration, const BiquadCascadeCoefficients& cascade)
 {
     const double fs = params.sampleRate;
-    const auto cascade = designEqualizer(equalizer, fs);
     PlayClock clock(timeline.changes.size());
     clock.change(0.0, 1.0 / params.stretch, 1.0);
     double lowest = params.transposition, highest = params.transposition;

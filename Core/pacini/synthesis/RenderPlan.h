@@ -2,6 +2,7 @@
 
 // What a scene needs, and what it can do without.
 
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/Decoder.h>
@@ -47,6 +48,7 @@ struct RenderPlan
     double duration = 0.0; ///< s
     std::size_t actuators = 1;
     std::optional<Profile> profile; ///< with the sections of its equaliser that matter
+    std::optional<Flattening> flattening;
     bool motor = false;             ///< plays are strengths, which become the voltage of a motor
     std::vector<PlannedPlay> plays; ///< in order of start
     std::vector<Adaptation> adaptations;

@@ -2,8 +2,8 @@
 
 // RenderPlan -> drive signals.
 
-#include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/MotorDrive.h>
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/Decoder.h>
@@ -153,7 +153,7 @@ private:
     /// What stands between the sum of the plays and an actuator.
     struct Output
     {
-        Equalizer equalizer;
+        OutputFilter filter;
         std::unique_ptr<MotorDrive> motor;
         std::unique_ptr<Protection> protection;
         double scale = 1.0;
@@ -162,8 +162,8 @@ private:
     Output makeOutput(const Profile& profile, const ScenePlayerParams& params) const
     {
         Output output;
-        output.equalizer.prepare({fs, blockFrames});
-        output.equalizer.setParams(profile.equalizer);
+        output.filter.prepare({fs, blockFrames});
+        output.filter.setParams({profile.equalizer, plan.flattening});
         // Room for overdrive: the rated drive is played at 1 / overdrive.
         output.scale = 1.0 / profile.drive.overdrive;
         if (plan.motor)
@@ -192,7 +192,7 @@ private:
         if (output.motor)
             output.motor->process(samples, samples);
         else
-            output.equalizer.process(samples, samples);
+            output.filter.process(samples, samples);
         if (output.scale != 1.0)
             for (float& sample : samples)
                 sample = static_cast<float>(output.scale * static_cast<double>(sample));
