@@ -70,6 +70,18 @@ TEST_CASE("A steady tone becomes a level and a pitch", "[analysis][encoder]")
     }
 }
 
+TEST_CASE("No curve goes on after the sound, however it ends", "[analysis]")
+{
+    for (std::size_t frames = 20000; frames < 22000; frames += 97)
+    {
+        CAPTURE(frames);
+        auto x = noise(frames, 0.05, frames);
+        for (std::size_t n = frames - 700; n < frames; ++n)
+            x[n] *= 1.0f + 0.02f * static_cast<float>(n % 700); // loud to the last frame
+        REQUIRE(validate(encode(x, 44100)).ok());
+    }
+}
+
 TEST_CASE("Normalising raises the loudest moment to full drive", "[analysis][encoder]")
 {
     auto x = test::sine(44100, 100.0, 44100.0, 0.02);

@@ -185,6 +185,14 @@ private:
             price *= 1.6;
             fitCurves(clip, found, gain, price);
         }
+        // The last frame of the analysis can end after the sound.
+        for (Band& band : clip.bands)
+        {
+            cutAfter(band.amplitude, clip.duration);
+            cutAfter(band.pitch, clip.duration);
+        }
+        cutAfter(clip.envelope, clip.duration);
+        cutAfter(clip.centroid, clip.duration);
         std::vector<double> energies;
         for (const Band& band : clip.bands)
             energies.push_back(curveEnergy(band.amplitude, clip.duration));

@@ -38,6 +38,17 @@ using Curve = std::vector<Breakpoint>;
     return a.value + (b.value - a.value) * ((time - a.time) / (b.time - a.time));
 }
 
+/// Ends a curve at `end`: what lies behind becomes one point there, on the line that led to it.
+inline void cutAfter(Curve& curve, double end)
+{
+    if (curve.empty() || curve.back().time <= end)
+        return;
+    const double value = valueAt(curve, end);
+    while (!curve.empty() && curve.back().time >= end)
+        curve.pop_back();
+    curve.push_back({end, value});
+}
+
 /// Reads a curve at times that only move forward: O(1) per call on average. Does not own the curve.
 class CurveReader
 {
