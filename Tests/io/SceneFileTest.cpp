@@ -229,7 +229,9 @@ TEST_CASE("Absurd counts are refused as they come", "[io][scene]")
         const auto scene = readSceneJson(repeated(name, item, count), twoClips);
         REQUIRE_FALSE(scene.ok());
         CHECK(scene.error().code == ErrorCode::tooLarge);
-        CHECK(scene.error().where == name + ("[" + std::to_string(count - 1) + "]"));
+        std::string last = name;
+        last.append("[").append(std::to_string(count - 1)).append("]");
+        CHECK(scene.error().where == last);
     }
 }
 

@@ -26,7 +26,7 @@ struct AdaptationParams
     bool frequencies = true;  ///< move what is outside the actuator's range into it
     bool voices = true;       ///< as many sinusoids as the actuator has voices
     bool dynamicRange = true; ///< raise what would not be felt
-    double maxBoost = 6.0;   ///< dB by which the drive may be raised to flatten a resonance, 0 to 40; 0 leaves it
+    double maxBoost = 6.0;    ///< dB by which the drive may be raised to flatten a resonance, 0 to 40; 0 leaves it
     std::optional<FrequencyMapping> mapping; ///< instead of the profile's
     bool operator==(const AdaptationParams&) const = default;
 };

@@ -240,10 +240,13 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
             for (std::size_t k = 0; k < energies[i].bands.size(); ++k)
                 candidates.push_back({energies[i].bands[k], i, k});
         }
+    // Whole plays first: they save most, and their bands would count twice.
     std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
-    // The equaliser may take a quarter of the energy, which is half of the amplitude (see below).
-    const double bearable = 0.7 * whole * std::pow(10.0, params.tolerance / 10.0);
+                     [](const Candidate& a, const Candidate& b)
+                     { return a.band.has_value() != b.band.has_value() ? b.band.has_value() : a.energy < b.energy; });
+    // An equaliser may take a quarter of the energy, which is half of the amplitude (see below).
+    const double share = plan.profile && !plan.profile->equalizer.empty() ? 0.7 : 1.0;
+    const double bearable = share * whole * std::pow(10.0, params.tolerance / 10.0);
     detail::ErrorSum error;
     std::vector<bool> playOut(plan.plays.size(), false);
     std::vector<std::vector<bool>> bandOut;

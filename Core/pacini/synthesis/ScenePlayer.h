@@ -129,7 +129,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t blockFrames = 256;
+    static constexpr std::size_t blockFrames = 1024;
 
     /// Where a curve has been read to.
     struct Level
@@ -235,10 +235,13 @@ private:
             ++first;
         std::size_t count = 0;
         // Plays are in order of start.
-        for (std::size_t i = first; i < voices.size() && voices[i].start < end; ++i)
+        std::size_t last = first;
+        while (last < voices.size() && voices[last].start < end)
+            ++last;
+        for (std::size_t i = first; i < last; ++i)
             if (!voices[i].ended && voices[i].decoder)
             {
-                play(voices[i], plan.plays[i], out, at, sounding);
+                play(voices[i], plan.plays[i], out, at, sounding, last - first == 1);
                 ++count;
             }
         most = std::max(most, count);
@@ -248,11 +251,18 @@ private:
     }
 
     void play(Voice& voice, const PlannedPlay& planned, std::span<const std::span<float>> out, std::size_t at,
-              std::size_t n) noexcept
+              std::size_t n, bool lone) noexcept
     {
         const auto from = static_cast<std::size_t>(std::max<std::int64_t>(voice.start - position, 0));
         if (from >= n)
             return;
+        if (lone && isPlain(voice, planned, out.size()))
+        {
+            // Nothing to mix: what was cleared is overwritten.
+            voice.decoder->process(out.front().subspan(at + from, n - from));
+            end(voice, position + static_cast<std::int64_t>(n));
+            return;
+        }
         const auto block = std::span(mono).first(n - from);
         voice.decoder->process(block);
         applyLiveGain(voice, block);
@@ -273,8 +283,20 @@ private:
             mix(planned.timeline.gains[a], level.gain, now, delayed ? std::span(shifted).first(block.size()) : block,
                 to);
         }
-        voice.ended =
-            now + static_cast<std::int64_t>(block.size()) >= voice.start + voice.decoder->totalFrames() + voice.tail;
+        end(voice, now + static_cast<std::int64_t>(block.size()));
+    }
+
+    static void end(Voice& voice, std::int64_t reached) noexcept
+    {
+        voice.ended = reached >= voice.start + voice.decoder->totalFrames() + voice.tail;
+    }
+
+    /// Whether a play goes to one actuator as it is.
+    static bool isPlain(const Voice& voice, const PlannedPlay& planned, std::size_t channels) noexcept
+    {
+        const auto& gains = planned.timeline.gains;
+        return channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 &&
+               voice.liveGain == 1.0 && voice.liveTarget == 1.0;
     }
 
     void applyLiveGain(Voice& voice, std::span<float> block) noexcept
