@@ -172,10 +172,7 @@ TEST_CASE("Voices of the shipped profiles are those of their technology", "[actu
             if (profile.technology == Technology::erm)
                 CHECK(profile.polyphony == 0);
             if (shipped.name.starts_with("lra-"))
-            {
                 CHECK(profile.polyphony == 1);
-                CHECK(profile.frequencyMapping == FrequencyMapping::fold);
-            }
             if (shipped.name == "joycon-hd-rumble")
                 CHECK(profile.polyphony == 2);
         });
