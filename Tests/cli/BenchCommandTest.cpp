@@ -62,7 +62,7 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 8);
+    CHECK(printed["benches"].size() == 9);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
@@ -81,8 +81,9 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
         for (const auto& [key, value] : json["rows"][0].items())
             CHECK(lines[0].find(key) != std::string::npos);
     }
-    for (const std::string chart : {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands",
-                                    "synthesis", "scenes", "body-8", "body-16", "body-48", "methods", "methods-rate"})
+    for (const std::string chart :
+         {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands", "synthesis", "scenes",
+          "actuators", "body-8", "body-16", "body-48", "methods", "methods-rate"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);

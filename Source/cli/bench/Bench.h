@@ -57,12 +57,13 @@ struct Bench
 [[nodiscard]] Bench stagesBench();
 [[nodiscard]] Bench synthesisBench();
 [[nodiscard]] Bench scenesBench();
+[[nodiscard]] Bench actuatorsBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(), analysisBench(), synthesisBench(),
-            scenesBench(),   bodyBench(),     stagesBench(),   methodsBench()};
+    return {simplifyBench(),  decimateBench(), analysisBench(), synthesisBench(), scenesBench(),
+            actuatorsBench(), bodyBench(),     stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli

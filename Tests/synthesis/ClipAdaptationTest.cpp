@@ -1,0 +1,205 @@
+#include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
+#include "support/Catch.h"
+#include "support/ClipSamples.h"
+#include "support/Measure.h"
+
+#include <pacini/actuator/FeltModel.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace pacini;
+
+namespace
+{
+Profile shipped(const std::string& name)
+{
+    const auto profile = readProfile(std::string(PACINI_SOURCE_DIR) + "/profiles/" + name + ".json");
+    REQUIRE(profile.ok());
+    return *profile;
+}
+
+Band band(double hertz, double level, int priority = 0)
+{
+    return {hertz / 1.2, hertz, hertz * 1.2, priority, {{0.0, level}, {1.0, level}}, {{0.0, hertz}, {1.0, hertz}}};
+}
+
+std::vector<float> drive(const Clip& clip, const Profile& profile, const CompileParams& params = {},
+                         const ScenePlayerParams& playing = {})
+{
+    Scene scene;
+    scene.clips = {clip};
+    scene.plays.resize(1);
+    const auto plan = compilePlan(scene, &profile, params);
+    REQUIRE(plan.ok());
+    ScenePlayer player(*plan, playing);
+    std::vector<float> y(static_cast<std::size_t>(player.totalFrames()));
+    const std::span<float> all(y);
+    player.process(std::span(&all, 1));
+    return y;
+}
+
+/// Frames in which the magnitude rises from 10 to 90 % of its largest value in the first half.
+std::size_t riseFrames(const std::vector<float>& y)
+{
+    const auto half = y.begin() + static_cast<std::ptrdiff_t>(y.size() / 2);
+    float peak = 0.0f;
+    for (auto v = y.begin(); v != half; ++v)
+        peak = std::max(peak, std::abs(*v));
+    const auto reaches = [&](float part)
+    {
+        return std::find_if(y.begin(), half, [&](float v) { return std::abs(v) >= part * peak; }) - y.begin();
+    };
+    return static_cast<std::size_t>(reaches(0.9f) - reaches(0.1f));
+}
+} // namespace
+
+TEST_CASE("An adapted clip lies within the actuator's range and voices, and is a valid clip", "[adaptation]")
+{
+    for (const auto& entry : shippedProfiles(PACINI_SOURCE_DIR))
+    {
+        const Profile profile = shipped(entry.name);
+        if (profile.technology == Technology::pcm)
+            continue;
+        const auto flattening = flatteningOf(profile, Decibels(6.0));
+        const double wider = flattening ? std::exp2(flattening->octaves) : 1.0;
+        for (std::uint64_t seed = 1; seed < 30; ++seed)
+        {
+            CAPTURE(entry.name, seed);
+            const Clip adapted = adaptClip(test::randomClip(seed), profile).clip;
+            REQUIRE(validate(adapted).ok());
+            CHECK(adapted.bands.size() <= static_cast<std::size_t>(std::max(profile.polyphony, 1)));
+            if (profile.technology == Technology::erm)
+                continue; // frequency follows strength
+            for (const Band& b : adapted.bands)
+            {
+                CHECK(b.centreFrequency >= profile.range.lowFrequency / wider * (1.0 - 1e-9));
+                CHECK(b.centreFrequency <= profile.range.highFrequency * wider * (1.0 + 1e-9));
+                for (const Breakpoint& point : b.pitch)
+                {
+                    REQUIRE(point.value >= profile.range.lowFrequency / wider * (1.0 - 1e-9));
+                    REQUIRE(point.value <= profile.range.highFrequency * wider * (1.0 + 1e-9));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("What fits an actuator stays as it is", "[adaptation]")
+{
+    Profile wide;
+    wide.technology = Technology::vca;
+    wide.range = {1.0, 20000.0, 100.0};
+    for (std::uint64_t seed = 1; seed < 20; ++seed)
+    {
+        const Clip clip = test::randomClip(seed);
+        const AdaptedClip adapted = adaptClip(clip, wide);
+        CHECK(adapted.changes.empty());
+        CHECK(adapted.clip == clip);
+    }
+}
+
+TEST_CASE("Voices that merge keep their power, and the pitch is that of whichever sounds", "[adaptation]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {band(60.0, 0.3, 2), band(70.0, 0.4, 1), band(300.0, 0.2, 0)};
+    mergeVoices(clip, 2);
+    REQUIRE(clip.bands.size() == 2);
+    CHECK(valueAt(clip.bands[0].amplitude, 0.5) == Approx(0.5));
+    CHECK(valueAt(clip.bands[0].pitch, 0.5) == Approx(60.0 * std::pow(70.0 / 60.0, 0.64)));
+    CHECK(valueAt(clip.bands[1].amplitude, 0.5) == Approx(0.2));
+    CHECK(valueAt(clip.bands[1].pitch, 0.5) == Approx(300.0));
+
+    // The least of all goes to its nearest neighbour, and a silent one takes nothing with it.
+    clip.bands = {band(60.0, 0.3), band(250.0, 0.0, 5), band(300.0, 0.2)};
+    mergeVoices(clip, 2);
+    REQUIRE(clip.bands.size() == 2);
+    CHECK(valueAt(clip.bands[0].pitch, 0.5) == Approx(60.0));
+    CHECK(valueAt(clip.bands[1].pitch, 0.5) == Approx(300.0));
+}
+
+TEST_CASE("Flattening starts and stops a slow actuator sooner", "[adaptation]")
+{
+    // A burst at the resonance of an LRA, felt through its body.
+    const Profile profile = shipped("lra-175");
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{160.0, 175.0, 190.0, 0, {{0.1, 0.0}, {0.1, 0.1}, {0.6, 0.1}, {0.6, 0.0}}, {}}};
+    const auto felt = [&](const CompileParams& params)
+    {
+        auto y = drive(clip, profile, params);
+        FeltModel model;
+        model.prepare({48000.0, y.size()});
+        model.setParams(*feltModelParams(profile));
+        model.reset();
+        model.process(y, y);
+        return y;
+    };
+    CompileParams asItIs;
+    asItIs.adapt = false;
+    CHECK(static_cast<double>(riseFrames(felt({}))) < 0.4 * static_cast<double>(riseFrames(felt(asItIs))));
+}
+
+TEST_CASE("A motor gets a voltage, not a vibration", "[adaptation]")
+{
+    const Profile profile = shipped("erm-coin");
+    Clip clip;
+    clip.duration = 2.0;
+    clip.bands = {{150.0, 200.0, 250.0, 0, {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.8}, {1.5, 0.8}, {1.5, 0.0}}, {}}};
+    const auto y = drive(clip, profile);
+    const auto mean = [&](double from, double to)
+    {
+        double sum = 0.0;
+        for (auto n = static_cast<std::size_t>(from * 48000.0); n < static_cast<std::size_t>(to * 48000.0); ++n)
+            sum += static_cast<double>(y[n]);
+        return sum / (48000.0 * (to - from));
+    };
+    CHECK(mean(0.0, 0.45) == Approx(0.0).margin(1e-3));
+    CHECK(mean(1.0, 1.4) == Approx(std::sqrt(0.8) / profile.drive.overdrive).epsilon(0.02));
+    CHECK(mean(1.5, 1.52) < -0.3); // braking
+    CHECK(mean(1.8, 2.0) == Approx(0.0).margin(1e-3));
+    for (float v : y)
+        REQUIRE(std::abs(v) <= 1.0f);
+}
+
+TEST_CASE("No scene drives an actuator beyond full scale", "[adaptation]")
+{
+    for (const auto& entry : shippedProfiles(PACINI_SOURCE_DIR))
+    {
+        const Profile profile = shipped(entry.name);
+        for (std::uint64_t seed = 1; seed < 5; ++seed)
+        {
+            Clip clip = test::randomClip(seed);
+            for (Band& b : clip.bands)
+                for (Breakpoint& point : b.amplitude)
+                    point.value *= 20.0;
+            for (float v : drive(clip, profile))
+                REQUIRE(std::abs(v) <= 1.0f);
+        }
+    }
+}
+
+TEST_CASE("The look-ahead of the protection is taken out of the output", "[adaptation]")
+{
+    Profile profile = shipped("l5-wristband");
+    profile.equalizer.clear();
+    CompileParams params;
+    params.adapt = false;
+    Clip clip;
+    clip.duration = 0.5;
+    clip.bands = {band(150.0, 0.1)};
+    clip.bands[0].amplitude = {{0.1, 0.0}, {0.2, 0.1}, {0.3, 0.0}};
+    ScenePlayerParams without;
+    without.protect = false;
+    const auto a = drive(clip, profile, params), b = drive(clip, profile, params, without);
+    REQUIRE(a.size() == b.size());
+    double error = 0.0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+        error = std::max(error, std::abs(static_cast<double>(a[n] - b[n])));
+    CHECK(error < 0.005); // the high-pass of the protection turns 150 Hz by a degree or two
+}

@@ -1,0 +1,89 @@
+#include "io/AudioReader.h"
+#include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
+#include "support/Catch.h"
+
+#include <pacini/actuator/FeltModel.h>
+#include <pacini/analysis/Encoder.h>
+#include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/HtsAnalyzer.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+using namespace pacini;
+
+namespace
+{
+std::vector<float> felt(const Clip& clip, const Profile& profile, bool adapt)
+{
+    Scene scene;
+    scene.clips = {clip};
+    scene.plays.resize(1);
+    CompileParams params;
+    params.adapt = adapt;
+    const auto plan = compilePlan(scene, &profile, params);
+    REQUIRE(plan.ok());
+    ScenePlayer player(*plan);
+    std::vector<float> y(static_cast<std::size_t>(player.totalFrames()));
+    const std::span<float> all(y);
+    player.process(std::span(&all, 1));
+    FeltModel model;
+    model.prepare({48000.0, y.size()});
+    model.setParams(*feltModelParams(profile));
+    model.reset();
+    model.process(y, y);
+    return y;
+}
+} // namespace
+
+TEST_CASE("Adapting beats playing it as it is by 5 points of HTS on every narrow actuator", "[adaptation]")
+{
+    struct Sound
+    {
+        Clip clip;
+        HtsFeatures features;
+    };
+    HtsAnalyzer analyzer;
+    std::vector<Sound> sounds;
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(PACINI_SOURCE_DIR) + "/Resources/demo"))
+    {
+        if (entry.path().extension() != ".flac")
+            continue;
+        auto reader = AudioReader::open(entry.path(), {});
+        REQUIRE(reader.ok());
+        REQUIRE(reader->channels() == 1);
+        std::vector<float> samples(static_cast<std::size_t>(5 * reader->sampleRate()));
+        const auto frames = reader->read(samples);
+        REQUIRE(frames.ok());
+        samples.resize(*frames);
+        Encoder encoder{EncoderParams{}};
+        encoder.start(reader->sampleRate(), 1);
+        encoder.push(samples);
+        const auto features =
+            htsSourceFeatures(analyzer, std::span<const float>(samples), static_cast<int>(reader->sampleRate()));
+        REQUIRE(features.ok());
+        sounds.push_back({encoder.finish(), *features});
+    }
+    REQUIRE(sounds.size() >= 6);
+    for (const char* name : {"lra-175", "lra-235-narrow", "erm-coin", "phone-taptic", "joycon-hd-rumble"})
+    {
+        const auto profile = readProfile(std::string(PACINI_SOURCE_DIR) + "/profiles/" + name + ".json");
+        REQUIRE(profile.ok());
+        double gained = 0.0;
+        for (const Sound& sound : sounds)
+            for (const bool adapt : {false, true})
+            {
+                const auto y = felt(sound.clip, *profile, adapt);
+                const auto features = htsCandidateFeatures(analyzer, std::span<const float>(y), 48000);
+                REQUIRE(features.ok());
+                gained += (adapt ? 1.0 : -1.0) * compare(sound.features, *features, HtsMode::translation).score;
+            }
+        CAPTURE(name, gained / static_cast<double>(sounds.size()));
+        CHECK(gained >= 5.0 * static_cast<double>(sounds.size()));
+    }
+}
