@@ -191,7 +191,7 @@ TEST_CASE("The look-ahead of the protection is taken out of the output", "[adapt
     CompileParams params;
     params.adapt = false;
     Clip clip;
-    clip.duration = 0.5;
+    clip.duration = 1.0;
     clip.bands = {band(150.0, 0.1)};
     clip.bands[0].amplitude = {{0.1, 0.0}, {0.2, 0.1}, {0.3, 0.0}};
     ScenePlayerParams without;
