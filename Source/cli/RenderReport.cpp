@@ -149,7 +149,7 @@ std::string planText(const RenderResult& result, const CompileParams& params)
     if (!result.adaptations.empty())
         text += "\n  fitted to the actuator:";
     for (std::size_t i = 0; i < std::min(result.adaptations.size(), mostShown); ++i)
-        text += fmt::format("\n    {} {}", result.adaptations[i].where, result.adaptations[i].what);
+        text += fmt::format("\n    {}: {}", result.adaptations[i].where, result.adaptations[i].what);
     if (result.adaptations.size() > mostShown)
         text += fmt::format("\n    and {} more", result.adaptations.size() - mostShown);
     text += result.leftOut.empty() ? "\n  nothing is left out" : "\n  left out:";

@@ -62,12 +62,12 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 9);
+    CHECK(printed["benches"].size() == 11);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
-    for (const std::string name :
-         {"simplify", "decimate", "analysis", "synthesis", "scenes", "body", "stages", "methods"})
+    for (const std::string name : {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",
+                                   "actuators", "body", "stages", "methods"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -82,8 +82,9 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
             CHECK(lines[0].find(key) != std::string::npos);
     }
     for (const std::string chart :
-         {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands", "synthesis", "scenes",
-          "actuators", "body-8", "body-16", "body-48", "methods", "methods-rate"})
+         {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands", "synthesis", "filters-48",
+          "filters-768", "oscillators-steady", "oscillators-gliding", "scenes", "actuators", "body-8", "body-16",
+          "body-48", "methods", "methods-rate"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);
@@ -138,6 +139,41 @@ TEST_CASE("pacini bench body shows which integrators break at stiff joints, and 
             if (row["stiffness"] == "4e+04")
                 CHECK(row["error"].get<double>() < 50.0);
         }
+    }
+}
+
+TEST_CASE("pacini bench filters and oscillators show which forms lose digits, once for any number of sounds",
+          "[cli][bench]")
+{
+    const TempFolder folder;
+    writeSound(folder / "tone.wav");
+    writeSound(folder / "again.wav");
+    REQUIRE(bench(folder, "filters . -o . --repeat 1") == 0);
+    const auto filters = nlohmann::json::parse(bytesOf(folder / "filters.json"));
+    REQUIRE(filters["rows"].size() == 6 * 2 * 7);
+    for (const auto& row : filters["rows"])
+    {
+        INFO(row.dump());
+        const std::string form = row["form"];
+        if (form == "state variable, increments")
+            CHECK(row["level"].get<double>() < -240.0);
+        if (form == "transposed form II, float" && row["rate"] == "768 kHz")
+            CHECK(row["level"].get<double>() > -20.0);
+    }
+    REQUIRE(bench(folder, "oscillators . -o . --repeat 1") == 0);
+    const auto oscillators = nlohmann::json::parse(bytesOf(folder / "oscillators.json"));
+    REQUIRE(oscillators["rows"].size() == 2 * 3 * 6);
+    for (const auto& row : oscillators["rows"])
+    {
+        INFO(row.dump());
+        if (row["form"] == "carrier bank")
+        {
+            CHECK(row["phase"].get<double>() < 1e-6);
+            CHECK(row["amplitude"].get<double>() < 1e-5);
+            CHECK(row["noise"].get<double>() < -120.0);
+        }
+        if (row["form"] == "accumulator and sine, float" && row["after"] == "24 h")
+            CHECK(row["error"].get<double>() > 10.0);
     }
 }
 

@@ -24,7 +24,7 @@ TEST_CASE("A cascade of a known number of sections filters as the streaming one 
     streaming.setParams(params);
     streaming.process(x, expected);
 
-    SectionCascade<2> cascade({design.sections[0], design.sections[1]});
+    SectionCascade<2> cascade({design.sections[0].directForm(), design.sections[1].directForm()});
     auto y = x;
     cascade.process(std::span(y).first(1234));
     cascade.process(std::span(y).subspan(1234));

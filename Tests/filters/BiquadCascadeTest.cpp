@@ -31,7 +31,7 @@ TEST_CASE("The thesis's equalizer has the reference's response", "[filters][gold
         for (const int filter : entry["filters"])
         {
             if (filter < 4)
-                cascade.sections.pushBack(designBiquad(tablePeaks()[static_cast<std::size_t>(filter - 1)], fs));
+                cascade.sections.pushBack(designStateVariable(tablePeaks()[static_cast<std::size_t>(filter - 1)], fs));
             else
                 for (const auto& section : designButterworth({ButterworthType::highpass, 5, 20_Hz, 0_Hz}, fs).sections)
                     cascade.sections.pushBack(section);

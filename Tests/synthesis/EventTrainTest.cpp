@@ -1,7 +1,7 @@
 #include "support/Catch.h"
 
 #include <pacini/analysis/Encoder.h>
-#include <pacini/filters/Biquad.h>
+#include <pacini/filters/StateVariable.h>
 #include <pacini/synthesis/Decoder.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ TEST_CASE("Fast trains of clicks stay apart on a resonant actuator", "[synthesis
             std::vector<float> drive(static_cast<std::size_t>(decoder.totalFrames()));
             decoder.process(drive);
             // The L5 of the thesis as a second-order high-pass: resonance 65.9 Hz, quality 3.97.
-            Biquad actuator;
+            StateVariable actuator;
             actuator.prepare({params.sampleRate, drive.size()});
             actuator.setParams({BiquadType::highpass, Hertz(65.93), 3.969});
             actuator.process(drive, drive);

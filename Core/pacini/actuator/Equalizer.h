@@ -79,7 +79,7 @@ using EqualizerSections = FixedVector<EqualizerSection, 16>;
         {
             const auto highpass =
                 designButterworth({ButterworthType::highpass, section.order, Hertz(section.frequency), Hertz(0.0)}, fs);
-            for (const BiquadCoefficients& part : highpass.sections)
+            for (const StateVariableCoefficients& part : highpass.sections)
                 cascade.sections.pushBack(part);
             continue;
         }
@@ -90,7 +90,7 @@ using EqualizerSections = FixedVector<EqualizerSection, 16>;
         params.frequency = Hertz(section.frequency);
         params.gain = Decibels(section.gain);
         params.q = section.q;
-        cascade.sections.pushBack(designBiquad(params, fs));
+        cascade.sections.pushBack(designStateVariable(params, fs));
     }
     return cascade;
 }

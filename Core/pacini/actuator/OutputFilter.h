@@ -61,7 +61,7 @@ struct OutputFilterParams
         inverse.b0 *= params.flattening->gain;
         inverse.b1 *= params.flattening->gain;
         inverse.b2 *= params.flattening->gain;
-        cascade.sections.pushBack(inverse);
+        cascade.sections.pushBack(asStateVariable(inverse));
     }
     return cascade;
 }

@@ -24,7 +24,7 @@ struct BandLimitParams
     BiquadCascadeCoefficients cascade;
     const auto append = [&](const ButterworthParams& filter)
     {
-        for (const BiquadCoefficients& section : designButterworth(filter, fs).sections)
+        for (const StateVariableCoefficients& section : designButterworth(filter, fs).sections)
             cascade.sections.pushBack(section);
     };
     if (params.low.value > 0.0)

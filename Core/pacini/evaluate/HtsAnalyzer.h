@@ -77,7 +77,7 @@ private:
             std::copy(x.begin(), x.end(), y.begin());
             const auto design =
                 designButterworth({ButterworthType::bandpass, 2, Hertz(edges[b]), Hertz(edges[b + 1])}, fs);
-            SectionCascade<2>({design.sections[0], design.sections[1]}).process(std::span(y));
+            SectionCascade<2>({design.sections[0].directForm(), design.sections[1].directForm()}).process(std::span(y));
             for (float& v : y)
                 v *= v;
             const HannKernel kernel = htsHannKernel(Seconds(std::max(0.020, 1.0 / edges[b])));

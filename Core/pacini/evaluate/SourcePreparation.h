@@ -36,7 +36,8 @@ template <typename Sample>
     if (1800.0 < 0.49 * fs)
     {
         const auto lowpass = designButterworth({ButterworthType::lowpass, 4, Hertz(1800.0)}, fs);
-        std::copy(lowpass.sections.begin(), lowpass.sections.end(), sections.begin() + 1);
+        std::transform(lowpass.sections.begin(), lowpass.sections.end(), sections.begin() + 1,
+                       [](const StateVariableCoefficients& section) { return section.directForm(); });
     }
     SectionCascade<3> filter(sections);
 

@@ -1,16 +1,13 @@
 #pragma once
 
-// Second-order sections: their design, their response, and the streaming filter.
+// Second-order sections as polynomials in z^-1: their parameters, design and response.
 
 #include <pacini/filters/DesignLimits.h>
-#include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Units.h>
 
 #include <cmath>
 #include <complex>
-#include <cstddef>
 #include <numbers>
-#include <span>
 
 namespace pacini
 {
@@ -65,8 +62,9 @@ struct BiquadCoefficients
 
 /// The section of the given type by the bilinear transform: R. Bristow-Johnson, "Cookbook formulae for audio equalizer
 /// biquad filter coefficients", 1994 (W3C note 2021), with Q as the width of peaks and the slope of shelves.
-/// The cookbook is what equalizers and published parameter tables use; for parameters that move per sample, or when
-/// accuracy below 1e-5 of the sample rate counts, StateVariable is the better form.
+/// The cookbook is what equalizers and published parameter tables use. Streams run the same sections as
+/// designStateVariable(): a1 and a2 rounded to doubles leave an error of up to -137 dB at 20 Hz, Q 20 and 768 kHz (it
+/// grows with Q (fs / f)^2, rounding in the recursion with sqrt(Q (fs / f)^3)), and they must not move per sample.
 [[nodiscard]] inline BiquadCoefficients designBiquad(const BiquadParams& params, double fs) noexcept
 {
     const double w = 2.0 * std::numbers::pi * clampedFrequency(params.frequency, fs) / fs;
@@ -117,7 +115,7 @@ struct BiquadCoefficients
 }
 
 /// The memory of one section in transposed direct form II: of the direct forms the one with the least rounding noise in
-/// floating point.
+/// floating point, and the fastest of all. For fixed filters at rates up to a few hundred times their frequency.
 struct BiquadState
 {
     double s1 = 0.0;
@@ -126,53 +124,10 @@ struct BiquadState
     double tick(const BiquadCoefficients& c, double x) noexcept
     {
         const double y = c.b0 * x + s1;
-        s1 = c.b1 * x - c.a1 * y + s2;
+        s1 = (c.b1 * x + s2) - c.a1 * y; // y last: it is what the recursion waits for
         s2 = c.b2 * x - c.a2 * y;
         return y;
     }
-
-    void flush() noexcept
-    {
-        flushTiny(s1);
-        flushTiny(s2);
-    }
 };
-
-/// One streaming section. Parameters may change between calls; the state is kept.
-class Biquad
-{
-public:
-    using Params = BiquadParams;
-
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
-    void setParams(const Params& params) noexcept
-    {
-        current = params;
-        section = designBiquad(params, fs);
-    }
-    void reset() noexcept { state = {}; }
-
-    void process(std::span<const float> in, std::span<float> out) noexcept
-    {
-        forEachSample(
-            in, out, [this](double x) { return state.tick(section, x); }, [this] { state.flush(); });
-    }
-
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
-    [[nodiscard]] const BiquadCoefficients& coefficients() const noexcept { return section; }
-
-private:
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
-    BiquadCoefficients section;
-    BiquadState state;
-};
-
-static_assert(DspBlock<Biquad>);
 
 } // namespace pacini

@@ -2,7 +2,7 @@
 
 // Sections one after the other, without allocation.
 
-#include <pacini/filters/Biquad.h>
+#include <pacini/filters/StateVariable.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
 
@@ -19,14 +19,14 @@ inline constexpr std::size_t maxBiquadSections = 32;
 /// Sections in series; none of them passes everything unchanged.
 struct BiquadCascadeCoefficients
 {
-    FixedVector<BiquadCoefficients, maxBiquadSections> sections;
+    FixedVector<StateVariableCoefficients, maxBiquadSections> sections;
     bool operator==(const BiquadCascadeCoefficients&) const = default;
 
     /// The complex gain of the whole series at f for the sample rate fs (Hz).
     [[nodiscard]] std::complex<double> response(Hertz f, double fs) const noexcept
     {
         std::complex<double> product = 1.0;
-        for (const BiquadCoefficients& section : sections)
+        for (const StateVariableCoefficients& section : sections)
             product *= section.response(f, fs);
         return product;
     }
@@ -34,7 +34,7 @@ struct BiquadCascadeCoefficients
 
 /// A streaming filter whose sections the pure function `Design`(params, fs) -> BiquadCascadeCoefficients makes: one
 /// state machine for every filter that is a series of sections. Parameters may change between calls; sections that
-/// remain keep their state, new ones start from silence.
+/// remain keep their state, new ones start from silence. Sections run in state-variable form (see StateVariable.h).
 template <typename P, auto Design>
 class DesignedCascade
 {
@@ -80,18 +80,18 @@ private:
     double fs = ProcessSpec{}.sampleRate;
     Params current;
     BiquadCascadeCoefficients cascade = Design(Params{}, ProcessSpec{}.sampleRate);
-    std::array<BiquadState, maxBiquadSections> states{};
+    std::array<StateVariableState, maxBiquadSections> states{};
 };
 
 using BiquadCascadeParams = FixedVector<BiquadParams, maxBiquadSections>;
 
-/// One cookbook section (see designBiquad) for each element.
+/// One cookbook section (see designStateVariable) for each element.
 [[nodiscard]] inline BiquadCascadeCoefficients designBiquadCascade(const BiquadCascadeParams& params,
                                                                    double fs) noexcept
 {
     BiquadCascadeCoefficients cascade;
     for (const BiquadParams& section : params)
-        cascade.sections.pushBack(designBiquad(section, fs));
+        cascade.sections.pushBack(designStateVariable(section, fs));
     return cascade;
 }
 

@@ -52,12 +52,12 @@ inline ButterworthPair butterworthPair(int order, int k) noexcept
     return {std::sin(angle), std::cos(angle)};
 }
 
-/// First-order low- or high-pass by the bilinear transform, prewarped: g = tan(pi f / fs).
-inline BiquadCoefficients firstOrderSection(bool highpass, double f, double fs) noexcept
+/// First-order low- or high-pass by the prewarped bilinear transform, 1 or s over s + 1: as a section with s + 1 above
+/// and below once more. f as clampedFrequency() returns it.
+inline StateVariableCoefficients firstOrderSection(bool highpass, double f, double fs) noexcept
 {
-    const double g = std::tan(std::numbers::pi * f / fs);
-    const double b0 = (highpass ? 1.0 : g) / (1.0 + g);
-    return {b0, highpass ? -b0 : b0, 0.0, (g - 1.0) / (g + 1.0), 0.0};
+    const auto loop = StateVariableLoop::design(f, 2.0, fs);
+    return StateVariableCoefficients::make(loop, highpass ? 1.0 : 0.0, 1.0, highpass ? 0.0 : 1.0);
 }
 
 inline void appendLowOrHighpass(const ButterworthParams& params, int order, double fs,
@@ -69,7 +69,7 @@ inline void appendLowOrHighpass(const ButterworthParams& params, int order, doub
     if (order % 2 == 1)
         cascade.sections.pushBack(firstOrderSection(highpass, clampedFrequency(params.frequency, fs), fs));
     for (int k = order / 2 - 1; k >= 0; --k)
-        cascade.sections.pushBack(designBiquad({type, params.frequency, butterworthPair(order, k).q()}, fs));
+        cascade.sections.pushBack(designStateVariable({type, params.frequency, butterworthPair(order, k).q()}, fs));
 }
 
 inline void appendBandpass(const ButterworthParams& params, int order, double fs,
@@ -78,10 +78,6 @@ inline void appendBandpass(const ButterworthParams& params, int order, double fs
     const auto warped = [fs](double f)
     {
         return std::tan(std::numbers::pi * f / fs);
-    };
-    const auto unwarped = [fs](double omega)
-    {
-        return Hertz(std::atan(omega) / std::numbers::pi * fs);
     };
     const double narrowest = 1.0 + 1e-4;
     const double top = designLimits::highestFrequency * fs;
@@ -93,12 +89,9 @@ inline void appendBandpass(const ButterworthParams& params, int order, double fs
 
     const auto append = [&](double omega, double q)
     {
-        BiquadCoefficients section = designBiquad({BiquadType::bandpass, unwarped(omega), q}, fs);
-        // The cookbook's band-pass is (omega/q) s / (...); the transformed prototype has width s in its place.
-        const double gain = width * q / centre;
-        section.b0 *= gain;
-        section.b2 *= gain;
-        cascade.sections.pushBack(section);
+        // width s above in place of a section's own k s
+        const auto loop = StateVariableLoop::make(omega, 1.0 / q);
+        cascade.sections.pushBack(StateVariableCoefficients::make(loop, 0.0, width / centre, 0.0));
     };
     if (order % 2 == 1)
         append(centre, centre / width);

@@ -36,7 +36,7 @@ struct FilterBankCoefficients
         for (std::size_t j = 0; j < crossovers.size(); ++j)
         {
             const auto& loop = crossovers[j];
-            const std::complex<double> s{0.0, std::tan(std::numbers::pi * f.value / fs) / loop.g};
+            const auto s = loop.warped(f, fs);
             const std::complex<double> denominator = s * s + loop.k * s + 1.0;
             if (j < k)
                 gain *= s * s * s * s / (denominator * denominator);
@@ -132,10 +132,8 @@ private:
         double tick(const StateVariableLoop& loop, double x, double& low) noexcept
         {
             const auto v = first.tick(loop, x);
-            const double high = x - loop.k * v.band - v.low;
             low = lowStage.tick(loop, v.low).low;
-            const auto w = highStage.tick(loop, high);
-            return high - loop.k * w.band - w.low;
+            return highStage.tick(loop, v.high).high;
         }
 
         void flush() noexcept
@@ -156,11 +154,12 @@ private:
         {
             for (std::size_t k = 0; k < band.size(); ++k)
             {
-                const double v3 = band[k] - s2[k];
-                const double v1 = loop.a1 * s1[k] + loop.a2 * v3;
-                const double v2 = s2[k] + loop.a2 * s1[k] + loop.a3 * v3;
-                s1[k] = 2.0 * v1 - s1[k];
-                s2[k] = 2.0 * v2 - s2[k];
+                const double u = (band[k] - s2[k]) - loop.damping * s1[k];
+                const double d1 = loop.a2 * u;
+                const double d2 = loop.g * s1[k] + loop.a3 * u;
+                const double v1 = s1[k] + d1;
+                s1[k] = v1 + d1;
+                s2[k] += 2.0 * d2;
                 band[k] -= 2.0 * loop.k * v1;
             }
         }

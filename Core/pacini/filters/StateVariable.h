@@ -1,7 +1,8 @@
 #pragma once
 
-// Second-order filter for parameters that may move with every sample.
+// Second-order sections as every streaming filter runs them: exact at any rate, and safe when parameters move.
 
+#include <pacini/filters/Biquad.h>
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Units.h>
@@ -15,63 +16,133 @@
 namespace pacini
 {
 
-enum class StateVariableType
-{
-    lowpass,
-    bandpass, ///< 0 dB at its peak
-    highpass,
-    peak, ///< the same response as BiquadType::peak
-};
-
-/// Frequencies are clamped to 1e-7 to 0.4999 of the sample rate, q to 1e-6 to 1e5, gains to +-120 dB.
-struct StateVariableParams
-{
-    StateVariableType type = StateVariableType::lowpass;
-    Hertz frequency{1000.0};
-    double q = std::numbers::sqrt2 / 2.0;
-    Decibels gain{0.0}; ///< peak only
-    bool operator==(const StateVariableParams&) const = default;
-};
-
-/// The two integrators in their loop: g = tan(pi f / fs), k = 1/q, and what the loop without delay solves to.
+/// Two integrators in a loop whose transfer functions are 1, s and s^2 over s^2 + k s + 1, s = (z - 1) / (z + 1) / g:
+/// g = tan(pi f / fs), k = 1/q, and what the loop without delay solves to.
 struct StateVariableLoop
 {
     double g = 0.0;
     double k = 1.0;
-    double a1 = 1.0;
-    double a2 = 0.0;
-    double a3 = 0.0;
+    double damping = 1.0; ///< g + k
+    double a1 = 1.0;      ///< 1 / (1 + g (g + k))
+    double a2 = 0.0;      ///< g a1
+    double a3 = 0.0;      ///< g^2 a1
     bool operator==(const StateVariableLoop&) const = default;
 
+    [[nodiscard]] static StateVariableLoop make(double g, double k) noexcept
+    {
+        const double a1 = 1.0 / (1.0 + g * (g + k));
+        return {g, k, g + k, a1, g * a1, g * (g * a1)};
+    }
     [[nodiscard]] static StateVariableLoop design(double frequency, double k, double fs) noexcept
     {
-        const double g = std::tan(std::numbers::pi * frequency / fs);
-        const double a1 = 1.0 / (1.0 + g * (g + k));
-        return {g, k, a1, g * a1, g * g * a1};
+        return make(std::tan(std::numbers::pi * frequency / fs), k);
+    }
+
+    /// s at f for the sample rate fs (Hz).
+    [[nodiscard]] std::complex<double> warped(Hertz f, double fs) const noexcept
+    {
+        return {0.0, std::tan(std::numbers::pi * f.value / fs) / g};
     }
 };
 
-/// The low-pass and the (1/k-scaled) band-pass output at one sample; the high-pass is x - k band - low.
+/// The three outputs at one sample. The band-pass is s / (...), so k times it has 0 dB at its peak.
 struct StateVariableOutputs
 {
     double low;
     double band;
+    double high;
 };
 
-/// The memory of the two integrators.
+/// A second-order section: high s^2 + band s + low over s^2 + k s + 1, for any low, band and high.
+struct StateVariableCoefficients
+{
+    StateVariableLoop loop;
+    double high = 0.0;
+    double band = 0.0;
+    double low = 0.0;
+
+    // What tick() multiplies with.
+    double drive = 1.0;    ///< the loop's share of the input
+    double step1 = 0.0;    ///< 2 a2
+    double step2 = 0.0;    ///< 2 a3
+    double coupling = 0.0; ///< 2 g
+    double through = 0.0;  ///< the output's shares of the input and of both integrators
+    double from1 = 0.0;
+    double from2 = 0.0;
+    bool operator==(const StateVariableCoefficients&) const = default;
+
+    /// With high = low the section is high plus a band-pass of peak gain band / k - high. Its weight k stands half
+    /// before and half behind the loop, so that noise fills the integrators to the same level at every k: behind the
+    /// loop alone, a jump from Q 20 to Q 0.1 makes what still rings 200 times as loud.
+    [[nodiscard]] static StateVariableCoefficients make(const StateVariableLoop& loop, double high, double band,
+                                                        double low) noexcept
+    {
+        StateVariableCoefficients c{loop, high, band, low, 1.0, 2.0 * loop.a2, 2.0 * loop.a3, 2.0 * loop.g};
+        if (high == low)
+        {
+            c.drive = std::sqrt(loop.k);
+            const double weight = (band - high * loop.k) / c.drive;
+            c.through = high + weight * loop.a2 * c.drive;
+            c.from1 = weight * loop.a1;
+            c.from2 = -weight * loop.a2;
+            return c;
+        }
+        c.through = high * loop.a1 + band * loop.a2 + low * loop.a3;
+        c.from1 = loop.a1 * (band + low * loop.g - high * loop.damping);
+        c.from2 = loop.a1 * ((low - high) + loop.g * (low * loop.k - band));
+        return c;
+    }
+
+    /// The complex gain at f for the sample rate fs (Hz).
+    [[nodiscard]] std::complex<double> response(Hertz f, double fs) const noexcept
+    {
+        const auto s = loop.warped(f, fs);
+        return ((high * s + band) * s + low) / ((s + loop.k) * s + 1.0);
+    }
+
+    /// The same section as polynomials, rounded to what they can hold.
+    [[nodiscard]] BiquadCoefficients directForm() const noexcept
+    {
+        const double g = loop.g;
+        const double square = g * g;
+        const auto over = [this](double numerator)
+        {
+            return numerator * loop.a1;
+        };
+        return {over(high + band * g + low * square), over(2.0 * (low * square - high)),
+                over(high - band * g + low * square), over(2.0 * (square - 1.0)), over(1.0 - loop.k * g + square)};
+    }
+};
+
+/// The memory of the two integrators. They are moved by increments: u is what the loop leaves of x, and its factors
+/// a2, a3 and g are as exact as their own size allows, where the usual (2 a1 - 1) s1 rounds the decay of a narrow
+/// filter far below the sample rate away (40 dB worse at 20 Hz, Q 20 and 768 kHz).
 struct StateVariableState
 {
     double s1 = 0.0;
     double s2 = 0.0;
 
+    /// All outputs.
     StateVariableOutputs tick(const StateVariableLoop& loop, double x) noexcept
     {
-        const double v3 = x - s2;
-        const double band = loop.a1 * s1 + loop.a2 * v3;
-        const double low = s2 + loop.a2 * s1 + loop.a3 * v3;
-        s1 = 2.0 * band - s1;
-        s2 = 2.0 * low - s2;
-        return {low, band};
+        const double u = (x - s2) - loop.damping * s1;
+        const double d1 = loop.a2 * u;
+        const double d2 = loop.g * s1 + loop.a3 * u;
+        const StateVariableOutputs out{s2 + d2, s1 + d1, loop.a1 * u};
+        s1 = out.band + d1;
+        s2 = out.low + d2;
+        return out;
+    }
+
+    /// The section's output; between one sample and the next lie four operations.
+    double tick(const StateVariableCoefficients& c, double x) noexcept
+    {
+        const double before1 = s1;
+        const double before2 = s2;
+        const double u = (c.drive * x - before2) - c.loop.damping * before1;
+        s1 = before1 + c.step1 * u;
+        s2 = (before2 + c.coupling * before1) + c.step2 * u;
+        return c.through * x + (c.from1 * before1 + c.from2 * before2);
     }
 
     void flush() noexcept
@@ -81,56 +152,61 @@ struct StateVariableState
     }
 };
 
-/// The output is m0 x + m1 band + m2 low.
-struct StateVariableCoefficients
-{
-    StateVariableLoop loop;
-    double m0 = 0.0;
-    double m1 = 0.0;
-    double m2 = 1.0;
-    bool operator==(const StateVariableCoefficients&) const = default;
-
-    /// The complex gain at f for the sample rate fs (Hz).
-    [[nodiscard]] std::complex<double> response(Hertz f, double fs) const noexcept
-    {
-        const std::complex<double> s{0.0, std::tan(std::numbers::pi * f.value / fs) / loop.g};
-        return m0 + (m1 * s + m2) / (s * s + loop.k * s + 1.0);
-    }
-};
-
-/// State-variable filter by trapezoidal integration: A. Simper, "Solving the continuous SVF equations using trapezoidal
-/// integration and equivalent currents", 2013 (same filter: V. Zavalishin, "The Art of VA Filter Design", 2012).
-/// Its response is that of the cookbook's biquad, but the states are the integrators themselves: the norm of the state
-/// cannot grow without input however the parameters move (A. Wishnick, "Time-varying filters for musical applications",
-/// DAFx-14), and nothing cancels at frequencies far below the sample rate.
-[[nodiscard]] inline StateVariableCoefficients designStateVariable(const StateVariableParams& params,
-                                                                   double fs) noexcept
+/// The section of `params` as a state-variable filter by trapezoidal integration: A. Simper, "Solving the continuous
+/// SVF equations using trapezoidal integration and equivalent currents", 2013 (same filter: V. Zavalishin, "The Art of
+/// VA Filter Design", 2012), with the prototypes of the cookbook. Its response is that of designBiquad(), but the
+/// states are the integrators themselves: the norm of the state cannot grow without input however the parameters move
+/// (A. Wishnick, "Time-varying filters for musical applications", DAFx-14), and nothing cancels far below the sample
+/// rate.
+[[nodiscard]] inline StateVariableCoefficients designStateVariable(const BiquadParams& params, double fs) noexcept
 {
     const double k = 1.0 / clampedQ(params.q);
-    const double frequency = clampedFrequency(params.frequency, fs);
+    const double g = std::tan(std::numbers::pi * clampedFrequency(params.frequency, fs) / fs);
+    const double gain = clampedGain(params.gain).gain(); // A^2 in the cookbook's terms
+    const double a = std::sqrt(gain);
+    const auto section = [](double g0, double k0, double high, double band, double low)
+    {
+        return StateVariableCoefficients::make(StateVariableLoop::make(g0, k0), high, band, low);
+    };
     switch (params.type)
     {
-    case StateVariableType::lowpass:
-        return {StateVariableLoop::design(frequency, k, fs), 0.0, 0.0, 1.0};
-    case StateVariableType::bandpass:
-        return {StateVariableLoop::design(frequency, k, fs), 0.0, k, 0.0};
-    case StateVariableType::highpass:
-        return {StateVariableLoop::design(frequency, k, fs), 1.0, -k, -1.0};
-    case StateVariableType::peak:
-    {
-        const double gain = clampedGain(params.gain).gain(); // A^2 in the cookbook's terms
-        const double damping = k / std::sqrt(gain);
-        return {StateVariableLoop::design(frequency, damping, fs), 1.0, damping * (gain - 1.0), 0.0};
-    }
+    case BiquadType::lowpass:
+        return section(g, k, 0.0, 0.0, 1.0);
+    case BiquadType::highpass:
+        return section(g, k, 1.0, 0.0, 0.0);
+    case BiquadType::bandpass:
+        return section(g, k, 0.0, k, 0.0);
+    case BiquadType::notch:
+        return section(g, k, 1.0, 0.0, 1.0);
+    case BiquadType::allpass:
+        return section(g, k, 1.0, -k, 1.0);
+    case BiquadType::peak:
+        return section(g, k / a, 1.0, k * a, 1.0);
+    case BiquadType::lowShelf: // the shelves' poles and zeros lie at sqrt(A) to both sides
+        return section(g / std::sqrt(a), k, 1.0, k * a, gain);
+    case BiquadType::highShelf:
+        return section(g * std::sqrt(a), k, gain, k * a, 1.0);
     }
     return {};
 }
 
-/// One streaming filter; setParams() costs one tangent and may come before every sample.
+/// A section given as polynomials whose poles are stable, in state-variable form: the bilinear transform undone, which
+/// gives the analogue prototype. As exact as the polynomials are.
+[[nodiscard]] inline StateVariableCoefficients asStateVariable(const BiquadCoefficients& c) noexcept
+{
+    const double atOne = 1.0 + c.a1 + c.a2;     // at z = 1, above 0 when stable
+    const double atNyquist = 1.0 - c.a1 + c.a2; // at z = -1, likewise
+    const double g = std::sqrt(atOne / atNyquist);
+    const double k = 2.0 * (1.0 - c.a2) / (atNyquist * g);
+    return StateVariableCoefficients::make(StateVariableLoop::make(g, k), (c.b0 - c.b1 + c.b2) / atNyquist,
+                                           2.0 * (c.b0 - c.b2) / (atNyquist * g), (c.b0 + c.b1 + c.b2) / atOne);
+}
+
+/// One streaming section; setParams() costs one tangent and may come before every sample. The state is kept.
 class StateVariable
 {
 public:
-    using Params = StateVariableParams;
+    using Params = BiquadParams;
 
     void prepare(const ProcessSpec& spec) noexcept
     {
@@ -147,12 +223,8 @@ public:
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
-        const auto tick = [this](double x)
-        {
-            const auto v = state.tick(filter.loop, x);
-            return filter.m0 * x + filter.m1 * v.band + filter.m2 * v.low;
-        };
-        forEachSample(in, out, tick, [this] { state.flush(); });
+        forEachSample(
+            in, out, [this](double x) { return state.tick(filter, x); }, [this] { state.flush(); });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }

@@ -236,7 +236,9 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
         const double burst = std::max(0.012, profile.response.riseTime);
         const std::vector<double> strength = detail::wantedStrength(adapted, step, burst);
         if (!adapted.transients.empty())
-            result.changes.push_back(std::to_string(adapted.transients.size()) + " events become bursts");
+            result.changes.push_back(adapted.transients.size() == 1
+                                         ? std::string("1 event becomes a burst")
+                                         : std::to_string(adapted.transients.size()) + " events become bursts");
         Band band;
         if (!adapted.bands.empty())
             band = std::move(adapted.bands.front());

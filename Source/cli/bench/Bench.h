@@ -41,6 +41,7 @@ struct Bench
     std::vector<std::string> perSound; ///< Markdown shows each sound's row that agrees in these keys with the first row
     /// Adds the rows of one sound.
     void (*measure)(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows);
+    bool usesSounds = true; ///< false: makes its own signals, once
 };
 
 /// The RMS error that a signal-to-noise ratio (dB) means, in % of the signal.
@@ -53,7 +54,9 @@ struct Bench
 [[nodiscard]] Bench analysisBench();
 [[nodiscard]] Bench bodyBench();
 [[nodiscard]] Bench decimateBench();
+[[nodiscard]] Bench filtersBench();
 [[nodiscard]] Bench methodsBench();
+[[nodiscard]] Bench oscillatorsBench();
 [[nodiscard]] Bench stagesBench();
 [[nodiscard]] Bench synthesisBench();
 [[nodiscard]] Bench scenesBench();
@@ -62,8 +65,8 @@ struct Bench
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(),  decimateBench(), analysisBench(), synthesisBench(), scenesBench(),
-            actuatorsBench(), bodyBench(),     stagesBench(),   methodsBench()};
+    return {simplifyBench(), decimateBench(),  filtersBench(), analysisBench(), synthesisBench(), oscillatorsBench(),
+            scenesBench(),   actuatorsBench(), bodyBench(),    stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli

@@ -47,6 +47,8 @@ plot::WorkPrecisionFigure makeFigure(const BenchReport& report, const BenchFigur
 
 std::string overText(const BenchReport& report)
 {
+    if (!report.bench.usesSounds)
+        return "made signals";
     return report.sounds == 1 ? "one sound" : fmt::format("means over {} sounds", report.sounds);
 }
 

@@ -25,6 +25,8 @@ struct BenchReport
     /// Measures one more sound. Sounds that give no rows (silence, for some) do not count.
     void measure(const BenchSound& sound, const BenchSettings& settings)
     {
+        if (!bench.usesSounds && sounds > 0)
+            return;
         const std::size_t before = rows.rows();
         bench.measure(sound, settings, rows);
         sounds += rows.rows() > before ? 1u : 0u;
@@ -36,7 +38,7 @@ struct BenchReport
     std::size_t sounds = 0;
 };
 
-/// "one sound" or "means over 8 sounds".
+/// "one sound", "means over 8 sounds" or "made signals".
 [[nodiscard]] std::string overText(const BenchReport& report);
 
 /// {"bench", "title", "note", "sounds", "units", "means": [...], "rows": [...]}.
