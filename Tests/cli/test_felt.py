@@ -204,7 +204,7 @@ class Actuators(CommandTest):
             motor = profile["technology"] == "erm"
             self.assertEqual("14 other wearers" in names, "body" in profile, path.stem)
             self.assertEqual("drive to skin" in names, "body" in profile and not motor, path.stem)
-            self.assertEqual("turning steadily" in names, motor, path.stem)
+            self.assertEqual("motor to skin" in names, motor, path.stem)
             self.assertEqual("output filter" in names, not motor, path.stem)
             self.assertTrue(any(name.startswith("range ") for name in names), path.stem)
 
@@ -217,7 +217,7 @@ class Actuators(CommandTest):
             ground = next(points[0] for key, points in names.items() if key.startswith("range "))
             span = [profile["range"]["lowFrequency"], profile["range"]["highFrequency"]]
             left, right = min(x for x, _ in ground), max(x for x, _ in ground)
-            points = names["turning steadily" if motor else "drive to skin"][0]
+            points = names["motor to skin" if motor else "drive to skin"][0]
             wanted, found = [], []
             for x, y in points:
                 f = span[0] * (span[1] / span[0]) ** ((x - left) / (right - left))

@@ -4,6 +4,7 @@
 #include "cli/Wearer.h"
 
 #include <pacini/actuator/BodyChain.h>
+#include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,40 +56,24 @@ double decibels(double gain)
     return 20.0 * std::log10(std::max(gain, 1e-30));
 }
 
-/// m/s^2 at full drive on a wearer, dB, up to the highest frequency that the actuator reaches.
+/// m/s^2 at full drive on a wearer, dB, at the frequencies that the actuator reaches.
 std::vector<Point> feltResponse(const Profile& profile, unsigned wearer, const std::vector<double>& frequencies)
 {
     const bool spins = isMotor(profile);
     const double rated = profile.resonance.frequency;
+    const MotorDriveParams motor = motorDriveParams(profile);
     const BodyChain chain = makeBodyChain(cli::bodyOn(wearer, *profile.body), profile.resonance,
                                           spins ? BodyForce::device : BodyForce::coil);
     std::vector<Point> points;
     for (const double f : frequencies)
     {
-        if (spins && f > rated * profile.drive.overdrive)
-            break;
-        const double force = spins ? (f / rated) * (f / rated) : 1.0;
+        const double speed = f / rated;
+        if (spins && (speed < motor.stallVoltage || speed > motor.overdrive))
+            continue;
+        const double force = spins ? speed * speed : 1.0;
         points.push_back({f, decibels(force * std::abs(chain.response(BodyPoint::skin, Hertz(f))))});
     }
     return points;
-}
-
-/// From the lowest to the highest of all wearers.
-Area wearersBand(const Profile& profile, const std::vector<double>& frequencies, Colour fill)
-{
-    Area band{fmt::format("{} other wearers", cli::simulatedWearers), feltResponse(profile, 0, frequencies), {}, fill};
-    for (const Point& point : band.upper)
-        band.lower.push_back(point.y);
-    for (unsigned wearer = 1; wearer <= cli::simulatedWearers; ++wearer)
-    {
-        const auto response = feltResponse(profile, wearer, frequencies);
-        for (std::size_t i = 0; i < response.size(); ++i)
-        {
-            band.upper[i].y = std::max(band.upper[i].y, response[i].y);
-            band.lower[i] = std::min(band.lower[i], response[i].y);
-        }
-    }
-    return band;
 }
 
 struct ShownFilter
@@ -116,20 +102,22 @@ Axis frequencyAxis()
 }
 
 /// Whole tens around the values, at least 20 dB and at most `most` dB below the top; above it room for labels.
-Axis levelAxis(std::string title, double bottom, double top, double most)
+Axis levelAxis(std::string title, const std::vector<double>& levels, double most)
 {
-    const double high = 10.0 * std::ceil((top + 3.0) / 10.0);
-    const double low = std::max(10.0 * std::floor((bottom - 1.0) / 10.0), high - most);
+    const auto [weakest, strongest] = std::minmax_element(levels.begin(), levels.end());
+    const double high = 10.0 * std::ceil((*strongest + 3.0) / 10.0);
+    const double low = std::max(10.0 * std::floor((*weakest - 1.0) / 10.0), high - most);
     return {std::move(title), Scale::linear, std::min(low, high - 20.0), high, {}};
 }
 
 /// The actuator's range as a ground behind what else is in the panel.
-void markRange(Panel& panel, const ActuatorRange& range, const Look& look)
+void markRange(Panel& panel, const ActuatorRange& range, bool listed, const Look& look)
 {
     const Area area{fmt::format("range {:.0f}\u2013{:.0f} Hz", range.lowFrequency, range.highFrequency),
                     {{range.lowFrequency, panel.y.high}, {range.highFrequency, panel.y.high}},
                     {panel.y.low, panel.y.low},
-                    look.theme.series(2).withAlpha(0.09)};
+                    look.theme.series(2).withAlpha(0.09),
+                    listed};
     panel.series.insert(panel.series.begin(), area);
 }
 
@@ -137,43 +125,41 @@ Panel feltPanel(const Profile& profile, const ShownFilter& filter, const std::ve
                 const Look& look)
 {
     const Colour plain = look.theme.series(0);
-    const Colour filtered = look.theme.series(1);
-    const Area band = wearersBand(profile, frequencies, plain.withAlpha(0.2));
+    const Stroke thin{plain.withAlpha(0.35), look.metrics.hair()};
+    const double thick = 2.2 * look.metrics.hair();
     Panel panel;
-    panel.title = "Felt acceleration at full drive";
+    panel.title =
+        isMotor(profile) ? "Felt acceleration of the motor at a steady speed" : "Felt acceleration at full drive";
     panel.x = frequencyAxis();
     panel.share = 2.0;
-    panel.series.push_back(band);
-    panel.series.push_back(Line{isMotor(profile) ? "turning steadily" : "drive to skin",
-                                feltResponse(profile, 0, frequencies),
-                                Stroke{plain, 2.0 * look.metrics.hair()},
-                                {}});
-    double bottom = *std::min_element(band.lower.begin(), band.lower.end());
-    double top =
-        std::max_element(band.upper.begin(), band.upper.end(), [](const Point& a, const Point& b) { return a.y < b.y; })
-            ->y;
+    std::vector<Line> lines;
+    for (unsigned wearer = 1; wearer <= cli::simulatedWearers; ++wearer)
+        lines.push_back({fmt::format("{} other wearers", cli::simulatedWearers),
+                         feltResponse(profile, wearer, frequencies),
+                         thin,
+                         {},
+                         {},
+                         wearer == 1});
+    Line own{isMotor(profile) ? "motor to skin" : "drive to skin",
+             feltResponse(profile, 0, frequencies),
+             Stroke{plain, thick},
+             {}};
+    lines.push_back(own);
     if (!isMotor(profile))
     {
-        Area filteredBand = band;
-        filteredBand.fill = filtered.withAlpha(0.2);
-        Line line{"after the output filter",
-                  feltResponse(profile, 0, frequencies),
-                  Stroke{filtered, 2.0 * look.metrics.hair()},
-                  {}};
-        for (std::size_t i = 0; i < line.points.size(); ++i)
-        {
-            const double gain = filter.response[i].y;
-            line.points[i].y += gain;
-            filteredBand.upper[i].y += gain;
-            filteredBand.lower[i] += gain;
-            top = std::max(top, filteredBand.upper[i].y);
-            bottom = std::min(bottom, filteredBand.lower[i]);
-        }
-        panel.series.insert(panel.series.begin() + 1, std::move(filteredBand));
-        panel.series.push_back(std::move(line));
+        own.name = "after the output filter";
+        own.stroke = Stroke{look.theme.series(1), thick};
+        for (std::size_t i = 0; i < own.points.size(); ++i)
+            own.points[i].y += filter.response[i].y;
+        lines.push_back(std::move(own));
     }
-    panel.y = levelAxis("dB re 1 m/s\u00b2", bottom, top, 80.0);
-    markRange(panel, profile.range, look);
+    std::vector<double> levels;
+    for (const Line& line : lines)
+        for (const Point& point : line.points)
+            levels.push_back(point.y);
+    panel.y = levelAxis("dB re 1 m/s\u00b2", levels, 80.0);
+    panel.series.assign(std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end()));
+    markRange(panel, profile.range, true, look);
     return panel;
 }
 
@@ -182,12 +168,13 @@ Panel filterPanel(const Profile& profile, const ShownFilter& filter, const Look&
     Panel panel;
     panel.title = filter.title;
     panel.x = frequencyAxis();
-    const auto [least, most] = std::minmax_element(filter.response.begin(), filter.response.end(),
-                                                   [](const Point& a, const Point& b) { return a.y < b.y; });
-    panel.y = levelAxis("Gain (dB)", least->y, most->y, 40.0);
+    std::vector<double> levels;
+    for (const Point& point : filter.response)
+        levels.push_back(point.y);
+    panel.y = levelAxis("Gain (dB)", levels, 40.0);
     panel.series.push_back(
         Line{"output filter", filter.response, Stroke{look.theme.series(1), 2.0 * look.metrics.hair()}, {}});
-    markRange(panel, profile.range, look);
+    markRange(panel, profile.range, !profile.body, look);
     return panel;
 }
 
