@@ -1,8 +1,8 @@
 // Simulated wearers.
 
-#include "support/Catch.h"
-
 #include "cli/Wearer.h"
+
+#include "support/Catch.h"
 
 #include <set>
 

@@ -111,9 +111,9 @@ class Felt(CommandTest):
             felt = phasor(self.rendered(name, "--felt", *options), 100) * FULL_SCALE
             wanted = drive * skin_acceleration(profile, 100)
             self.assertGreater(abs(drive), 0.01)
-            self.assertAlmostEqual(abs(felt) / abs(wanted), 1.0, delta=0.01, msg=name)
+            self.assertAlmostEqual(abs(felt) / abs(wanted), 1.0, delta=1e-4, msg=name)
             # One frame late would be 0.013 rad.
-            self.assertAlmostEqual(cmath.phase(felt / wanted), 0.0, delta=0.002, msg=name)
+            self.assertAlmostEqual(cmath.phase(felt / wanted), 0.0, delta=1e-4, msg=name)
 
     def test_a_motor_that_turns_steadily_is_felt_at_the_frequency_and_strength_of_its_speed(self):
         profile = profile_of("erm-coin")
