@@ -4,6 +4,7 @@
 
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <set>
 
 using namespace pacini;
