@@ -1,13 +1,10 @@
 #include "cli/InfoCommand.h"
 
+#include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
-#include "cli/ProgramFolder.h"
-#include "io/AcfFile.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
-#include "io/ProfileFile.h"
-#include "io/ShippedProfiles.h"
 
 #include <pacini/clip/ClipSize.h>
 #include <pacini/clip/PackedClip.h>
@@ -17,9 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <optional>
-#include <system_error>
 
 namespace pacini::cli
 {
@@ -111,23 +105,6 @@ Result<Json> describeAudio(const std::string& file)
                 {"frames", frames},
                 {"peak", peak}};
 }
-
-/// The profile that `file` is, or that ships under this name; nothing when it is something else.
-std::optional<Result<Profile>> profileOf(const std::string& file)
-{
-    std::error_code error;
-    if (!std::filesystem::exists(file, error))
-    {
-        const auto shipped = findProfile(file, programFolder());
-        return shipped ? std::optional(readProfile(*shipped)) : std::nullopt;
-    }
-    if (hasAcfExtension(file))
-    {
-        auto acf = readAcfFile(file);
-        return acf ? Result<Profile>(std::move(acf->profile)) : Result<Profile>(acf.error());
-    }
-    return isProfile(file) ? std::optional(readProfile(file)) : std::nullopt;
-}
 } // namespace
 
 CLI::App* InfoCommand::declare(CLI::App& app)
@@ -146,7 +123,7 @@ Exit InfoCommand::run(Console& console)
     bool failed = false;
     for (const std::string& file : inputs)
     {
-        if (const auto profile = profileOf(file))
+        if (const auto profile = profileIn(file))
         {
             if (!*profile)
             {

@@ -2,13 +2,12 @@
 
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
-#include "cli/ProgramFolder.h"
+#include "cli/ProfileInput.h"
 #include "cli/RenderJob.h"
 #include "cli/plot/ClipFigure.h"
+#include "cli/plot/ProfileFigure.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
-#include "io/ProfileFile.h"
-#include "io/ShippedProfiles.h"
 
 #include <pacini/synthesis/ScenePlayer.h>
 
@@ -117,8 +116,11 @@ Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<
 
 CLI::App* PlotCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("plot", "Draw a clip, or a sound and the clip it becomes");
-    command->add_option("input", input, "Clip (JSON or packed) or sound, which is encoded first")
+    auto* command = app.add_subcommand("plot", "Draw a clip, a sound and the clip it becomes, or an actuator");
+    command
+        ->add_option("input", input,
+                     "Clip (JSON or packed), sound, which is encoded first, or actuator profile: a file or the "
+                     "name of a shipped one")
         ->required()
         ->type_name("IN");
     command->add_option("-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]")
@@ -144,7 +146,8 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     command->add_flag("--dark", dark, "On a dark ground");
     command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
-                    "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5");
+                    "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
+                    "  pacini plot l5-wristband -o l5.png");
     return command;
 }
 
@@ -173,16 +176,25 @@ Exit PlotCommand::run(Console& console)
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
         return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
 
+    const plot::FigureStyle style{*parseSize(size), dark};
+    if (const auto shown = profileIn(input))
+    {
+        if (!*shown)
+            return fail(input, shown->error());
+        if (from || to || !sound.empty() || !profile.empty())
+            return fail(input,
+                        {ErrorCode::invalidArgument, "",
+                         "is a profile; --from, --to, --sound and --profile are for clips and sounds"},
+                        Exit::usage);
+        return write(console, *target, makeProfileFigure(**shown, style), style);
+    }
+
     std::optional<Profile> actuator;
     if (!profile.empty())
     {
-        const auto found = findProfile(profile, programFolder());
-        if (!found)
-            return fail(profile, found.error());
-        auto read = readProfile(*found);
-        if (!read)
-            return fail(found->string(), read.error());
-        actuator = *read;
+        actuator = openProfile(console, profile);
+        if (!actuator)
+            return Exit::failed;
     }
 
     const bool isClip = clipFormatOf(path).has_value();
@@ -196,7 +208,6 @@ Exit PlotCommand::run(Console& console)
         return fail(input, {ErrorCode::invalidArgument, "--from",
                             fmt::format("is not before --to and the end of the clip, {:.3f} s", clip->duration)});
 
-    const plot::FigureStyle style{*parseSize(size), dark};
     const auto columns = static_cast<std::size_t>(style.size.width);
     std::vector<plot::NamedWaveform> waveforms;
     const std::string heard = !isClip && sound.empty() ? input : sound;
@@ -217,19 +228,28 @@ Exit PlotCommand::run(Console& console)
     console.endProgress();
 
     const std::string title = clip->name.empty() ? path.filename().string() : clip->name;
-    const auto written = plot::writeFigure(*target, makeClipFigure(*clip, title, waveforms, range, style), style);
+    return write(console, *target, makeClipFigure(*clip, title, waveforms, range, style), style);
+}
+
+Exit PlotCommand::write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
+                        const plot::FigureStyle& style) const
+{
+    const auto written = plot::writeFigure(target, figure, style);
     if (!written)
-        return fail(target->string(), written.error());
+    {
+        console.error(target.string(), written.error());
+        return Exit::failed;
+    }
     if (json)
         console.print(nlohmann::ordered_json{
             {"input", input},
-            {"output", target->string()},
+            {"output", target.string()},
             {"width", style.size.width},
             {"height", style.size.height},
             {"bytes",
              *written}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
-        console.print(fmt::format("{}: {} x {} pixels, {}", target->string(), style.size.width, style.size.height,
+        console.print(fmt::format("{}: {} x {} pixels, {}", target.string(), style.size.width, style.size.height,
                                   bytesText(static_cast<double>(*written))));
     return Exit::ok;
 }

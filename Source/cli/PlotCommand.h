@@ -1,14 +1,16 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/plot/Figure.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
 namespace pacini::cli
 {
 
-/// `pacini plot`: a clip, or a sound and the clip it becomes, as a picture.
+/// `pacini plot`: a clip, a sound and the clip it becomes, or an actuator, as a picture.
 class PlotCommand : public Command
 {
 public:
@@ -16,6 +18,9 @@ public:
     Exit run(Console& console) override;
 
 private:
+    Exit write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
+               const plot::FigureStyle& style) const;
+
     std::string input;
     std::string output;
     std::string sound;

@@ -2,16 +2,17 @@
 
 #include "cli/Checks.h"
 #include "cli/InputFiles.h"
+#include "cli/ProfileInput.h"
 #include "cli/ProgramFolder.h"
 #include "cli/RenderJob.h"
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
-#include "io/ProfileFile.h"
-#include "io/ShippedProfiles.h"
+#include "cli/Wearer.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -38,26 +39,43 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
                                   {"plan", planJson(r, settings.compile)}};
     if (explain)
         report["plan"].update(planLists(r));
+    if (const auto& felt = settings.felt)
+    {
+        report["feltFullScale"] = felt->fullScale;
+        report["feltPeak"] = r.peak * felt->fullScale;
+        report["wearer"] = felt->wearer;
+    }
     return report;
 }
 
-std::string summary(const std::vector<RenderTask>& tasks)
+std::string summary(const std::vector<RenderTask>& tasks, const std::optional<FeltSettings>& felt)
 {
     std::size_t done = 0;
-    double duration = 0.0, seconds = 0.0;
+    double duration = 0.0, seconds = 0.0, peak = 0.0;
     for (const RenderTask& task : tasks)
         if (task.result)
         {
             ++done;
             duration += task.result->duration;
             seconds += task.result->seconds;
+            peak = std::max(peak, task.result->peak);
         }
     std::string text = fmt::format("{} rendered", done);
     if (done < tasks.size())
         text += fmt::format(", {} failed", tasks.size() - done);
     if (seconds > 0.0)
         text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
+    if (felt && done > 0)
+        text += fmt::format(", peak {:.3g} m/s2", peak * felt->fullScale);
     return text;
+}
+
+/// How to avoid the clipping of samples of which the largest is `peak`.
+std::string clippingAdvice(double peak, double gain, const std::optional<FeltSettings>& felt)
+{
+    if (felt)
+        return fmt::format("--felt-full-scale {:.0f} avoids it", std::ceil(peak * felt->fullScale));
+    return fmt::format("--gain {:.1f} avoids it", gain - std::ceil(200.0 * std::log10(peak)) / 10.0);
 }
 
 /// The option's value where it is not "auto".
@@ -71,7 +89,8 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("render", "Turn clips and scenes into drive signals (WAV)");
+    auto* command =
+        app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
     command->add_option("inputs", inputs, "Clips (JSON or packed) and scenes (JSON), or folders of them")
         ->required()
         ->type_name("CLIP|SCENE");
@@ -142,6 +161,25 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->get_option("--tolerance")->excludes(all);
     command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
     command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
+    auto* asFelt =
+        command->add_flag("--felt", felt,
+                          "Write the acceleration of the skin that the profile's body model predicts instead "
+                          "of the drive signal");
+    asFelt->needs(command->get_option("--profile"));
+    command
+        ->add_option("--felt-full-scale", feltFullScale, "Acceleration at a sample of 1 in the file of --felt, m/s^2")
+        ->capture_default_str()
+        ->check(numberFrom(1e-3, 1e6))
+        ->needs(asFelt)
+        ->type_name("M_S2");
+    command
+        ->add_option("--wearer", wearer,
+                     "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people whose skin has half to "
+                     "twice its mass, stiffness and damping (assumed)")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, simulatedWearers))
+        ->needs(asFelt)
+        ->type_name("N");
     command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
     command->add_flag("--measured", measured,
                       "Like --explain, and play everything too, to measure what leaving out costs");
@@ -152,7 +190,8 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
                     "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
-                    "  pacini render hall.scene.json -o hall.wav --explain");
+                    "  pacini render hall.scene.json -o hall.wav --explain\n"
+                    "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
     return command;
 }
 
@@ -187,19 +226,19 @@ Exit RenderCommand::run(Console& console)
                                               : SampleEncoding::float32;
     if (!profile.empty())
     {
-        const auto path = findProfile(profile, programFolder());
-        if (!path)
+        settings.profile = openProfile(console, profile);
+        if (!settings.profile)
+            return Exit::failed;
+    }
+    if (felt)
+    {
+        const auto chosenFelt = feltSettings(*settings.profile, wearer, feltFullScale, programFolder());
+        if (!chosenFelt)
         {
-            console.error(profile, path.error());
+            console.error(profile, chosenFelt.error());
             return Exit::failed;
         }
-        const auto read = readProfile(*path);
-        if (!read)
-        {
-            console.error(path->string(), read.error());
-            return Exit::failed;
-        }
-        settings.profile = *read;
+        settings.felt = *chosenFelt;
     }
 
     const InputFiles found = findInputs(inputs, clipExtensions());
@@ -219,9 +258,8 @@ Exit RenderCommand::run(Console& console)
                          console.error(task.input.string(), *task.error);
                      else if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
-                                         fmt::format("{} samples were clipped; --gain {:.1f} avoids it",
-                                                     task.result->clippedSamples,
-                                                     gain - std::ceil(200.0 * std::log10(task.result->peak)) / 10.0));
+                                         fmt::format("{} samples were clipped; {}", task.result->clippedSamples,
+                                                     clippingAdvice(task.result->peak, gain, settings.felt)));
                  };
              });
 
@@ -233,7 +271,7 @@ Exit RenderCommand::run(Console& console)
             if (explain && task.result)
                 console.print(
                     fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
-        console.note(summary(tasks));
+        console.note(summary(tasks, settings.felt));
     }
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }

@@ -9,7 +9,7 @@
 namespace pacini::cli
 {
 
-/// `pacini render`: clips and scenes become drive signals.
+/// `pacini render`: clips and scenes become drive signals, or what is felt of them.
 class RenderCommand : public Command
 {
 public:
@@ -36,7 +36,10 @@ private:
     double delay = 0.0;
     double tolerance = -60.0;
     std::string clipFolder;
+    double feltFullScale = 100.0;
+    unsigned wearer = 0;
     unsigned jobs = 0;
+    bool felt = false;
     bool everything = false;
     bool noAdaptation = false;
     bool noProtection = false;

@@ -1,10 +1,9 @@
 #include "cli/RenderJob.h"
 
+#include "cli/SignalPlayer.h"
 #include "cli/Stopwatch.h"
 #include "cli/Task.h"
 #include "io/SceneFile.h"
-
-#include <pacini/synthesis/ScenePlayer.h>
 
 #include <fmt/format.h>
 
@@ -22,7 +21,6 @@ namespace pacini::cli
 namespace
 {
 constexpr std::size_t blockFrames = 4096;
-constexpr double buildAhead = 0.1; // s: decoders are made this early, so that no more than sound are in memory
 
 /// One buffer for each actuator.
 class Channels
@@ -78,12 +76,6 @@ std::vector<PlayReport> describe(const RenderPlan& plan, const Scene& scene)
                            static_cast<double>(decoder.totalFrames()) / planned.decoder.sampleRate, decoder.report()});
     }
     return reports;
-}
-
-void process(ScenePlayer& player, std::uint64_t done, std::size_t frames, double fs, Channels& out)
-{
-    player.build((static_cast<double>(done) + static_cast<double>(frames)) / fs + buildAhead);
-    player.process(out.first(frames));
 }
 } // namespace
 
@@ -173,9 +165,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
 
     ScenePlayerParams playing;
     playing.sampleRate = fs;
-    playing.builtUntil = 0.0;
     playing.protect = settings.protect;
-    std::unique_ptr<ScenePlayer> whole; // plays everything, to compare with
+    std::unique_ptr<SignalPlayer> whole; // plays everything, to compare with
     if (settings.measure)
     {
         CompileParams all = settings.compile;
@@ -183,11 +174,11 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
         auto planned = compilePlan(scene, profile, all);
         if (!planned)
             return planned.error();
-        whole = std::make_unique<ScenePlayer>(std::move(*planned), playing);
+        whole = std::make_unique<SignalPlayer>(std::move(*planned), playing, settings.felt);
     }
     scene = {};
-    std::unique_ptr<ScenePlayer> player;
-    work.run([&] { player = std::make_unique<ScenePlayer>(std::move(plan), playing); });
+    std::unique_ptr<SignalPlayer> player;
+    work.run([&] { player = std::make_unique<SignalPlayer>(std::move(plan), playing, settings.felt); });
     const auto total = static_cast<std::uint64_t>(player->totalFrames());
     result.duration = static_cast<double>(total) / fs;
 
@@ -205,10 +196,10 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     for (std::uint64_t done = 0; done < total;)
     {
         const auto frames = static_cast<std::size_t>(std::min<std::uint64_t>(blockFrames, total - done));
-        work.run([&] { process(*player, done, frames, fs, block); });
+        work.run([&] { player->process(block.first(frames)); });
         if (whole)
         {
-            process(*whole, done, frames, fs, wholeBlock);
+            whole->process(wholeBlock.first(frames));
             error.add(wholeBlock, block, frames);
         }
         const auto part = std::span(interleaved).first(frames * result.actuators);

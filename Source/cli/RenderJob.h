@@ -2,6 +2,7 @@
 
 // Renders one clip or scene into one sound file.
 
+#include "cli/Felt.h"
 #include "io/AudioWriter.h"
 
 #include <pacini/actuator/Profile.h>
@@ -29,6 +30,7 @@ struct RenderSettings
 
     CompileParams compile;
     std::optional<Profile> profile;
+    std::optional<FeltSettings> felt; ///< write what is felt instead of the drive signal
     bool protect = true;              ///< keep within the limits of the profile
     std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
@@ -51,7 +53,7 @@ struct RenderResult
     std::uint64_t bytes = 0;
     double duration = 0.0; ///< s of the output
     double seconds = 0.0;  ///< s of work, without access to files
-    double peak = 0.0;     ///< largest magnitude, 1 = full drive
+    double peak = 0.0;     ///< largest magnitude of a sample
     std::uint64_t clippedSamples = 0;
     bool isScene = false;
     std::size_t actuators = 1;

@@ -1,0 +1,31 @@
+#include "cli/Felt.h"
+
+#include "cli/Wearer.h"
+#include "io/ProfileFile.h"
+#include "io/ShippedProfiles.h"
+
+#include <string>
+
+namespace pacini::cli
+{
+
+Result<FeltSettings> feltSettings(const Profile& profile, unsigned wearer, double fullScale,
+                                  const std::filesystem::path& programFolder)
+{
+    if (auto model = feltModelParams(profile))
+    {
+        model->body.body = bodyOn(wearer, model->body.body);
+        return FeltSettings{*model, wearer, profile.drive.overdrive, fullScale};
+    }
+    std::string message = "is missing in this profile, so nothing is known of what is felt";
+    bool first = true;
+    for (const ShippedProfile& shipped : shippedProfiles(programFolder))
+        if (const auto other = readProfile(shipped.path); other && other->body)
+        {
+            message += (first ? "; there is one in " : " ") + shipped.name;
+            first = false;
+        }
+    return Error{ErrorCode::invalidData, "body", message};
+}
+
+} // namespace pacini::cli

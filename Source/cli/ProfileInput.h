@@ -1,0 +1,22 @@
+#pragma once
+
+// Actuator profiles that the user names.
+
+#include "cli/Console.h"
+
+#include <pacini/actuator/Profile.h>
+
+#include <optional>
+#include <string>
+
+namespace pacini::cli
+{
+
+/// The profile that the file `name` is (ACF too), or that ships under this name; nothing when it is something else.
+/// Errors: those of readProfile and readAcfFile.
+[[nodiscard]] std::optional<Result<Profile>> profileIn(const std::string& name);
+
+/// The profile of `--profile name`; nothing when there is none, and the console has said why.
+[[nodiscard]] std::optional<Profile> openProfile(Console& console, const std::string& name);
+
+} // namespace pacini::cli
