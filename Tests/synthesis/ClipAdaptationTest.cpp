@@ -7,6 +7,7 @@
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/VoiceLimit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,55 @@ TEST_CASE("Flattening starts and stops a slow actuator sooner", "[adaptation]")
     CompileParams asItIs;
     asItIs.adapt = false;
     CHECK(static_cast<double>(riseFrames(felt({}))) < 0.4 * static_cast<double>(riseFrames(felt(asItIs))));
+}
+
+TEST_CASE("Voices go to the plays of most priority, then strength, and are lost and won in time", "[adaptation]")
+{
+    const std::vector<VoiceClaim> claims = {{0.0, 4.0, 1, 1, 0.5}, {1.0, 2.0, 1, 0, 0.1}, {3.0, 5.0, 1, 1, 0.9}};
+    const auto one = voiceLosses(claims, 1);
+    CHECK(one[0] == std::vector<VoiceLoss>{{1.0, 2.0}, {3.0, 4.0}});
+    CHECK(one[1].empty());
+    CHECK(one[2].empty());
+    for (const auto& losses : voiceLosses(claims, 2))
+        CHECK(losses.empty());
+
+    const Curve gated = withoutVoice({{0.0, 1.0}, {10.0, 0.0}}, one[0]);
+    CHECK(valueAt(gated, 0.5) == Approx(0.95));
+    CHECK(valueAt(gated, 1.0) == Approx(0.9));
+    CHECK(valueAt(gated, 1.5) == 0.0);
+    CHECK(valueAt(gated, 2.5) == Approx(0.75));
+    CHECK(valueAt(gated, 3.5) == 0.0);
+    CHECK(valueAt(gated, 5.0) == Approx(0.5));
+}
+
+TEST_CASE("An actuator of one voice plays one of two clips at a time", "[adaptation]")
+{
+    const Profile profile = shipped("lra-175");
+    Scene scene;
+    Clip low, high;
+    low.duration = high.duration = 1.0;
+    low.bands = {band(160.0, 0.1)};
+    high.bands = {band(190.0, 0.1)};
+    scene.clips = {low, high};
+    scene.plays.resize(2);
+    scene.plays[1].clip = 1;
+    scene.plays[1].start = 0.5;
+    scene.plays[1].priority = 1; // waits for the first
+    const auto plan = compilePlan(scene, &profile);
+    REQUIRE(plan.ok());
+    ScenePlayer player(*plan);
+    std::vector<float> y(static_cast<std::size_t>(player.totalFrames()));
+    const std::span<float> all(y);
+    player.process(std::span(&all, 1));
+    const auto crossings = [&](double from, double to)
+    {
+        int count = 0;
+        for (auto n = static_cast<std::size_t>(from * 48000.0); n < static_cast<std::size_t>(to * 48000.0); ++n)
+            count += y[n] <= 0.0f && y[n + 1] > 0.0f ? 1 : 0;
+        return count / (to - from);
+    };
+    CHECK(crossings(0.55, 0.95) == Approx(160.0).margin(3.0));
+    CHECK(crossings(1.05, 1.45) == Approx(190.0).margin(3.0));
 }
 
 TEST_CASE("A motor gets a voltage, not a vibration", "[adaptation]")

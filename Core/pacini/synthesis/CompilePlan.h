@@ -9,6 +9,7 @@
 #include <pacini/synthesis/PlayEnergy.h>
 #include <pacini/synthesis/RenderPlan.h>
 #include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/VoiceLimit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,39 @@ inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, do
     for (const DecoderChange& change : timeline.changes)
         clock.change(change.time, 1.0 / change.stretch, 1.0);
     return clock.frameOf(duration);
+}
+
+/// Takes the voices that an actuator does not have from the plays that need them least, and says so.
+inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile, std::vector<PlayEnergy>& energies,
+                        const BiquadCascadeCoefficients& outputFilter)
+{
+    std::vector<VoiceClaim> claims;
+    for (std::size_t i = 0; i < plan.plays.size(); ++i)
+    {
+        const PlannedPlay& planned = plan.plays[i];
+        const ScenePlay& play = scene.plays[planned.play];
+        const double length = playLength(play, planned.timeline, planned.clip.duration);
+        const double end = std::min(planned.start + length, plan.duration);
+        claims.push_back({planned.start, std::max(end, planned.start), planned.clip.bands.size(), play.priority,
+                          energies[i].most / std::max(end - planned.start, 1e-3)});
+    }
+    const auto losses = voiceLosses(claims, static_cast<std::size_t>(profile.polyphony));
+    for (std::size_t i = 0; i < losses.size(); ++i)
+    {
+        if (losses[i].empty())
+            continue;
+        PlannedPlay& planned = plan.plays[i];
+        for (Curve& gain : planned.timeline.gains)
+            gain = withoutVoice(gain, losses[i]);
+        energies[i] =
+            playEnergy(planned.clip, planned.decoder, planned.timeline, planned.start, plan.duration, outputFilter);
+        double lost = 0.0;
+        for (const VoiceLoss& loss : losses[i])
+            lost += loss.to - loss.from;
+        plan.adaptations.push_back(
+            {indexed("plays", planned.play), "has no voice for " + std::to_string(std::lround(1000.0 * lost)) +
+                                                 " ms: plays of more priority or strength have them"});
+    }
 }
 
 inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
@@ -220,9 +254,13 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
         planned.decoder.reach = highestFrequency(planned.clip, planned.decoder.carriers);
         energies.push_back(
             playEnergy(planned.clip, planned.decoder, planned.timeline, play.start, plan.duration, outputFilter));
-        whole += energies.back().least;
         plan.plays.push_back(std::move(planned));
     }
+    if (adapts && params.adaptation.voices && profile->polyphony > 0 &&
+        profile->polyphony < Profile::unlimitedPolyphony)
+        detail::limitVoices(plan, scene, *profile, energies, outputFilter);
+    for (const PlayEnergy& energy : energies)
+        whole += energy.least;
 
     struct Candidate
     {
