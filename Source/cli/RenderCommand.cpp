@@ -160,6 +160,17 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
     command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
+    command
+        ->add_option("--mapping", mapping,
+                     "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
+                     "it, or by octaves into it")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"profile", "clamp", "rescale", "fold"}));
+    command
+        ->add_option("--max-boost", maxBoost,
+                     "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, 40.0));
     command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
     auto* asFelt =
         command->add_flag("--felt", felt,
@@ -202,6 +213,10 @@ Exit RenderCommand::run(Console& console)
     settings.compile.tolerance = tolerance;
     settings.compile.leaveOut = !everything;
     settings.compile.adapt = !noAdaptation;
+    settings.compile.adaptation.mapping = chosen<FrequencyMapping>(
+        mapping,
+        {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}});
+    settings.compile.adaptation.maxBoost = maxBoost;
     settings.protect = !noProtection;
     settings.transposition = transpose;
     settings.stretch = stretch;

@@ -2,6 +2,8 @@
 
 #include "cli/Command.h"
 
+#include <pacini/synthesis/ClipAdaptation.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -42,6 +44,8 @@ private:
     bool felt = false;
     bool everything = false;
     bool noAdaptation = false;
+    std::string mapping = "profile";
+    double maxBoost = AdaptationParams{}.maxBoost; // dB
     bool noProtection = false;
     bool explain = false;
     bool measured = false;
