@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -145,8 +146,8 @@ public:
     [[nodiscard]] double gainReduction() const noexcept { return lastCall.gainReduction; }
 
 private:
-    static constexpr std::size_t longestStretch = 64; ///< frames
-    static constexpr std::size_t lineRoom = 1024;     ///< frames, so many that the line seldom has to be moved
+    static constexpr std::size_t longestStretch = flushInterval;
+    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< so much that the line seldom has to be moved
 
     /// How many of the next `frames` are taken at once: whole groups wherever that is possible.
     [[nodiscard]] std::size_t stretch(std::size_t frames) const noexcept
@@ -172,7 +173,7 @@ private:
         }
         const std::span<double> to = std::span(line).subspan(position, in.size());
         for (std::size_t i = 0; i < in.size(); ++i)
-            to[i] = clampTo(finiteOrZero(in[i]), -largestInput, largestInput);
+            to[i] = static_cast<double>(bearable(in[i]));
         if (wholeGroups(in.size()))
             return highPass(to, to, inputMean);
         double peak = 0.0;
@@ -186,25 +187,34 @@ private:
         return peak;
     }
 
+    /// The sample within +-largestInput, 0 if it is not finite; in float, where four fit a vector.
+    [[nodiscard]] static float bearable(float sample) noexcept
+    {
+        constexpr auto largest = static_cast<float>(largestInput);
+        return std::abs(sample) <= std::numeric_limits<float>::max() ? clampTo(sample, -largest, largest) : 0.0f;
+    }
+
     /// Takes out of whole groups what `mean` follows; returns the peak of what remains.
     static double highPass(std::span<const double> in, std::span<double> out, RunningMean& mean) noexcept
     {
         RunningMean follower = mean;
         double before = follower.value();
-        FrameGroup peaks{};
+        double peak = 0.0;
         for (std::size_t i = 0; i < in.size(); i += groupFrames)
         {
             const FrameGroup x = groupAt(in, i);
             const FrameGroup means = follower.followGroup(x);
+            double groupPeak = 0.0;
             for (std::size_t k = 0; k < groupFrames; ++k)
             {
                 out[i + k] = x[k] - (k == 0 ? before : means[k - 1]);
-                peaks[k] = std::max(peaks[k], std::abs(out[i + k]));
+                groupPeak = std::max(groupPeak, std::abs(out[i + k]));
             }
+            peak = std::max(peak, groupPeak);
             before = means.back();
         }
         mean = follower;
-        return *std::max_element(peaks.begin(), peaks.end());
+        return peak;
     }
 
     /// Does what tick() would do, for whole groups of frames in which no limit comes near; the gain is idle. Returns
