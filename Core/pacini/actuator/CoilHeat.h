@@ -41,7 +41,7 @@ public:
         limit = clampTo(params.maxPower, 1e-12, 1e12) * (1.0 - 1e-9); // and rounding
         heating = -std::expm1(-1.0 / (clampTo(params.thermalTime, 0.01, 1e4) * fs));
         temperature.design(heating);
-        const double averaging = -std::expm1(-1.0 / (averagingTime * fs));
+        averaging = -std::expm1(-1.0 / (averagingTime * fs));
         average1.design(averaging);
         average2.design(averaging);
     }
@@ -92,10 +92,11 @@ public:
         {
             const FrameGroup averages = twice.followGroup(once.followGroup(powers(wanted, i)));
             heated.followGroup(powers(played, i));
-            for (double average : averages)
-                highest = std::max(highest, average);
+            highest = std::max(highest, averages.back());
         }
-        if (!(highest <= safely * mostMeasure * allowed(hottest)))
+        // Powers are not negative: within a group an average was at most so much higher than at its end.
+        const double fall = 1.0 - static_cast<double>(groupFrames) * averaging;
+        if (!(highest <= safely * fall * mostMeasure * allowed(hottest)))
             return false;
         average1 = once;
         average2 = twice;
@@ -130,6 +131,7 @@ private:
     double full = 1.0;
     double limit = 1.0;
     double heating = 1.0;
+    double averaging = 0.0;
     RunningMean temperature;
     RunningMean average1;
     RunningMean average2;
