@@ -75,7 +75,7 @@ public:
 
     /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
     /// measure exceeds `mostMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
-    /// returns false. The peaks are those of the two spans.
+    /// returns false. The peak is that of `played`.
     bool advanceFreely(std::span<const double> wanted, std::span<const double> played, double playedPeak,
                        double mostMeasure) noexcept
     {

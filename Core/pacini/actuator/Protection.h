@@ -48,10 +48,13 @@ struct ProtectionMeter
 /// - What a limiter cuts from one side of an uneven waveform is a mean again. A filter behind the bounds would break
 ///   them, so the second high-pass runs around them: the integral of the output is taken from the limiter's input.
 ///   It stays bounded (the limiter keeps signs, so the output always leads it back), and with it the sum of all
-///   output: the mean over any time T falls as 1/T.
+///   output: the mean over any time T falls as 1/T, down to what the rounding to float takes, below 1e-7 of the drive.
 ///
 /// Both high-passes lie at a tenth of the range's low end, at most 5 Hz: together 0.09 dB at that low end. Signals 1 dB
 /// below all limits pass otherwise unchanged. Input beyond +-100 counts as +-100.
+///
+/// Mostly no limit is near and the gain is 1. Whole groups of frames (see FrameGroup) for which bounds on the level,
+/// the mass and the heat prove this leave out gain and guards, which would do nothing, and yield the same numbers.
 class Protection
 {
 public:
