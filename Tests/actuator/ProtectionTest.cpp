@@ -13,6 +13,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -345,6 +346,64 @@ TEST_CASE("Limits may narrow while the mass moves", "[actuator][protection]")
         REQUIRE(mass.amplitude() <= std::max(1e-4, 1.04 * free));
     }
     CHECK(mass.amplitude() > 0.9e-4);
+}
+
+TEST_CASE("The protection gives the same numbers frame by frame and by the way around far limits",
+          "[actuator][protection]")
+{
+    // Swells from far below all limits to beyond them and back, so that every way is entered and left many times.
+    // Calls of 1 and 3 frames never hold a whole group of frames.
+    const double fs = 48000.0;
+    auto all = actuators();
+    all.push_back({"no limits", Profile{}});
+    all.push_back({"coil alone", withCoil(Profile{}, 0.1)});
+    for (const auto& [name, profile] : all)
+        for (const auto& [top, lookAhead] : {std::pair(3.0, 0.0), std::pair(3.0, 0.001), std::pair(0.8, 0.0003)})
+        {
+            CAPTURE(name, top, lookAhead);
+            Random random(11);
+            std::vector<float> x(96000);
+            for (std::size_t n = 0; n < x.size(); ++n)
+            {
+                const double t = static_cast<double>(n) / fs;
+                const double swell = top * std::pow(10.0, 1.75 * (std::sin(2.0 * std::numbers::pi * 0.75 * t) - 1.0));
+                x[n] = static_cast<float>(swell * (std::sin(2.0 * std::numbers::pi * profile.resonance.frequency * t) +
+                                                   0.1 * random.uniform(-1.0, 1.0)));
+            }
+            const auto run = [&, lead = lookAhead](std::size_t blockFrames)
+            {
+                auto protection = prepared(protectionParams(profile, Seconds(lead)), fs);
+                ProtectionMeter whole;
+                std::vector<float> y(x.size());
+                std::size_t i = 0;
+                for (const std::size_t end : {std::size_t(47001), x.size()}) // new parameters come within a group
+                {
+                    for (; i < end; i += std::min(blockFrames, end - i))
+                    {
+                        const auto n = std::min(blockFrames, end - i);
+                        protection.process(std::span(x).subspan(i, n), std::span(y).subspan(i, n));
+                        const ProtectionMeter& meter = protection.meter();
+                        whole.gainReduction = std::max(whole.gainReduction, meter.gainReduction);
+                        whole.level |= meter.level;
+                        whole.excursion |= meter.excursion;
+                        whole.heat |= meter.heat;
+                        whole.guardedFrames += meter.guardedFrames;
+                    }
+                    protection.setParams(protectionParams(profile, Seconds(lead)));
+                }
+                return std::pair(y, whole);
+            };
+            const auto [each, eachMeter] = run(1);
+            CHECK((eachMeter.gainReduction > 3.0 || top < 1.0));
+            CHECK((eachMeter.heat || name != "coil alone"));
+            for (const std::size_t blockFrames : {std::size_t(3), std::size_t(10), std::size_t(64), std::size_t(500)})
+            {
+                CAPTURE(blockFrames);
+                const auto [y, meter] = run(blockFrames);
+                CHECK(y == each);
+                CHECK(meter == eachMeter);
+            }
+        }
 }
 
 TEST_CASE("Below its limits the protection is two first-order high-passes and a delay", "[actuator][protection]")

@@ -2,7 +2,9 @@
 
 // Keeps the moving mass of an actuator within its travel, whatever the drive.
 
+#include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>
+#include <pacini/actuator/MovingMass.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace pacini
 {
@@ -41,8 +44,10 @@ struct ExcursionCoefficients
     static constexpr std::size_t maxSubsteps = 64;
 
     FixedVector<HeldStep, maxSubsteps> steps; ///< to points in the hold, the last one to the next sample
+    GroupStep group;                          ///< the last of them for all frames of a group
     double energyLimit = 0.0;                 ///< m^2
     double driveLimit = 0.0;
+    double groupReach = 0.0; ///< m by which the amplitude grows at most within a group, at a drive of 1
 };
 
 /// The set of states {energy <= r^2} with r a little below the travel. The displacement between the points of a hold
@@ -65,6 +70,10 @@ struct ExcursionCoefficients
     while (static_cast<double>(guard.steps.size()) < count)
         guard.steps.pushBack(guard.steps.back().then(substep));
 
+    guard.group = designGroupStep(guard.steps.back());
+    // d/dt sqrt(x^2 + v^2) <= w0 excursion |drive|
+    guard.groupReach = static_cast<double>(groupFrames) * angle * excursion;
+
     const double rise = 0.5 * (angle / count) * (angle / count);
     const double largestRatio = std::max(0.0, 0.05 / rise - 1.0);
     const double ratio = std::min(excursion / travel, largestRatio);
@@ -84,7 +93,13 @@ struct ExcursionCoefficients
 class ExcursionGuard
 {
 public:
-    void design(const ExcursionParams& params, double fs) noexcept { guard = designExcursionGuard(params, fs); }
+    void design(const ExcursionParams& params, double fs) noexcept
+    {
+        guard = designExcursionGuard(params, fs);
+        wantedLimit = 0.99 * guard.energyLimit;
+        moved.beginGroup();
+        asWanted.beginGroup();
+    }
     void reset() noexcept
     {
         moved = {};
@@ -95,8 +110,8 @@ public:
     /// square of a gain must undo. The 1 % keeps a steady tone that the gain holds clear of the guard.
     double measure(double wanted) noexcept
     {
-        asWanted = guard.steps.back().next(asWanted, wanted);
-        return asWanted.energy() / (0.99 * guard.energyLimit);
+        asWanted.follow(wanted, guard.steps.back(), guard.group);
+        return asWanted.state().energy() / wantedLimit;
     }
 
     /// The drive nearest to `wanted` that is admissible now; it never changes its sign.
@@ -105,10 +120,10 @@ public:
         double drive = clampTo(wanted, -guard.driveLimit, guard.driveLimit);
         for (const HeldStep& step : guard.steps)
         {
-            if (step.next(moved, drive).energy() <= guard.energyLimit)
+            if (step.next(moved.state(), drive).energy() <= guard.energyLimit)
                 continue;
             // a drive^2 + 2 b drive = room, solved for the root on the side of `drive`
-            const ResonatorState free = step.free(moved);
+            const ResonatorState free = step.free(moved.state());
             const double sign = drive < 0.0 ? -1.0 : 1.0;
             const double a = step.driveToX * step.driveToX + step.driveToV * step.driveToV;
             const double b = sign * (free.displacement * step.driveToX + free.velocity * step.driveToV);
@@ -123,23 +138,53 @@ public:
     }
 
     /// Lets the mass move under the drive that is really played.
-    void advance(double drive) noexcept { moved = guard.steps.back().next(moved, drive); }
+    void advance(double drive) noexcept { moved.follow(drive, guard.steps.back(), guard.group); }
+
+    /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
+    /// measure exceeds `mostMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
+    /// returns false. The peaks are those of the two spans.
+    bool advanceFreely(std::span<const double> wanted, double wantedPeak, std::span<const double> played,
+                       double playedPeak, double mostMeasure) noexcept
+    {
+        if (!(playedPeak <= guard.driveLimit))
+            return false;
+        MovingMass wantedMass = asWanted;
+        MovingMass playedMass = moved;
+        double wantedMost = wantedMass.state().energy();
+        double playedMost = playedMass.state().energy();
+        for (std::size_t i = 0; i < wanted.size(); i += groupFrames)
+        {
+            wantedMass.followGroup(groupAt(wanted, i), guard.group);
+            playedMass.followGroup(groupAt(played, i), guard.group);
+            wantedMost = std::max(wantedMost, wantedMass.state().energy());
+            playedMost = std::max(playedMost, playedMass.state().energy());
+        }
+        const auto stays = [this](double most, double peak, double limit)
+        {
+            constexpr double safely = 1.0 - 1e-6; // far more than rounding
+            return std::sqrt(most) + guard.groupReach * peak <= safely * std::sqrt(limit);
+        };
+        if (!stays(wantedMost, wantedPeak, mostMeasure * wantedLimit) ||
+            !stays(playedMost, playedPeak, guard.energyLimit))
+            return false;
+        asWanted = wantedMass;
+        moved = playedMass;
+        return true;
+    }
 
     void flush() noexcept
     {
-        for (ResonatorState* state : {&moved, &asWanted})
-        {
-            flushTiny(state->displacement);
-            flushTiny(state->velocity);
-        }
+        moved.flush();
+        asWanted.flush();
     }
 
     [[nodiscard]] const ExcursionCoefficients& coefficients() const noexcept { return guard; }
 
 private:
     ExcursionCoefficients guard = designExcursionGuard({}, ProcessSpec{}.sampleRate);
-    ResonatorState moved;
-    ResonatorState asWanted;
+    double wantedLimit = 0.99 * guard.energyLimit; // m^2
+    MovingMass moved;
+    MovingMass asWanted;
 };
 
 } // namespace pacini

@@ -19,11 +19,14 @@ struct SoftKnee
     /// The gain for a level whose square is `ratioSquared` times that of the limit.
     [[nodiscard]] static double gain(double ratioSquared) noexcept
     {
+        if (ratioSquared >= endSquared)
+            return 1.0 / std::sqrt(ratioSquared);
         const double over = 10.0 * std::log10(ratioSquared) + width / 2.0;
-        const double reduction = over < 0.0 ? 0.0 : over < width ? over * over / (2.0 * width) : over - width / 2.0;
+        const double reduction = over < 0.0 ? 0.0 : over * over / (2.0 * width);
         return std::pow(10.0, -reduction / 20.0);
     }
-    static constexpr double startSquared = 0.7943282347242815; ///< -1 dB: below it the gain is 1
+    static constexpr double startSquared = 0.7943282347242815; ///< -1 dB: up to it the gain is 1
+    static constexpr double endSquared = 1.2589254117941673;   ///< +1 dB
 };
 
 /// The gain that brings a level down to its limit. It holds the highest level for the time of `hold` (half a period of
@@ -52,17 +55,29 @@ public:
     void reset() noexcept
     {
         std::fill(window.begin(), window.end(), 1.0);
-        held = lowest;
+        held = SoftKnee::startSquared;
         left = 0;
         target = 1.0;
         position = 0;
         sum = static_cast<double>(length);
         lap = 0.0;
+        unity = length;
     }
+
+    /// Whether the gain is 1, and stays so as long as no level exceeds SoftKnee::startSquared.
+    [[nodiscard]] bool idle() const noexcept { return unity >= length; }
 
     /// Takes the square of the level over its limit and returns the gain, between 0 and 1.
     double tick(double ratioSquared) noexcept
     {
+        if (idle())
+        {
+            if (!(ratioSquared > SoftKnee::startSquared))
+                return 1.0;
+            position = 0;
+            sum = static_cast<double>(length);
+            lap = 0.0;
+        }
         const double before = held;
         if (ratioSquared > held)
             held = ratioSquared;
@@ -71,9 +86,10 @@ public:
         else if (left > 0)
             --left;
         else
-            held = std::max({ratioSquared, held * decay, lowest});
+            held = std::max({ratioSquared, held * decay, SoftKnee::startSquared}); // all lower ones are the same
         if (held != before)
             target = held > SoftKnee::startSquared ? SoftKnee::gain(held) : 1.0;
+        unity = target == 1.0 ? unity + 1 : 0;
 
         sum += target - window[position];
         window[position] = target;
@@ -88,14 +104,14 @@ public:
     }
 
 private:
-    static constexpr double lowest = 1e-20;
     static constexpr double samePeak = 0.9; // the next peak of the same tone, met by other samples
 
     std::size_t hold = 1;
     double decay = 1.0;
-    double held = lowest;
+    double held = SoftKnee::startSquared;
     std::size_t left = 0;
     double target = 1.0;
+    std::size_t unity = 1; // how often the target has been 1 of late
     std::size_t length = 1;
     std::size_t position = 0;
     double sum = 1.0;

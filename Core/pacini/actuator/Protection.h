@@ -4,14 +4,20 @@
 
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/ExcursionGuard.h>
+#include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/ProtectionParams.h>
+#include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -42,10 +48,13 @@ struct ProtectionMeter
 /// - What a limiter cuts from one side of an uneven waveform is a mean again. A filter behind the bounds would break
 ///   them, so the second high-pass runs around them: the integral of the output is taken from the limiter's input.
 ///   It stays bounded (the limiter keeps signs, so the output always leads it back), and with it the sum of all
-///   output: the mean over any time T falls as 1/T.
+///   output: the mean over any time T falls as 1/T, down to what the rounding to float takes, below 1e-7 of the drive.
 ///
 /// Both high-passes lie at a tenth of the range's low end, at most 5 Hz: together 0.09 dB at that low end. Signals 1 dB
 /// below all limits pass otherwise unchanged. Input beyond +-100 counts as +-100.
+///
+/// Mostly no limit is near and the gain is 1. Whole groups of frames (see FrameGroup) for which bounds on the level,
+/// the mass and the heat prove this leave out gain and guards, which would do nothing, and yield the same numbers.
 class Protection
 {
 public:
@@ -58,7 +67,7 @@ public:
     {
         fs = spec.sampleRate;
         const auto frames = static_cast<std::size_t>(maxLookAhead * fs);
-        delay.assign(frames + 1, 0.0);
+        line.assign(frames + lineRoom, 0.0);
         gain.prepare(frames);
         setParams(current);
         reset();
@@ -79,14 +88,17 @@ public:
             excursion.design(*params.excursion, fs);
         if (params.heat)
             heat.design(*params.heat, fs);
-        leak = -std::expm1(-2.0 * std::numbers::pi * std::min(0.1 * low, 5.0) / fs);
+        const double leak = -std::expm1(-2.0 * std::numbers::pi * std::min(0.1 * low, 5.0) / fs);
+        inputMean.design(leak);
+        outputMean.design(leak);
+        framesIntoGroup = 0;
         const double seconds = clampTo(params.lookAhead.value, 0.0, maxLookAhead);
-        const auto frames = std::min(static_cast<std::size_t>(seconds * fs), delay.size() - 1);
+        const auto frames = std::min(static_cast<std::size_t>(seconds * fs), line.size() - lineRoom);
         if (frames != latency)
         {
             latency = frames;
-            std::fill(delay.begin(), delay.end(), 0.0);
-            position = 0;
+            std::fill(line.begin(), line.end(), 0.0);
+            position = latency;
         }
         gain.design(latency, static_cast<std::size_t>(clampTo(0.5 / low, 0.002, 0.05) * fs), fs);
     }
@@ -96,9 +108,11 @@ public:
         excursion.reset();
         heat.reset();
         gain.reset();
-        std::fill(delay.begin(), delay.end(), 0.0);
-        position = 0;
-        inputMean = outputSum = 0.0;
+        std::fill(line.begin(), line.end(), 0.0);
+        position = latency;
+        inputMean.reset();
+        outputMean.reset();
+        framesIntoGroup = 0;
         smallestGain = 1.0;
         lastCall = {};
     }
@@ -110,15 +124,19 @@ public:
         if (smallestGain == 1.0)
             lastCall = {};
         smallestGain = 1.0;
-        const auto flush = [this]
+        for (std::size_t begin = 0; begin < in.size();)
         {
-            excursion.flush();
-            heat.flush();
-            flushTiny(inputMean);
-            flushTiny(outputSum);
-        };
-        forEachSample(
-            in, out, [this](double x) { return tick(x); }, flush);
+            const std::size_t frames = stretch(in.size() - begin);
+            const std::span<float> to = out.subspan(begin, frames);
+            const double peak = take(in.subspan(begin, frames));
+            if (!(wholeGroups(frames) && gain.idle() && passFreely(to, peak)))
+                for (std::size_t i = 0; i < frames; ++i)
+                    to[i] = tick(line[position + i], line[position + i - latency]);
+            position += frames;
+            framesIntoGroup = (framesIntoGroup + frames) % groupFrames;
+            begin += frames;
+            flush();
+        }
         lastCall.gainReduction = -20.0 * std::log10(smallestGain);
     }
 
@@ -131,19 +149,122 @@ public:
     [[nodiscard]] double gainReduction() const noexcept { return lastCall.gainReduction; }
 
 private:
-    double tick(double x) noexcept
-    {
-        const double input = clampTo(x, -largestInput, largestInput) - inputMean;
-        inputMean += leak * input;
+    static constexpr std::size_t longestStretch = flushInterval;
+    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< so much that the line seldom has to be moved
 
+    /// How many of the next `frames` are taken at once: whole groups wherever that is possible.
+    [[nodiscard]] std::size_t stretch(std::size_t frames) const noexcept
+    {
+        if (framesIntoGroup > 0)
+            return std::min(frames, groupFrames - framesIntoGroup);
+        return frames < groupFrames ? frames : std::min(frames - frames % groupFrames, longestStretch);
+    }
+
+    [[nodiscard]] bool wholeGroups(std::size_t frames) const noexcept
+    {
+        return framesIntoGroup == 0 && frames % groupFrames == 0;
+    }
+
+    /// Writes the input without its mean to the end of the delay line and returns its peak.
+    double take(std::span<const float> in) noexcept
+    {
+        if (position + in.size() > line.size())
+        {
+            std::copy(line.end() - static_cast<std::ptrdiff_t>(line.size() - position + latency),
+                      line.begin() + static_cast<std::ptrdiff_t>(position), line.begin());
+            position = latency;
+        }
+        const std::span<double> to = std::span(line).subspan(position, in.size());
+        for (std::size_t i = 0; i < in.size(); ++i)
+            to[i] = static_cast<double>(bearable(in[i]));
+        if (wholeGroups(in.size()))
+            return highPass(to, to, inputMean);
+        double peak = 0.0;
+        for (double& x : to)
+        {
+            const double input = x - inputMean.value();
+            inputMean.follow(x);
+            x = input;
+            peak = std::max(peak, std::abs(x));
+        }
+        return peak;
+    }
+
+    /// The sample within +-largestInput, 0 if it is not finite; in float, where four fit a vector.
+    [[nodiscard]] static float bearable(float sample) noexcept
+    {
+        constexpr auto largest = static_cast<float>(largestInput);
+        return std::abs(sample) <= std::numeric_limits<float>::max() ? clampTo(sample, -largest, largest) : 0.0f;
+    }
+
+    /// Takes out of whole groups what `mean` follows; returns the peak of what remains.
+    static double highPass(std::span<const double> in, std::span<double> out, RunningMean& mean) noexcept
+    {
+        RunningMean follower = mean;
+        double before = follower.value();
+        double peak = 0.0;
+        for (std::size_t i = 0; i < in.size(); i += groupFrames)
+        {
+            const FrameGroup x = groupAt(in, i);
+            const FrameGroup means = follower.followGroup(x);
+            double groupPeak = 0.0;
+            for (std::size_t k = 0; k < groupFrames; ++k)
+            {
+                out[i + k] = x[k] - (k == 0 ? before : means[k - 1]);
+                groupPeak = std::max(groupPeak, std::abs(out[i + k]));
+            }
+            peak = std::max(peak, groupPeak);
+            before = means.back();
+        }
+        mean = follower;
+        return peak;
+    }
+
+    /// Does what tick() would do, for whole groups of frames in which no limit comes near; the gain is idle. Returns
+    /// false and changes nothing where that is not certain.
+    bool passFreely(std::span<float> out, double wantedPeak) noexcept
+    {
+        if (wantedPeak * wantedPeak > SoftKnee::startSquared)
+            return false;
+        const auto wanted = std::span<const double>(line).subspan(position, out.size());
+        std::array<double, longestStretch> room;
+        const auto played = std::span(room).first(out.size());
+        RunningMean mean = outputMean;
+        const double peak =
+            highPass(std::span<const double>(line).subspan(position - latency, out.size()), played, mean);
+        if (peak > 1.0)
+            return false;
+        for (double& drive : played)
+            drive = inward(drive);
+
+        const CoilHeat heatBefore = heat;
+        if (current.heat && !heat.advanceFreely(wanted, played, peak, SoftKnee::startSquared))
+            return false;
+        if (current.excursion && !excursion.advanceFreely(wanted, wantedPeak, played, peak, SoftKnee::startSquared))
+        {
+            heat = heatBefore;
+            return false;
+        }
+        outputMean = mean;
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = static_cast<float>(played[i]);
+        return true;
+    }
+
+    /// One frame: from the input and the delayed input to the drive.
+    float tick(double input, double delayed) noexcept
+    {
         const double g = gain.tick(measure(input));
         smallestGain = std::min(smallestGain, g);
-
-        delay[position] = input;
-        position = position == latency ? 0 : position + 1;
-        const double drive = bounded(g * (delay[position] - outputSum));
-        outputSum += leak * drive;
-        return drive;
+        const double free = delayed - outputMean.value();
+        const double drive = bounded(g * free);
+        outputMean.follow(delayed + (drive - free));
+        const double played = inward(drive);
+        if (current.heat)
+            heat.advance(played);
+        if (current.excursion)
+            excursion.advance(played);
+        return static_cast<float>(played);
     }
 
     /// The square of the worst level over its limit.
@@ -166,7 +287,7 @@ private:
         return worst;
     }
 
-    /// The drive nearest to `wanted` within all bounds, as the float that leaves the block.
+    /// The drive nearest to `wanted` within all bounds.
     double bounded(double wanted) noexcept
     {
         double drive = clampTo(wanted, -1.0, 1.0);
@@ -176,15 +297,22 @@ private:
             drive = excursion.admit(drive);
         if (std::abs(wanted - drive) > 1e-6)
             ++lastCall.guardedFrames;
-        float sample = toSample(drive);
-        if (std::abs(static_cast<double>(sample)) > std::abs(drive))
-            sample = std::nextafter(sample, 0.0f);
-        drive = static_cast<double>(sample);
-        if (current.heat)
-            heat.advance(drive);
-        if (current.excursion)
-            excursion.advance(drive);
         return drive;
+    }
+
+    /// toSample() towards 0, for a drive within +-1: without the digits that a float does not have.
+    [[nodiscard]] static double inward(double drive) noexcept
+    {
+        constexpr std::uint64_t kept = ~((std::uint64_t(1) << 29) - 1);
+        return std::abs(drive) >= 1e-30 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(drive) & kept) : 0.0;
+    }
+
+    void flush() noexcept
+    {
+        excursion.flush();
+        heat.flush();
+        inputMean.flush();
+        outputMean.flush();
     }
 
     double fs = ProcessSpec{}.sampleRate;
@@ -192,12 +320,12 @@ private:
     ExcursionGuard excursion;
     CoilHeat heat;
     LimiterGain gain;
-    std::vector<double> delay = std::vector<double>(1, 0.0);
+    std::vector<double> line = std::vector<double>(lineRoom, 0.0); ///< the input without its mean, oldest first
     std::size_t latency = 0;
-    std::size_t position = 0;
-    double leak = 0.0;
-    double inputMean = 0.0;
-    double outputSum = 0.0; ///< times leak
+    std::size_t position = 0; ///< of the next input in the line
+    std::size_t framesIntoGroup = 0;
+    RunningMean inputMean;
+    RunningMean outputMean; ///< leak times the sum of the output
     double smallestGain = 1.0;
     ProtectionMeter lastCall;
 };
