@@ -370,9 +370,10 @@ TEST_CASE("The protection gives the same numbers frame by frame and by the way a
                 x[n] = static_cast<float>(swell * (std::sin(2.0 * std::numbers::pi * profile.resonance.frequency * t) +
                                                    0.1 * random.uniform(-1.0, 1.0)));
             }
-            const auto run = [&, lead = lookAhead](std::size_t blockFrames)
+            const ProtectionParams params = protectionParams(profile, Seconds(lookAhead));
+            const auto run = [&](std::size_t blockFrames)
             {
-                auto protection = prepared(protectionParams(profile, Seconds(lead)), fs);
+                auto protection = prepared(params, fs);
                 ProtectionMeter whole;
                 std::vector<float> y(x.size());
                 std::size_t i = 0;
@@ -389,7 +390,7 @@ TEST_CASE("The protection gives the same numbers frame by frame and by the way a
                         whole.heat |= meter.heat;
                         whole.guardedFrames += meter.guardedFrames;
                     }
-                    protection.setParams(protectionParams(profile, Seconds(lead)));
+                    protection.setParams(params);
                 }
                 return std::pair(y, whole);
             };
