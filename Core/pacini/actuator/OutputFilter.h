@@ -7,6 +7,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/filters/BiquadCascade.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -27,9 +28,10 @@ struct Flattening
 /// equaliser of its own it is flat already, a motor has no resonance that a filter could undo, and nothing is known of
 /// a plain signal.
 /// Below its resonance a mass on a spring falls by 12 dB an octave, so that the boost moves the resonance down by
-/// maxBoost / 12 octaves, with a q of 1. The inverse also starts and stops the mass sooner: it is the pre-emphasis and
-/// the active braking of slow actuators, exact for the model. Half of the boost (in dB) is taken as headroom; the
-/// protection takes the rest where a sound needs all of it.
+/// maxBoost / 12 octaves, with a q of 1 (of an eighth for very sharp ones, which would become too weak). The inverse
+/// also starts and stops the mass sooner: it is the pre-emphasis and the active braking of slow actuators, exact for
+/// the model. Half of the boost (in dB) is taken as headroom; the protection takes the rest where a sound needs all of
+/// it.
 [[nodiscard]] inline std::optional<Flattening> flatteningOf(const Profile& profile, Decibels maxBoost) noexcept
 {
     if (!profile.equalizer.empty() || profile.technology == Technology::erm || profile.technology == Technology::pcm ||
@@ -39,7 +41,7 @@ struct Flattening
     Flattening result;
     result.actuator = profile.body ? loadedResonance(*profile.body, profile.resonance) : profile.resonance;
     result.octaves = boost / 12.0;
-    result.target = {result.actuator.frequency * std::exp2(-result.octaves), 1.0};
+    result.target = {result.actuator.frequency * std::exp2(-result.octaves), std::max(1.0, result.actuator.q / 8.0)};
     result.gain = Decibels(-0.5 * boost).gain();
     return result;
 }
