@@ -89,7 +89,7 @@ void addEqualizer(Lines& lines, const EqualizerSections& sections)
     {
         const EqualizerSection& section = sections[i];
         lines.start(i == 0 ? "equalizer" : "");
-        const auto kind = profileFields::nameOf(section.type, profileFields::equalizerTypes);
+        const auto kind = nameOf(section.type, profileFields::equalizerTypes);
         lines.add(
             fmt::format("equalizer[{}]", i),
             section.type == EqualizerType::highpass
@@ -183,11 +183,11 @@ std::string profileText(const std::string& file, const Profile& profile)
     lines.add("polyphony", voicesText(profile.polyphony));
     lines.add("frequencyMapping",
               fmt::format("other frequencies: {}",
-                          profileFields::nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
+                          nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
     addDrive(lines, profile.drive);
     addEqualizer(lines, profile.equalizer);
     lines.start("events");
-    const auto shape = profileFields::nameOf(profile.transient.shape, profileFields::transientShapes);
+    const auto shape = nameOf(profile.transient.shape, profileFields::transientShapes);
     lines.add("transient", profile.transient.shape == TransientShape::adaptive
                                ? std::string(shape)
                                : fmt::format("{:.3g} {} cycles at {:.4g} Hz", profile.transient.cycles, shape,
