@@ -7,6 +7,7 @@
 #include "cli/PlotCommand.h"
 #include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
+#include "cli/measure/MeasureCommand.h"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<ConvertCommand>());
     commands.push_back(std::make_unique<ProfilesCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
+    commands.push_back(std::make_unique<MeasureCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
     commands.push_back(std::make_unique<BenchCommand>());
     return commands;

@@ -148,7 +148,7 @@ std::string tableText(std::span<const TableColumn> columns)
     const auto row = [&](auto&& cell)
     {
         for (std::size_t i = 0; i < columns.size(); ++i)
-            text += (i == 0 ? "" : ",") + cell(columns[i]);
+            fmt::format_to(std::back_inserter(text), "{}{}", i == 0 ? "" : ",", cell(columns[i]));
         text += '\n';
     };
     row([](const TableColumn& column) { return column.name; });

@@ -8,7 +8,6 @@
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 
-
 #include <pacini/linearize/EqualizerFit.h>
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -74,7 +74,8 @@ std::string sectionText(const EqualizerSection& section)
     const auto type = nameOf(section.type, profileFields::equalizerTypes);
     if (section.type == EqualizerType::highpass)
         return fmt::format("  {:<9} {:>8.2f} Hz   order {}", type, section.frequency, section.order);
-    return fmt::format("  {:<9} {:>8.2f} Hz  {:>+7.2f} dB   Q {:.3f}", type, section.frequency, section.gain, section.q);
+    return fmt::format("  {:<9} {:>8.2f} Hz  {:>+7.2f} dB   Q {:.3f}", type, section.frequency, section.gain,
+                       section.q);
 }
 
 /// One fit is over sooner than what disturbs a clock, so the middle of a few counts; they all give the same.
@@ -101,9 +102,7 @@ Exit fail(Console& console, const std::string& file, const Error& error, Exit ex
 CLI::App* FitStep::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("fit", "Find the equaliser that makes a measured response flat");
-    command
-        ->add_option("response", input,
-                     "CSV of frequency (Hz) and level (dB), or a profile with a measurement")
+    command->add_option("response", input, "CSV of frequency (Hz) and level (dB), or a profile with a measurement")
         ->required()
         ->type_name("RESPONSE");
     command->add_option("-o,--output", output, "Profile to write with the equaliser in it")->type_name("PROFILE.json");
@@ -201,7 +200,8 @@ Exit FitStep::run(Console& console)
             for (MeasuredPoint& point : profile->measurement->points)
                 point.linearised.reset();
         }
-        std::erase_if(profile->sources, [](const ProfileSource& source) { return source.path.starts_with("equalizer"); });
+        std::erase_if(profile->sources,
+                      [](const ProfileSource& source) { return source.path.starts_with("equalizer"); });
         profile->sources.push_back(
             {"equalizer", fmt::format("fitted to {} at {:.0f} Hz: {:.2f} dB RMS, {:.2f} dB at most from its mean",
                                       measured ? "the measurement" : std::filesystem::path(input).filename().string(),
@@ -236,9 +236,9 @@ Exit FitStep::run(Console& console)
                           .dump(2, ' ', false, Json::error_handler_t::replace));
         return Exit::ok;
     }
-    std::string text = fmt::format("{}: {} section{} at {:.0f} Hz leave {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms",
-                                   printable(input), fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate,
-                                   fit->rms, fit->max, milliseconds);
+    std::string text =
+        fmt::format("{}: {} section{} at {:.0f} Hz leave {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms", printable(input),
+                    fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate, fit->rms, fit->max, milliseconds);
     for (const EqualizerSection& section : fit->sections)
         text += "\n" + sectionText(section);
     console.print(text);

@@ -5,11 +5,11 @@
 #include "cli/Console.h"
 #include "io/SweepFile.h"
 
-#include <CLI/CLI.hpp>
-
 #include <pacini/linearize/FittingAverage.h>
 #include <pacini/linearize/MeasurementParams.h>
 #include <pacini/linearize/SweepMeasurement.h>
+
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -48,11 +48,5 @@ struct AnalysedRecordings
 
 /// Analyses all recordings. Warnings and errors have gone to the console when nothing comes back.
 [[nodiscard]] std::optional<AnalysedRecordings> analyseRecordings(Console& console, const RecordingOptions& options);
-
-/// The description that belongs to the sound of a sweep: the same name as `.json`.
-[[nodiscard]] std::filesystem::path sweepFileBeside(const std::filesystem::path& sound);
-
-/// The option of `pacini measure` that sets the parameter at `path`, such as `--low` for `lowFrequency`.
-[[nodiscard]] std::string optionFor(const std::string& path);
 
 } // namespace pacini::cli

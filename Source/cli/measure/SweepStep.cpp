@@ -3,7 +3,7 @@
 #include "cli/Checks.h"
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
-#include "cli/measure/Recording.h"
+#include "cli/measure/SweepNames.h"
 #include "io/AudioWriter.h"
 #include "io/SweepFile.h"
 
@@ -37,12 +37,12 @@ void equalize(std::vector<float>& signal, const EqualizerSections& sections, dou
     }
 }
 
-float peakOf(const std::vector<float>& signal)
+double peakOf(const std::vector<float>& signal)
 {
     float peak = 0.0f;
     for (const float v : signal)
         peak = std::max(peak, std::abs(v));
-    return peak;
+    return static_cast<double>(peak);
 }
 } // namespace
 
@@ -56,7 +56,8 @@ CLI::App* SweepStep::declare(CLI::App& app)
         ->type_name("OUT");
     command->add_option("--low", low, "Frequency at which sweeps start, Hz")->capture_default_str()->type_name("HZ");
     command->add_option("--high", high, "Frequency at which sweeps end, Hz")->capture_default_str()->type_name("HZ");
-    command->add_option("--duration", duration, "Length of a sweep, s; twice as long gives 3 dB more distance from noise")
+    command
+        ->add_option("--duration", duration, "Length of a sweep, s; twice as long gives 3 dB more distance from noise")
         ->capture_default_str()
         ->type_name("S");
     command->add_option("--pause", pause, "Silence between sweeps, s; longer than the actuator rings")
@@ -115,7 +116,7 @@ Exit SweepStep::run(Console& console)
         equalize(*signal, actuator->equalizer, params.sampleRate);
         file.equalizedFor = actuator->name;
     }
-    if (const float peak = peakOf(*signal); peak > 1.0f)
+    if (const double peak = peakOf(*signal); peak > 1.0)
         return fail(profile, {ErrorCode::invalidArgument, "--levels",
                               fmt::format("are too high: the equaliser raises the sweep {:.1f} dB beyond full scale; "
                                           "take {:.0f} dB or less",
