@@ -112,6 +112,25 @@ void addBody(Lines& lines, const BodyParams& body)
     lines.add("body.skinStiffness", fmt::format("{:.3g} N/m", body.skinStiffness));
     lines.add("body.skinDamping", fmt::format("{:.3g} N s/m", body.skinDamping));
 }
+
+void addMeasurement(Lines& lines, const ProfileMeasurement& measurement)
+{
+    lines.start("measured");
+    lines.add("measurement", fmt::format("{} fitting{}", measurement.fittings, measurement.fittings == 1 ? "" : "s"));
+    lines.add("measurement", fmt::format("{:.3g} dB below full drive", -measurement.drive));
+    if (measurement.distortionDrive)
+        lines.add("measurement", fmt::format("10 % distortion at {:.3g} dB", *measurement.distortionDrive));
+    if (!measurement.linearity)
+        return;
+    const Linearity& linearity = *measurement.linearity;
+    lines.start("");
+    lines.add("measurement", fmt::format("{} within \u00b1{:.3g} dB from {:.0f} to {:.0f} Hz",
+                                         linearity.passed() ? "flat" : "not flat", linearity.tolerance,
+                                         linearity.lowFrequency, linearity.highFrequency));
+    lines.add("measurement", fmt::format("mean deviation {:.2f} dB", linearity.meanDeviation));
+    lines.add("measurement",
+              fmt::format("worst {:+.2f} dB at {:.0f} Hz", linearity.worstDeviation, linearity.worstFrequency));
+}
 } // namespace
 
 const char* technologyText(Technology technology)
@@ -182,8 +201,7 @@ std::string profileText(const std::string& file, const Profile& profile)
     lines.start("voices");
     lines.add("polyphony", voicesText(profile.polyphony));
     lines.add("frequencyMapping",
-              fmt::format("other frequencies: {}",
-                          nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
+              fmt::format("other frequencies: {}", nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
     addDrive(lines, profile.drive);
     addEqualizer(lines, profile.equalizer);
     lines.start("events");
@@ -194,6 +212,8 @@ std::string profileText(const std::string& file, const Profile& profile)
                                              profile.transient.frequency));
     if (profile.body)
         addBody(lines, *profile.body);
+    if (profile.measurement)
+        addMeasurement(lines, *profile.measurement);
     lines.end();
     return lines.text;
 }
