@@ -263,7 +263,7 @@ Exit EncodeCommand::run(Console& console)
              });
 
     if (json)
-        console.print(jsonReport(tasks, toJson));
+        console.print(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
     else
         console.note(summary(tasks));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;

@@ -77,11 +77,7 @@ inline double errorInDecibels(double energy, double whole)
 /// How long a play with its changes lasts, s; `duration` of the clip.
 inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, double duration)
 {
-    PlayClock clock(timeline.changes.size());
-    clock.change(0.0, 1.0 / play.stretch, 1.0);
-    for (const DecoderChange& change : timeline.changes)
-        clock.change(change.time, 1.0 / change.stretch, 1.0);
-    return clock.frameOf(duration);
+    return makeClock(play.stretch, timeline).frameOf(duration);
 }
 
 /// Takes the voices that an actuator does not have from the plays that need them least, and says so.

@@ -167,8 +167,11 @@ public:
     /// Scheduled changes still to come are dropped. Clamped like the parameters. [audio]
     void change(double transposition, double stretch) noexcept
     {
-        // The clock holds no change ahead of what is computed but scheduled ones.
+        // The clock holds no change ahead of what is computed but scheduled ones. Events are begun where the output is,
+        // the envelope is read back by the leveller's delay.
         clock.dropAfter(static_cast<double>(innerFrame));
+        clock.forgetBefore(static_cast<double>(position - delayFrames) / static_cast<double>(ratio) -
+                           static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
         addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio),
                            static_cast<double>(innerFrame)),
                   transposition, stretch);
@@ -374,27 +377,32 @@ private:
         } while (readyFrom == ready.size());
     }
 
-    /// One hop of sinusoids and noise, cut where the clock changes.
+    /// One hop of sinusoids and noise.
     void sumSources() noexcept
     {
-        if (!clock.untouched())
-        {
-            // Events are begun where the output is, the envelope is read back by the leveller's delay.
-            const double heard = static_cast<double>(position - delayFrames) / static_cast<double>(ratio);
-            clock.forgetBefore(heard -
-                               static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
-        }
+        forPieces(static_cast<double>(innerFrame),
+                  [this](std::size_t done, std::size_t n, const ClockPiece& piece)
+                  {
+                      carriers.follow(piece);
+                      noise.follow(piece);
+                      carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+                      noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+                  });
+    }
+
+    /// Calls use(done, n, piece) for the n frames of a hop from `done` on that lie in one piece of the clock; the hop
+    /// begins at inner frame `from`.
+    template <typename Use>
+    void forPieces(double from, Use&& use) noexcept
+    {
         for (std::size_t done = 0; done < hopFrames;)
         {
-            const double at = static_cast<double>(innerFrame) + static_cast<double>(done);
+            const double at = from + static_cast<double>(done);
             const double left = std::ceil(clock.nextChange(at) - at);
             const std::size_t n = left < static_cast<double>(hopFrames - done)
                                       ? std::max<std::size_t>(1, static_cast<std::size_t>(left))
                                       : hopFrames - done;
-            carriers.follow(clock.pieceAt(at));
-            noise.follow(clock.pieceAt(at));
-            carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
-            noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+            use(done, n, clock.pieceAt(at));
             done += n;
         }
     }
@@ -403,8 +411,13 @@ private:
     std::span<const double> envelopeOf(std::size_t pass) noexcept
     {
         const auto first = static_cast<double>(innerFrame) - static_cast<double>(leveller->delayOfPass(pass));
-        for (std::size_t n = 0; n < hopFrames; ++n)
-            wantedEnvelope[n] = params.gain * envelopeReaders[pass].at(clock.clipAt(first + static_cast<double>(n)));
+        forPieces(first,
+                  [&](std::size_t done, std::size_t n, const ClockPiece& piece)
+                  {
+                      for (std::size_t i = done; i < done + n; ++i)
+                          wantedEnvelope[i] =
+                              params.gain * envelopeReaders[pass].at(piece.clipAt(first + static_cast<double>(i)));
+                  });
         return wantedEnvelope;
     }
 
