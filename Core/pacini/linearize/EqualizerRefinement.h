@@ -233,6 +233,14 @@ private:
         return section.type == EqualizerType::peak ? std::min(mostCut, problem.maxBoost + overlap) : mostCut;
     }
 
+    /// Both corners of a shelf have its q: where one stands on a resonance, the other would ring outside of the range.
+    /// Up to this q a wide peak undoes that.
+    [[nodiscard]] double highestQ(const EqualizerSection& section) const
+    {
+        constexpr double ofShelves = 4.0;
+        return section.type == EqualizerType::peak ? problem.highestQ : std::min(ofShelves, problem.highestQ);
+    }
+
     /// Takes parameters that are at a bound and would go beyond out of the equations.
     void holdAtBounds(const EqualizerSections& sections)
     {
@@ -251,7 +259,7 @@ private:
             const EqualizerSection& section = sections[k];
             check(3 * k, section.frequency, problem.lowestFrequency, problem.highestFrequency);
             check(3 * k + 1, section.gain, -mostCut, highestGain(section));
-            check(3 * k + 2, section.q, problem.lowestQ, problem.highestQ);
+            check(3 * k + 2, section.q, problem.lowestQ, highestQ(section));
         }
     }
 
@@ -268,7 +276,7 @@ private:
             section.frequency = std::clamp(section.frequency * std::exp(moveOf(0, 0.7)), problem.lowestFrequency,
                                            problem.highestFrequency);
             section.gain = std::clamp(section.gain + moveOf(1, 20.0), -mostCut, highestGain(section));
-            section.q = std::clamp(section.q * std::exp(moveOf(2, 1.0)), problem.lowestQ, problem.highestQ);
+            section.q = std::clamp(section.q * std::exp(moveOf(2, 1.0)), problem.lowestQ, highestQ(section));
         }
         to.level += step[step.size() - 1];
         return to;
