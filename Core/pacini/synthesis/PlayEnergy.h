@@ -4,7 +4,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/BiquadCascade.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PlayTimeline.h>
 #include <pacini/synthesis/TransientPulse.h>

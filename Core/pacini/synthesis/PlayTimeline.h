@@ -3,7 +3,7 @@
 // What happens to one play of a scene over time: levels and delays towards every actuator, changes of pitch and speed.
 
 #include <pacini/clip/Curve.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/Scene.h>
 
