@@ -3,6 +3,8 @@
 #include "cli/Command.h"
 #include "cli/measure/Recording.h"
 
+#include <pacini/linearize/ResponseFeatures.h>
+
 #include <string>
 
 namespace pacini::cli
@@ -16,6 +18,8 @@ public:
     Exit run(Console& console) override;
 
 private:
+    Result<std::size_t> drawPicture(const AnalysedRecordings& analysed, const ResponseFeatures& features) const;
+
     RecordingOptions options;
     std::string output;
     std::string base;

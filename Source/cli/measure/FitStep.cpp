@@ -8,6 +8,7 @@
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 
+#include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
 
 #include <fmt/format.h>
@@ -90,6 +91,28 @@ double medianMilliseconds(const FrequencyResponse& response, const EqualizerFitP
     }
     std::nth_element(times.begin(), times.begin() + 2, times.end());
     return times[2];
+}
+
+Json costJson(const EqualizerCost& cost)
+{
+    Json json{{"powerChange", cost.powerChange},
+              {"excursionChange", cost.excursionChange},
+              {"excursionFrequency", cost.excursionFrequency}};
+    if (cost.power)
+        json["power"] = *cost.power;
+    if (cost.excursion)
+        json["excursion"] = *cost.excursion;
+    return json;
+}
+
+std::string costText(const EqualizerCost& cost)
+{
+    return fmt::format("  costs {:+.1f} dB of power in the coil on pink noise{}, {:+.1f} dB of largest excursion, at "
+                       "{:.0f} Hz{}",
+                       cost.powerChange, cost.power ? fmt::format(" ({:.3g} W at full drive)", *cost.power) : "",
+                       cost.excursionChange, cost.excursionFrequency,
+                       cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion)
+                                      : "");
 }
 
 Exit fail(Console& console, const std::string& file, const Error& error, Exit exit = Exit::failed)
@@ -216,24 +239,21 @@ Exit FitStep::run(Console& console)
         if (const auto written = drawPicture(response, *fit, params); !written)
             return fail(console, picture, written.error());
 
+    std::optional<EqualizerCost> cost;
+    if (profile)
+        cost = equalizerCost(*profile, fit->sections, rate);
     if (json)
     {
         Json list = Json::array();
         for (const EqualizerSection& section : fit->sections)
             list.push_back(sectionJson(section));
-        console.print(Json{{"input", input},
-                           {"sections", std::move(list)},
-                           {"rms", fit->rms},
-                           {"max", fit->max},
-                           {"level", fit->level},
-                           {"boost", fit->boost},
-                           {"points", fit->points},
-                           {"dropouts", fit->dropouts},
-                           {"reachedGoal", fit->reachedGoal},
-                           {"rate", rate},
-                           {"iterations", fit->iterations},
-                           {"milliseconds", milliseconds}}
-                          .dump(2, ' ', false, Json::error_handler_t::replace));
+        Json report{{"input", input},        {"sections", std::move(list)},   {"rms", fit->rms},
+                    {"max", fit->max},       {"level", fit->level},           {"boost", fit->boost},
+                    {"points", fit->points}, {"dropouts", fit->dropouts},     {"reachedGoal", fit->reachedGoal},
+                    {"rate", rate},          {"iterations", fit->iterations}, {"milliseconds", milliseconds}};
+        if (cost)
+            report["cost"] = costJson(*cost);
+        console.print(report.dump(2, ' ', false, Json::error_handler_t::replace));
         return Exit::ok;
     }
     std::string text =
@@ -241,6 +261,8 @@ Exit FitStep::run(Console& console)
                     fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate, fit->rms, fit->max, milliseconds);
     for (const EqualizerSection& section : fit->sections)
         text += "\n" + sectionText(section);
+    if (cost)
+        text += "\n" + costText(*cost);
     console.print(text);
     if (!output.empty())
         console.note(fmt::format("written to {}", printable(output)));

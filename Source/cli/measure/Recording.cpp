@@ -135,6 +135,11 @@ void RecordingOptions::declare(CLI::App& command)
         ->type_name("N");
 }
 
+double RecordingOptions::smoothingOctaves() const
+{
+    return *fraction(smoothing);
+}
+
 std::optional<AnalysedRecordings> analyseRecordings(Console& console, const RecordingOptions& options)
 {
     const std::string description = sweepPath(options.sweep).string();
@@ -146,7 +151,7 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     }
     AnalysedRecordings result{std::move(*sweep), {}, {}};
     MeasurementParams params;
-    params.smoothing = *fraction(options.smoothing);
+    params.smoothing = options.smoothingOctaves();
     params.points = static_cast<std::size_t>(options.points);
     params.fullScale.clear();
     for (const std::string& value : options.fullScale)
@@ -186,8 +191,9 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     }
     result.average = std::move(*average);
     for (const FittingOutlier& outlier : result.average.outliers)
-        console.warning(options.recordings[outlier.fitting],
-                        fmt::format("is left out of the average: {}", outlierText(outlier)));
+        console.warning(options.recordings[outlier.index],
+                        fmt::format("is unlike the others and left out of the average: {:+.1f} dB, shape {:.1f} dB off",
+                                    outlier.offset, outlier.shape));
     return result;
 }
 

@@ -30,6 +30,7 @@ struct RecordingOptions
     int points = 240;
 
     void declare(CLI::App& command);
+    [[nodiscard]] double smoothingOctaves() const;
 };
 
 /// One analysed recording.
