@@ -61,12 +61,13 @@ struct Bench
 [[nodiscard]] Bench synthesisBench();
 [[nodiscard]] Bench scenesBench();
 [[nodiscard]] Bench actuatorsBench();
+[[nodiscard]] Bench equalizersBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(),  filtersBench(), analysisBench(), synthesisBench(), oscillatorsBench(),
-            scenesBench(),   actuatorsBench(), bodyBench(),    stagesBench(),   methodsBench()};
+    return {simplifyBench(), decimateBench(),  filtersBench(),    analysisBench(), synthesisBench(), oscillatorsBench(),
+            scenesBench(),   actuatorsBench(), equalizersBench(), bodyBench(),     stagesBench(),    methodsBench()};
 }
 
 } // namespace pacini::cli
