@@ -141,6 +141,7 @@ private:
 {
     constexpr std::size_t side = 3;
     constexpr std::size_t mostSteps = 8;
+    constexpr std::size_t bandReach = 4; // points from a band's centre to its end
     if (measured.empty())
         return std::nullopt;
     const auto points = detail::withoutLoners(measured);
@@ -173,9 +174,28 @@ private:
         solution = std::move(*best);
         splits = std::move(bestSplits);
     }
+    // Bands across a step hold some of both delays and would bend the line.
+    std::vector<DelayPoint> clear;
+    std::vector<std::size_t> clearSplits(splits.size(), 0);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        const auto across = [&](std::size_t split)
+        {
+            return i + bandReach >= split && i < split + bandReach;
+        };
+        if (std::any_of(splits.begin(), splits.end(), across))
+            continue;
+        for (std::size_t k = 0; k < splits.size(); ++k)
+            clearSplits[k] += i < splits[k] ? 1u : 0u;
+        clear.push_back(points[i]);
+    }
+    const bool enough = clear.size() > side * (splits.size() + 1);
+    const detail::DriftEquations clearEquations(clear);
+    if (enough)
+        solution = clearEquations.solve(clearSplits);
     DelayFit fit;
     fit.drift = solution.values(0);
-    fit.residual = std::sqrt(solution.error / equations.totalWeight());
+    fit.residual = std::sqrt(solution.error / (enough ? clearEquations : equations).totalWeight());
     for (std::size_t k = 0; k < splits.size(); ++k)
         fit.steps.push_back({0.5 * (points[splits[k] - 1].time + points[splits[k]].time),
                              solution.values(static_cast<Eigen::Index>(k + 1))});

@@ -193,14 +193,14 @@ private:
         const double turn = 2.0 * std::numbers::pi * centre;
         // Independent values in the band: its width, about half of its centre, times the length of the response.
         const double values = std::max(1.0, 0.4 * f * seconds);
-        const double phaseDeviation =
-            std::sqrt(std::max(0.0, 1.0 - coherence * coherence) / (2.0 * values)) / coherence;
+        const double noise = std::sqrt(std::max(0.0, 1.0 - coherence * coherence) / (2.0 * values)) / coherence;
         return {lag - std::arg(std::complex<double>(correlation.re[best], correlation.im[best])) / turn,
-                phaseDeviation / turn + leastDeviation};
+                std::hypot(noise, leastDeviation) / turn};
     }
 
     static constexpr double leastCoherence = 0.6;
-    static constexpr double leastDeviation = 1e-7; // s: no clock is steadier
+    // rad: windows of different lengths and nonlinearities turn the phase by so little at any frequency.
+    static constexpr double leastDeviation = 0.003;
 
     double fs;
     ArrivedSweep origin;

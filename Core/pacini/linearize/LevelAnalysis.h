@@ -95,7 +95,8 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
                                                  int highestOrder, double highest)
 {
     const double rate = recording.rate;
-    const ExponentialSweep sweep = measuringSweep(params).byClock(timing.drift);
+    const ExponentialSweep played = measuringSweep(params);
+    const ExponentialSweep sweep = played.byClock(timing.drift);
     const double growth = sweep.growthTime();
     const double reverberation = std::min(0.9 * params.pause, 2.0);
     const double before = std::min(0.2, 0.5 * params.pause);
@@ -115,10 +116,11 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
     {
         if (s.levelIndex != levelIndex)
             continue;
-        const double arrival = timing.arrival(static_cast<double>(s.startFrame) / params.sampleRate) * rate;
+        const double playTime = static_cast<double>(s.startFrame) / params.sampleRate;
+        const double arrival = timing.arrival(playTime) * rate;
         const auto first = static_cast<std::ptrdiff_t>(std::floor(arrival - before * rate));
         const double delay = arrival - static_cast<double>(first);
-        deconvolver.emplace(delayedSweep(sweep, rate, delay), size);
+        deconvolver.emplace(heardSweep(played, playTime, timing, rate, first, std::min(frames, size)), size);
         for (std::size_t c = 0; c < channels; ++c)
         {
             const auto recorded = deconvolver->spectrum(recording.part(c, first, std::min(frames, size)));

@@ -200,8 +200,8 @@ inline void warnOfSnr(const FrequencyResponse& snr, double wanted, std::vector<M
     const auto position = locateSweeps(coarse, schedule, params.sampleRate, measuringSweep(params));
     // Noise reaches 2; a response that is spread over more than the ringing of anything asks for a closer look.
     constexpr double leastContrast = 5.0;
-    if (position.contrast < leastContrast || position.focus < 0.5)
-        if (const auto likelier = likelierRate(coarse, schedule, params, recordingRate, position.contrast))
+    if (position.contrast < leastContrast || position.focus < 0.7)
+        if (const auto likelier = likelierRate(coarse, schedule, params, recordingRate, position))
             return Error{ErrorCode::invalidData, "sampleRate",
                          "is " + std::to_string(rate) + " Hz, but the recording was made at " +
                              std::to_string(std::lround(*likelier)) + " Hz"};

@@ -21,8 +21,8 @@ namespace pacini
 struct SweepPosition
 {
     double start = 0.0;    ///< s of the recording at which playback began, to about 10 ms
-    double contrast = 0.0; ///< power at the strongest sweep over its median at all other times
-    double focus = 0.0;    ///< part of the power within 2.5 s of the strongest sweep that lies within 0.15 s of it
+    double contrast = 0.0; ///< power at the strongest sweep over the power of most other times
+    double focus = 0.0;    ///< part of the power within 2.5 s of the strongest sweep that lies within 25 ms of it
 };
 
 namespace detail
@@ -35,6 +35,7 @@ struct ArrivalStrength
 {
     double first = 0.0;
     std::vector<double> strength;
+    std::size_t channels = 0; ///< that are not constant
 
     /// The largest value from `from` to `to` s.
     [[nodiscard]] double largest(double from, double to) const noexcept
@@ -55,12 +56,16 @@ struct ArrivalStrength
     const std::size_t size = nextFastFftSize(recording.frames() + played.size());
     Deconvolver deconvolver(played, size);
     const auto before = static_cast<std::ptrdiff_t>(played.size());
-    ArrivalStrength arrivals{-static_cast<double>(before) / recording.rate, {}};
+    ArrivalStrength arrivals{-static_cast<double>(before) / recording.rate, {}, 0};
     const double seconds = static_cast<double>(played.size() + recording.frames()) / recording.rate;
     const auto cells = static_cast<std::size_t>(seconds / locatorStep);
     std::vector<double> power(cells, 0.0);
     for (std::size_t c = 0; c < recording.channels.size(); ++c)
     {
+        const auto [least, most] = std::minmax_element(recording.channels[c].begin(), recording.channels[c].end());
+        if (!(*most - *least > 1e-9))
+            continue; // the rounding of a constant has any shape
+        ++arrivals.channels;
         const auto h =
             deconvolver.signal(deconvolver.response(deconvolver.spectrum(recording.part(c, 0, recording.frames()))));
         std::vector<double> cell(cells + 1, 0.0);
@@ -79,8 +84,13 @@ struct ArrivalStrength
             sum += cell[i] - (i >= width ? cell[i - width] : 0.0);
             windowed[i >= width / 2 ? i - width / 2 : 0] = std::max(0.0, sum);
         }
-        std::vector<double> sorted(windowed);
-        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(cells / 2);
+        // Where a sweep would not be in the recording as a whole, the noise is weaker too.
+        const auto whole =
+            windowed.begin() +
+            static_cast<std::ptrdiff_t>(std::min(
+                cells / 3, static_cast<std::size_t>(static_cast<double>(before) / recording.rate / locatorStep)));
+        std::vector<double> sorted(whole, windowed.end() - (whole - windowed.begin()));
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
         std::nth_element(sorted.begin(), middle, sorted.end());
         const double largest = *std::max_element(windowed.begin(), windowed.end());
         // Digital silence between the sweeps would count for infinitely much.
@@ -118,7 +128,6 @@ inline constexpr double widestDrift = 0.005;
     {
         const double start = arrivals.first + static_cast<double>(i) * detail::locatorStep - firstStart;
         double score = Decibels(schedule.sweeps.front().level).gain() * arrivals.strength[i];
-        // No start can win whose first sweep is not there at all: saves the rest of the sum.
         for (std::size_t k = 1; k < schedule.sweeps.size(); ++k)
         {
             const double at = start + startOf(schedule.sweeps[k]);
@@ -134,17 +143,14 @@ inline constexpr double widestDrift = 0.005;
     const double at = found.start + startOf(loudest);
     const double tolerance = 0.02 + widestDrift * (startOf(loudest) - firstStart);
     const double peak = arrivals.largest(at - tolerance, at + tolerance);
-    std::vector<double> sorted(arrivals.strength);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    found.contrast = peak * peak / std::max(*middle * *middle, 1e-300);
+    found.contrast = peak * peak / static_cast<double>(std::max<std::size_t>(1, arrivals.channels));
     double near = 0.0;
     double wide = 0.0;
     for (std::size_t i = 0; i < arrivals.strength.size(); ++i)
     {
         const double distance = std::abs(arrivals.first + static_cast<double>(i) * detail::locatorStep - at);
         const double power = arrivals.strength[i] * arrivals.strength[i];
-        near += distance < 0.15 ? power : 0.0;
+        near += distance < 0.025 ? power : 0.0;
         wide += distance < 2.5 ? power : 0.0;
     }
     found.focus = wide > 0.0 ? near / wide : 0.0;
@@ -152,22 +158,23 @@ inline constexpr double widestDrift = 0.005;
 }
 
 /// The sample rate, Hz, at which a recording seems to have been made when that is not the one it is said to have: the
-/// usual rate under which the sweeps stand out four times as much. Nothing when the stated one is as good.
+/// usual rate under which the sweeps stand out four times as much and short. Nothing when the stated one is as good.
 [[nodiscard]] inline std::optional<double> likelierRate(const RecordedChannels& recording,
                                                         const SweepSchedule& schedule, const SweepParams& params,
-                                                        double statedRate, double contrast)
+                                                        double statedRate, const SweepPosition& stated)
 {
     std::optional<double> likelier;
-    double best = 4.0 * contrast;
+    double best = 4.0 * stated.contrast;
+    const double played = static_cast<double>(schedule.frames) / params.sampleRate - 2.0 * params.pause;
     for (const double rate :
          {8000.0, 16000.0, 22050.0, 32000.0, 44100.0, 48000.0, 88200.0, 96000.0, 176400.0, 192000.0})
     {
         const double stretch = rate / statedRate;
-        if (stretch < 0.4 || stretch > 2.5 || std::abs(stretch - 1.0) < widestDrift)
+        if (stretch < 0.4 || stretch * played > recording.seconds() || std::abs(stretch - 1.0) < widestDrift)
             continue;
         const auto position = locateSweeps(recording, schedule, params.sampleRate,
                                            measuringSweep(params).byClock(stretch - 1.0), stretch);
-        if (position.contrast > best)
+        if (position.contrast > best && position.focus > 0.5)
         {
             best = position.contrast;
             likelier = rate;

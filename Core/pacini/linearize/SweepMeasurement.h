@@ -66,7 +66,8 @@ struct SweepMeasurement
     std::vector<LevelMeasurement> levels; ///< in the order of SweepParams::levels
     std::size_t main = 0;                 ///< the loudest of them, which noise disturbs least
     ImpulseResponse impulseResponse;      ///< of the loudest
-    double latency = 0.0;                 ///< s from playback to where the impulse response is strongest
+    double latency = 0.0;           ///< s of the recorder from its first frame to the arrival of what was played first:
+                                    ///< where the impulse response is strongest
     std::optional<double> driftPpm; ///< above 0 when the recorder's clock is the faster one; unknown after a single
                                     ///< sweep without markers
     std::vector<MeasurementWarning> warnings;

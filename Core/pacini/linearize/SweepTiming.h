@@ -30,7 +30,30 @@ struct SweepTiming
             time += playTime >= step.time ? step.seconds : 0.0;
         return time;
     }
+
+    /// The inverse of arrival(): what was being played when what is heard at `time` s of the recording left.
+    [[nodiscard]] double playTime(double time) const noexcept
+    {
+        double played = (time - start) / (1.0 + drift);
+        for (const DelayStep& step : steps)
+            if (played - step.seconds / (1.0 + drift) >= step.time)
+                played -= step.seconds / (1.0 + drift);
+        return played;
+    }
 };
+
+/// `count` samples at `rate` Hz, from sample `first` of the recording on, of a sweep played at `playTime` s as the
+/// recorder must have heard it: by its clock, and without the frames that it lost. What is missing on both sides of a
+/// deconvolution does no harm.
+[[nodiscard]] inline std::vector<double> heardSweep(const ExponentialSweep& sweep, double playTime,
+                                                    const SweepTiming& timing, double rate, std::ptrdiff_t first,
+                                                    std::size_t count)
+{
+    std::vector<double> x(count);
+    for (std::size_t n = 0; n < count; ++n)
+        x[n] = sweep.at(timing.playTime(static_cast<double>(first + static_cast<std::ptrdiff_t>(n)) / rate) - playTime);
+    return x;
+}
 
 /// Refines a position to the arrival of each sweep: all sweeps and the second marker are compared with the first
 /// marker, or with the first sweep when there are no markers. Twice, since a sweep that is taken apart by a wrong clock
