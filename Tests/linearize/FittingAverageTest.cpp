@@ -1,8 +1,9 @@
-#include "linearize/SimulatedRig.h"
 #include "support/Catch.h"
 
+#include <pacini/foundation/Gaussian.h>
 #include <pacini/linearize/FittingAverage.h>
 #include <pacini/linearize/ResponseSmoothing.h>
+#include <pacini/linearize/SimulatedRig.h>
 
 #include <cmath>
 #include <limits>
@@ -15,10 +16,10 @@ namespace
 /// usual, the level by up to 0.5 dB, each point with 0.2 dB of noise.
 std::vector<FrequencyResponse> wearers(std::size_t count, std::uint64_t seed, BodyPoint point)
 {
-    test::RigParams rig;
+    RigParams rig;
     rig.point = point;
     Random random(seed);
-    test::Gaussian noise(seed + 99);
+    Gaussian noise(seed + 99);
     std::vector<FrequencyResponse> out;
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -28,7 +29,7 @@ std::vector<FrequencyResponse> wearers(std::size_t count, std::uint64_t seed, Bo
         worn.contact = random.uniform(-0.5, 0.5);
         FrequencyResponse response{logSpaced(20.0, 1000.0, 120), {}};
         for (const double f : response.frequency)
-            response.level.push_back(test::rigLevel(worn, f) + 0.2 * noise.next());
+            response.level.push_back(rigLevel(worn, f) + 0.2 * noise.next());
         out.push_back(response);
     }
     return out;

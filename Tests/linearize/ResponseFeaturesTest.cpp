@@ -1,8 +1,9 @@
-#include "linearize/SimulatedRig.h"
 #include "support/Catch.h"
 
+#include <pacini/foundation/Gaussian.h>
 #include <pacini/linearize/ResponseFeatures.h>
 #include <pacini/linearize/ResponseSmoothing.h>
+#include <pacini/linearize/SimulatedRig.h>
 
 #include <cmath>
 #include <complex>
@@ -22,7 +23,7 @@ double secondOrder(double f, double f0, double q, int slope)
 /// A fine response, smoothed by brute force, with noise.
 FrequencyResponse resonant(double f0, double q, int slope, double octaves, double noise, std::uint64_t seed)
 {
-    test::Gaussian gaussian(seed);
+    Gaussian gaussian(seed);
     FrequencyResponse response{logSpaced(10.0, 1500.0, 240), {}};
     for (const double f : response.frequency)
     {

@@ -1,8 +1,8 @@
 #include "cli/Wearer.h"
-#include "linearize/SimulatedRig.h"
 #include "support/Catch.h"
 
 #include <pacini/linearize/ResponseFeatures.h>
+#include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ SweepMeasurement measuredOn(const RigParams& rig, const SweepParams& sweep)
     MeasurementParams measurement;
     measurement.fullScale = {rig.range};
     measurement.harmonics = 1;
-    const auto recording = record(makeSweepSignal(sweep).value(), rig);
+    const auto recording = recordOnRig(makeSweepSignal(sweep).value(), rig);
     const auto result = analyseSweeps(recording, rig.sampleRate, sweep, measurement);
     REQUIRE(result.ok());
     return result.value();
@@ -70,7 +70,7 @@ TEST_CASE("Resonance, Q and burst times of measured actuators are those of their
         rig.resonance = {50.0 * std::exp2(random.uniform(0.0, 2.0)), 1.0 * std::pow(35.0, random.uniform())};
         // Next to no skin: the mass hangs in a device that moves freely.
         rig.body = BodyParams{1.0, 0.012, 0.04, 1e9, 10.0, 1e-6, 0.0, 0.0};
-        rig.range = 2.0 * gravity * std::max(1.0, rig.resonance.q);
+        rig.range = 2.0 * standardGravity * std::max(1.0, rig.resonance.q);
         rig.noiseDensity = rig.range * 50e-6;
         CAPTURE(rig.resonance.frequency, rig.resonance.q);
         const double share = 0.012 / 0.040001;

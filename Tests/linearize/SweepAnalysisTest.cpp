@@ -1,6 +1,7 @@
-#include "linearize/SimulatedRig.h"
+#include "linearize/DroppedFrames.h"
 #include "support/Catch.h"
 
+#include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ MeasurementParams calibratedFor(const RigParams& rig)
 
 SweepMeasurement measured(const SweepParams& sweep, const RigParams& rig)
 {
-    const auto recording = record(makeSweepSignal(sweep).value(), rig);
+    const auto recording = recordOnRig(makeSweepSignal(sweep).value(), rig);
     const auto result = analyseSweeps(recording, rig.sampleRate, sweep, calibratedFor(rig));
     REQUIRE(result.ok());
     return result.value();
@@ -154,7 +155,7 @@ TEST_CASE("Frames that got lost are named with the time and their number", "[lin
     {
         CAPTURE(lost);
         RigParams rig;
-        auto recording = record(makeSweepSignal(sweepOf(20.0)).value(), rig);
+        auto recording = recordOnRig(makeSweepSignal(sweepOf(20.0)).value(), rig);
         drop(recording, 48000 * 12, lost);
         const auto result = analyseSweeps(recording, rig.sampleRate, sweepOf(20.0), calibratedFor(rig)).value();
         REQUIRE(count(result, MeasurementDefect::droppedFrames) == 1);
@@ -170,7 +171,7 @@ TEST_CASE("A recording that clips at the sensor's own limit is named with its ch
 {
     RigParams rig = electrical();
     const auto sweep = sweepOf(5.0);
-    auto recording = record(makeSweepSignal(sweep).value(), rig);
+    auto recording = recordOnRig(makeSweepSignal(sweep).value(), rig);
     CHECK(count(analyseSweeps(recording, 48000.0, sweep, calibratedFor(rig)).value(), MeasurementDefect::clipping) ==
           0);
     for (float& v : recording[0]) // peaks of 0.126
@@ -186,7 +187,7 @@ TEST_CASE("A channel that is silent, noise or the drive itself is named", "[line
     rig.axes = 1;
     const auto sweep = sweepOf(5.0);
     const auto signal = makeSweepSignal(sweep).value();
-    auto recording = record(signal, rig);
+    auto recording = recordOnRig(signal, rig);
     recording.resize(2);
     const auto analysed = [&](std::vector<float> second)
     {
@@ -232,7 +233,7 @@ TEST_CASE("Recordings that cannot be analysed are refused with a place and a rea
 {
     RigParams rig = electrical();
     const auto sweep = sweepOf(2.0);
-    const auto good = record(makeSweepSignal(sweep).value(), rig);
+    const auto good = recordOnRig(makeSweepSignal(sweep).value(), rig);
     const auto failure = [&](const std::vector<std::vector<float>>& recording, double rate = 48000.0)
     {
         const auto result = analyseSweeps(recording, rate, sweep, calibratedFor(rig));
@@ -276,7 +277,7 @@ TEST_CASE("Recordings that cannot be analysed are refused with a place and a rea
     CHECK(failure(good, 2000.0).where == "sampleRate");
 
     rig.driftPpm = 2500.0;
-    const auto apart = failure(record(makeSweepSignal(sweep).value(), rig));
+    const auto apart = failure(recordOnRig(makeSweepSignal(sweep).value(), rig));
     CHECK(apart.where == "clock");
     CHECK(apart.message.find("2500 ppm") != std::string::npos);
 
@@ -333,7 +334,7 @@ TEST_CASE("A recording at another rate than the playback gives the same response
     auto played = sweep;
     played.sampleRate = 96000.0;
     rig.sampleRate = 96000.0;
-    const auto recording = record(makeSweepSignal(played).value(), rig);
+    const auto recording = recordOnRig(makeSweepSignal(played).value(), rig);
     const auto result = analyseSweeps(recording, 96000.0, sweep, calibratedFor(rig)).value();
     for (std::size_t i = 0; i < result.response().size(); ++i)
         if (result.response().frequency[i] > 20.0 && result.response().frequency[i] < 1300.0)

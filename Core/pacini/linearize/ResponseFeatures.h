@@ -46,22 +46,6 @@ struct ResponseFeatures
     FrequencyRange felt;  ///< around the strongest frequency, above the threshold
 };
 
-namespace detail
-{
-/// Linear in dB over log frequency; the end values outside.
-[[nodiscard]] inline double levelAt(const FrequencyResponse& response, double f) noexcept
-{
-    const auto above = std::upper_bound(response.frequency.begin(), response.frequency.end(), f);
-    if (above == response.frequency.begin())
-        return response.level.front();
-    if (above == response.frequency.end())
-        return response.level.back();
-    const auto i = static_cast<std::size_t>(above - response.frequency.begin());
-    const double part = std::log(f / response.frequency[i - 1]) / std::log(*above / response.frequency[i - 1]);
-    return response.level[i - 1] + part * (response.level[i] - response.level[i - 1]);
-}
-} // namespace detail
-
 /// Derives the features of `response`. Errors: those of fitResonance(), and those of the threshold with `threshold.`
 /// before their path.
 [[nodiscard]] inline Result<ResponseFeatures> responseFeatures(const FrequencyResponse& response,
@@ -101,7 +85,7 @@ namespace detail
 
     const auto margin = [&](std::size_t i)
     {
-        return response.level[i] - (params.threshold ? detail::levelAt(*params.threshold, response.frequency[i]) : 0.0);
+        return response.level[i] - (params.threshold ? levelAt(*params.threshold, response.frequency[i]) : 0.0);
     };
     std::size_t strongest = 0;
     for (std::size_t i = 1; i < response.size(); ++i)

@@ -1,7 +1,10 @@
 #include "cli/measure/MeasureCommand.h"
 
+#include "cli/measure/AnalyseStep.h"
 #include "cli/measure/FitStep.h"
+#include "cli/measure/SimulateStep.h"
 #include "cli/measure/SweepStep.h"
+#include "cli/measure/VerifyStep.h"
 
 namespace pacini::cli
 {
@@ -9,7 +12,10 @@ namespace pacini::cli
 MeasureCommand::MeasureCommand()
 {
     steps.push_back(std::make_unique<SweepStep>());
+    steps.push_back(std::make_unique<AnalyseStep>());
     steps.push_back(std::make_unique<FitStep>());
+    steps.push_back(std::make_unique<VerifyStep>());
+    steps.push_back(std::make_unique<SimulateStep>());
 }
 
 CLI::App* MeasureCommand::declare(CLI::App& app)

@@ -5,6 +5,7 @@
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
 
+#include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
 
 #include <fmt/format.h>
@@ -20,8 +21,6 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double standardGravity = 9.80665; // m/s^2
-
 std::optional<double> number(std::string_view text)
 {
     double value = 0.0;

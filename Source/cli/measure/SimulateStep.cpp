@@ -19,7 +19,6 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double gravity = 9.80665; // m/s^2
 constexpr double sensorRange = 5.0; // g, of the ADXL325
 
 /// rec.wav for wearer 3 of 14 is rec-03.wav.
@@ -113,8 +112,8 @@ Exit SimulateStep::run(Console& console)
         rig.resonance = actuator->resonance;
         rig.contact = contact;
         rig.polynomial = {0.0, 1.0, 0.0, distortion};
-        rig.range = sensorRange * gravity;
-        rig.noiseDensity = noise * 1e-6 * gravity;
+        rig.range = sensorRange * standardGravity;
+        rig.noiseDensity = noise * 1e-6 * standardGravity;
         rig.bits = bits;
         rig.latency = 1e-3 * latency;
         rig.driftPpm = drift;

@@ -3,7 +3,7 @@
 // A measuring rig without one: actuator on a body, accelerometer, converters with clocks of their own.
 
 #include <pacini/actuator/BodyModel.h>
-#include <pacini/foundation/Random.h>
+#include <pacini/foundation/Gaussian.h>
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
-namespace pacini::test
+namespace pacini
 {
 
-inline constexpr double gravity = 9.81; // m/s^2
+inline constexpr double standardGravity = 9.80665; ///< m/s^2
 
 /// Like the thesis' L5 wristband with an ADXL325 on its case.
 struct RigParams
@@ -26,35 +26,23 @@ struct RigParams
     std::optional<BodyParams> body = BodyParams{1.342, 0.012, 0.04, 40000.0, 5.0, 0.01, 800.0, 2.5}; // none: 1 m/s^2
     Resonance resonance{67.0, 3.97};
     BodyPoint point = BodyPoint::device;
-    double contact = 0.0;                        // dB, a loosely worn device
-    std::vector<double> polynomial = {0.0, 1.0}; // of the amplifier, from the power 0 on
-    double range = 5.0 * gravity;                // m/s^2 at a sample of 1
-    double noiseDensity = 250e-6 * gravity;      // m/s^2 per root of Hz
-    int bits = 12;                               // 0: as fine as float
-    std::size_t axes = 3;                        // turned at random
-    double latency = 0.0123456;                  // s
-    double driftPpm = 50.0;                      // of the recorder: more frames
-    double tail = 0.5;                           // s that the recording goes on after the playback
+    double contact = 0.0;                           // dB, a loosely worn device
+    std::vector<double> polynomial = {0.0, 1.0};    // of the amplifier, from the power 0 on
+    double range = 5.0 * standardGravity;           // m/s^2 at a sample of 1
+    double noiseDensity = 250e-6 * standardGravity; // m/s^2 per root of Hz
+    int bits = 12;                                  // 0: as fine as float
+    std::size_t axes = 3;                           // turned at random
+    double latency = 0.0123456;                     // s
+    double driftPpm = 50.0;                         // of the recorder: more frames
+    double tail = 0.5;                              // s that the recording goes on after the playback
     std::uint64_t seed = 1;
     double sampleRate = 48000.0; // Hz
 };
 
-class Gaussian
+namespace detail
 {
-public:
-    explicit Gaussian(std::uint64_t seed) : random(seed) {}
-    double next()
-    {
-        const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-        return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
-    }
-
-private:
-    Random random;
-};
-
 /// x at the position of `frame` (may be fractional) of an oversampled signal: 32 taps of a sinc under (1 - u^2)^4.
-inline double between(const std::vector<double>& x, double frame)
+[[nodiscard]] inline double between(const std::vector<double>& x, double frame)
 {
     const auto middle = static_cast<std::ptrdiff_t>(std::floor(frame));
     const double fraction = frame - static_cast<double>(middle);
@@ -78,7 +66,7 @@ inline double between(const std::vector<double>& x, double frame)
 }
 
 /// A unit vector drawn at random, for the mounting of the sensor.
-inline std::array<double, 3> randomDirection(std::uint64_t seed)
+[[nodiscard]] inline std::array<double, 3> randomDirection(std::uint64_t seed)
 {
     Gaussian gaussian(seed);
     std::array<double, 3> v{gaussian.next(), gaussian.next(), gaussian.next()};
@@ -87,9 +75,10 @@ inline std::array<double, 3> randomDirection(std::uint64_t seed)
         x /= length;
     return v;
 }
+} // namespace detail
 
 /// What the rig records of `drive`, both at params.sampleRate: one channel for each axis.
-inline std::vector<std::vector<float>> record(std::span<const float> drive, const RigParams& params)
+[[nodiscard]] inline std::vector<std::vector<float>> recordOnRig(std::span<const float> drive, const RigParams& params)
 {
     std::vector<float> amplified(drive.size());
     for (std::size_t n = 0; n < drive.size(); ++n)
@@ -115,12 +104,12 @@ inline std::vector<std::vector<float>> record(std::span<const float> drive, cons
     std::vector<double> recorded(frames);
     const double contact = Decibels(params.contact).gain();
     for (std::size_t n = 0; n < frames; ++n)
-        recorded[n] = contact * between(movement, static_cast<double>(n) / stretch - delay);
+        recorded[n] = contact * detail::between(movement, static_cast<double>(n) / stretch - delay);
 
-    auto direction = randomDirection(params.seed);
+    auto direction = detail::randomDirection(params.seed);
     if (params.axes == 1)
         direction = {1.0, 0.0, 0.0};
-    const auto down = randomDirection(params.seed + 1000);
+    const auto down = detail::randomDirection(params.seed + 1000);
     const double deviation = params.noiseDensity * std::sqrt(params.sampleRate / 2.0);
     std::vector<std::vector<float>> channels(params.axes, std::vector<float>(frames));
     Gaussian noise(params.seed + 2000);
@@ -129,26 +118,18 @@ inline std::vector<std::vector<float>> record(std::span<const float> drive, cons
         for (std::size_t n = 0; n < frames; ++n)
         {
             const double a =
-                direction[c] * recorded[n] + (params.body ? gravity * down[c] : 0.0) + deviation * noise.next();
+                direction[c] * recorded[n] + (params.body ? standardGravity * down[c] : 0.0) + deviation * noise.next();
             const double sample = std::clamp(a / params.range, -1.0, 1.0);
             channels[c][n] = static_cast<float>(params.bits > 0 ? std::round(sample * steps) / steps : sample);
         }
     return channels;
 }
 
-/// `channels` without `count` frames from `frame` on, as when a buffer was lost.
-inline void drop(std::vector<std::vector<float>>& channels, std::size_t frame, std::size_t count)
-{
-    for (auto& channel : channels)
-        channel.erase(channel.begin() + static_cast<std::ptrdiff_t>(frame),
-                      channel.begin() + static_cast<std::ptrdiff_t>(frame + count));
-}
-
 /// The level, dB re 1 m/s^2 at a drive of 1, that the rig's body has by its equations of motion.
-inline double rigLevel(const RigParams& params, double f)
+[[nodiscard]] inline double rigLevel(const RigParams& params, double f)
 {
     return params.contact +
            20.0 * std::log10(std::abs(bodyFrequencyResponse(*params.body, params.resonance, Hertz(f), params.point)));
 }
 
-} // namespace pacini::test
+} // namespace pacini
