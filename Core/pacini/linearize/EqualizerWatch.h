@@ -51,13 +51,13 @@ private:
     {
         std::vector<double> frequency, warped, fixed; ///< Hz, warpedSquare(), power of the high-pass
 
-        void add(const EqualizerFitProblem& problem, double f)
+        void add(const EqualizerFitProblem& fitted, double f)
         {
-            if (f >= problem.highestGuard())
+            if (f >= fitted.highestGuard())
                 return;
             frequency.push_back(f);
-            warped.push_back(warpedSquare(f, problem.fs));
-            const double gain = problem.highpass ? Decibels(problem.fixedAt(f)).gain() : 1.0;
+            warped.push_back(warpedSquare(f, fitted.fs));
+            const double gain = fitted.highpass ? Decibels(fitted.fixedAt(f)).gain() : 1.0;
             fixed.push_back(gain * gain);
         }
     };
