@@ -44,11 +44,14 @@ struct EqualizerFitProblem
     [[nodiscard]] std::size_t allPoints() const noexcept { return warped.size(); }
     [[nodiscard]] double highestGuard() const noexcept { return 0.4999 * fs; }
 
+    /// The level of the high-pass, dB.
+    [[nodiscard]] double fixedAt(double f) const { return highpass ? equalizerLevel({*highpass}, f, fs) : 0.0; }
+
     void addFrequency(double f)
     {
         frequency.push_back(f);
         warped.push_back(warpedSquare(f, fs));
-        fixed.push_back(highpass ? equalizerLevel({*highpass}, f, fs) : 0.0);
+        fixed.push_back(fixedAt(f));
     }
     void addPoint(double f, double dB, double givenWeight)
     {

@@ -164,7 +164,7 @@ private:
     /// Raises the penalty until the limits of the boost hold; if they never do, all gains fall until they do.
     void keepLimits(EqualizerCandidate& candidate)
     {
-        constexpr double tolerance = 0.1; // dB
+        constexpr double tolerance = 0.05; // dB
         constexpr int rounds = 4;
         constexpr int steps = 12;
         double penalty = EqualizerRefinement::usualPenalty;

@@ -5,7 +5,6 @@
 #include <pacini/linearize/EqualizerFitProblem.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -13,7 +12,7 @@
 namespace pacini
 {
 
-/// Finds where the guard points of a problem are too far apart for the sections that a fit has come to, and adds more.
+/// Finds where the points of a problem are too far apart for the sections that a fit has come to, and adds guards.
 class EqualizerWatch
 {
 public:
@@ -21,20 +20,18 @@ public:
     {
         constexpr double octaves = 1.0 / 32.0;
         constexpr int reach = 112;
-        const std::array edges = {problem.frequency[0], problem.frequency[problem.points() - 1]};
-        for (std::size_t side = 0; side < edges.size(); ++side)
-            for (int i = 1; i <= reach; ++i)
-            {
-                const double f = edges[side] * std::exp2((side == 0 ? -octaves : octaves) * i);
-                if (f >= problem.highestGuard())
-                    break;
-                outside[side].frequency.push_back(f);
-                outside[side].warped.push_back(warpedSquare(f, problem.fs));
-            }
+        const std::size_t n = problem.points();
+        for (int i = 1; i <= reach; ++i)
+        {
+            below.add(problem, problem.frequency[0] * std::exp2(-octaves * i));
+            above.add(problem, problem.frequency[n - 1] * std::exp2(octaves * i));
+        }
+        for (std::size_t i = 0; i + 1 < n; ++i)
+            between.add(problem, std::sqrt(problem.frequency[i] * problem.frequency[i + 1]));
     }
 
-    /// Adds guards where the sections are sharp, at their poles and zeros, and at the highest point of each side of the
-    /// range up to 3.5 octaves away: a section is held by no measured point there.
+    /// Adds guards where the sections are sharp, at their poles and zeros, and at the highest point between the points
+    /// and of each side of the range up to 3.5 octaves away, where no measured point holds a section.
     void guard(const EqualizerSections& sections)
     {
         for (const EqualizerSection& section : sections)
@@ -45,25 +42,39 @@ public:
             if (apart != 1.0)
                 problem.addGuard(section.frequency / apart);
         }
-        for (const Side& side : outside)
-        {
-            power.assign(side.warped.size(), 1.0);
-            for (const EqualizerSection& section : sections)
-                SectionCurve(section, problem.fs).multiply(side.warped, power);
-            if (!power.empty())
-                problem.addGuard(side.frequency[static_cast<std::size_t>(std::max_element(power.begin(), power.end()) -
-                                                                         power.begin())]);
-        }
+        for (const Grid* grid : {&below, &between, &above})
+            guardHighest(*grid, sections);
     }
 
 private:
-    struct Side
+    struct Grid
     {
-        std::vector<double> frequency, warped;
+        std::vector<double> frequency, warped, fixed; ///< Hz, warpedSquare(), power of the high-pass
+
+        void add(const EqualizerFitProblem& fitted, double f)
+        {
+            if (f >= fitted.highestGuard())
+                return;
+            frequency.push_back(f);
+            warped.push_back(warpedSquare(f, fitted.fs));
+            const double gain = fitted.highpass ? Decibels(fitted.fixedAt(f)).gain() : 1.0;
+            fixed.push_back(gain * gain);
+        }
     };
 
+    void guardHighest(const Grid& grid, const EqualizerSections& sections)
+    {
+        if (grid.frequency.empty())
+            return;
+        power = grid.fixed;
+        for (const EqualizerSection& section : sections)
+            SectionCurve(section, problem.fs).multiply(grid.warped, power);
+        const auto highest = std::max_element(power.begin(), power.end()) - power.begin();
+        problem.addGuard(grid.frequency[static_cast<std::size_t>(highest)]);
+    }
+
     EqualizerFitProblem& problem;
-    std::array<Side, 2> outside;
+    Grid below, between, above;
     std::vector<double> power;
 };
 
