@@ -27,7 +27,6 @@ struct DelayFit
 {
     double drift = 0.0; ///< seconds of the recording more than one for each second of the playback
     std::vector<DelayStep> steps;
-    double residual = 0.0; ///< s, root mean square, weighted by certainty
 
     /// s by which what is played at `time` is late because of the steps.
     [[nodiscard]] double steppedAt(double time) const noexcept
@@ -67,8 +66,6 @@ public:
             delayDelay += w * points[i].delay * points[i].delay;
         }
     }
-
-    [[nodiscard]] double totalWeight() const noexcept { return weight.front(); }
 
     /// `splits`: for each step the index of the first point behind it.
     [[nodiscard]] DriftSolution solve(std::span<const std::size_t> splits) const
@@ -189,13 +186,10 @@ private:
             clearSplits[k] += i < splits[k] ? 1u : 0u;
         clear.push_back(points[i]);
     }
-    const bool enough = clear.size() > side * (splits.size() + 1);
-    const detail::DriftEquations clearEquations(clear);
-    if (enough)
-        solution = clearEquations.solve(clearSplits);
+    if (clear.size() > side * (splits.size() + 1))
+        solution = detail::DriftEquations(clear).solve(clearSplits);
     DelayFit fit;
     fit.drift = solution.values(0);
-    fit.residual = std::sqrt(solution.error / (enough ? clearEquations : equations).totalWeight());
     for (std::size_t k = 0; k < splits.size(); ++k)
         fit.steps.push_back({0.5 * (points[splits[k] - 1].time + points[splits[k]].time),
                              solution.values(static_cast<Eigen::Index>(k + 1))});

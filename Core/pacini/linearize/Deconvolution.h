@@ -20,6 +20,18 @@ namespace pacini
 /// Bins 0 .. N/2 of a real signal of N samples.
 using HalfSpectrum = SplitArray<double>;
 
+/// a b, bin by bin.
+[[nodiscard]] inline HalfSpectrum product(const HalfSpectrum& a, const HalfSpectrum& b)
+{
+    HalfSpectrum out(a.re.size());
+    for (std::size_t k = 0; k < out.re.size(); ++k)
+    {
+        out.re[k] = a.re[k] * b.re[k] - a.im[k] * b.im[k];
+        out.im[k] = a.re[k] * b.im[k] + a.im[k] * b.re[k];
+    }
+    return out;
+}
+
 /// What the inverse of a spectrum adds to |X|^2, relative to its largest value: at 1500 Hz of a sweep from 10 Hz on,
 /// where |X|^2 has fallen by 22 dB, it costs 0.0014 dB; beyond the sweep it keeps noise from being raised.
 inline constexpr double deconvolutionRegularisation = -60.0; // dB
@@ -62,16 +74,7 @@ public:
     }
 
     /// Y X* / (|X|^2 + eps) of a recording's spectrum.
-    [[nodiscard]] HalfSpectrum response(const HalfSpectrum& recorded) const
-    {
-        HalfSpectrum h(recorded.re.size());
-        for (std::size_t k = 0; k < h.re.size(); ++k)
-        {
-            h.re[k] = recorded.re[k] * inverse.re[k] - recorded.im[k] * inverse.im[k];
-            h.im[k] = recorded.re[k] * inverse.im[k] + recorded.im[k] * inverse.re[k];
-        }
-        return h;
-    }
+    [[nodiscard]] HalfSpectrum response(const HalfSpectrum& recorded) const { return product(recorded, inverse); }
 
     /// The circular signal of a spectrum.
     [[nodiscard]] std::vector<double> signal(const HalfSpectrum& spectrum)

@@ -29,26 +29,25 @@ namespace pacini
     return std::polar(2.0 / rate * std::sqrt(f / growth), -angle);
 }
 
-/// Y / X of a recording's spectrum for the endless sweep, 0 below half of its lowest frequency and above `highest` Hz.
-/// Order N of a nonlinear system lies at lag -L ln N (A. Farina, "Simultaneous measurement of impulse response and
-/// distortion with a swept-sine technique", AES 108th convention, 2000), with the amplitude that it has at N f when a
-/// sinusoid of amplitude 1 at f goes in.
-[[nodiscard]] inline HalfSpectrum endlessSweepResponse(const HalfSpectrum& recorded, const ExponentialSweep& sweep,
-                                                       double rate, double start, double highest)
+/// 1 / X of the endless sweep at all bins of a recording's spectrum, 0 below half of its lowest frequency and above
+/// `highest` Hz. Y / X has order N of a nonlinear system at lag -L ln N (A. Farina, "Simultaneous measurement of
+/// impulse response and distortion with a swept-sine technique", AES 108th convention, 2000), with the amplitude that
+/// it has at N f when a sinusoid of amplitude 1 at f goes in.
+[[nodiscard]] inline HalfSpectrum endlessSweepInverse(std::size_t bins, const ExponentialSweep& sweep, double rate,
+                                                      double start, double highest)
 {
-    const std::size_t bins = recorded.re.size();
     const double perBin = rate / static_cast<double>(2 * (bins - 1));
-    HalfSpectrum h(bins);
+    HalfSpectrum inverse(bins);
     for (std::size_t k = 0; k < bins; ++k)
     {
         const double f = static_cast<double>(k) * perBin;
         if (f < 0.5 * sweep.lowFrequency() || f > highest)
             continue;
-        const auto inverse = endlessSweepInverse(f, sweep, rate, start);
-        h.re[k] = recorded.re[k] * inverse.real() - recorded.im[k] * inverse.imag();
-        h.im[k] = recorded.re[k] * inverse.imag() + recorded.im[k] * inverse.real();
+        const auto value = endlessSweepInverse(f, sweep, rate, start);
+        inverse.re[k] = value.real();
+        inverse.im[k] = value.imag();
     }
-    return h;
+    return inverse;
 }
 
 /// Where order `order` (2 or more) lies: its arrival before the linear one, three tenths of the way to the next order

@@ -121,13 +121,14 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
         const auto first = static_cast<std::ptrdiff_t>(std::floor(arrival - before * rate));
         const double delay = arrival - static_cast<double>(first);
         deconvolver.emplace(heardSweep(played, playTime, timing, rate, first, std::min(frames, size)), size);
+        const auto endlessInverse =
+            highestOrder > 1 ? endlessSweepInverse(size / 2 + 1, sweep, rate, delay / rate, highest) : HalfSpectrum();
         for (std::size_t c = 0; c < channels; ++c)
         {
             const auto recorded = deconvolver->spectrum(recording.part(c, first, std::min(frames, size)));
             detail::addTo(linear[c], deconvolver->response(recorded), 1.0 / (gain * repeats));
             if (highestOrder > 1)
-                detail::addTo(endless[c], endlessSweepResponse(recorded, sweep, rate, delay / rate, highest),
-                              1.0 / repeats);
+                detail::addTo(endless[c], product(recorded, endlessInverse), 1.0 / repeats);
         }
     }
 

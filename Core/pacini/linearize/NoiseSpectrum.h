@@ -2,12 +2,12 @@
 
 // The noise of a recording while nothing is played.
 
-#include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitRealFft.h>
 #include <pacini/foundation/Windows.h>
 #include <pacini/linearize/RecordedChannels.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -22,8 +22,8 @@ class NoiseSpectrum
 {
 public:
     /// From the quiet times `spans` (begin and end in s of the recording) of channel `c`: P. Welch, "The use of fast
-    /// Fourier transform for the estimation of power spectra", 1967, Hann windows that overlap by half; half of a
-    /// second long, or as long as the longest span. All 0 without a span of 16 frames.
+    /// Fourier transform for the estimation of power spectra", 1967, Hann windows that overlap by half; up to
+    /// half of a second long, not longer than the longest span. All 0 without a span of 16 frames.
     NoiseSpectrum(const RecordedChannels& recording, std::size_t c, std::span<const std::pair<double, double>> spans)
         : rate(recording.rate)
     {
@@ -33,11 +33,8 @@ public:
         const auto wanted = static_cast<std::size_t>(std::min(0.5, longest) * rate);
         if (wanted < 16)
             return;
-        std::size_t size = nextFastFftSize(wanted);
-        while (size > wanted)
-            size = nextFastFftSize(size * 9 / 10) < size ? nextFastFftSize(size * 9 / 10) : size - 2;
-        SplitRealFft<double> fft(nextFastFftSize(size));
-        const std::size_t n = fft.size();
+        const std::size_t n = std::bit_floor(wanted);
+        SplitRealFft<double> fft(n);
         const auto window = hannPeriodic(n);
         double energy = 0.0;
         for (const double w : window)
@@ -48,8 +45,8 @@ public:
         std::size_t pieces = 0;
         for (const auto& [begin, end] : spans)
             for (auto first = static_cast<std::ptrdiff_t>(std::ceil(begin * rate));
-                 first + static_cast<std::ptrdiff_t>(size) <= static_cast<std::ptrdiff_t>(end * rate);
-                 first += static_cast<std::ptrdiff_t>(size / 2))
+                 first + static_cast<std::ptrdiff_t>(n) <= static_cast<std::ptrdiff_t>(end * rate);
+                 first += static_cast<std::ptrdiff_t>(n / 2))
             {
                 auto samples = recording.part(c, first, n);
                 for (std::size_t i = 0; i < n; ++i)

@@ -20,9 +20,12 @@ namespace pacini
 [[nodiscard]] inline std::string secondsText(double seconds)
 {
     const long long hundredths = std::llround(std::abs(seconds) * 100.0);
-    const std::string fraction = std::to_string(hundredths % 100);
-    return (seconds < 0.0 ? "-" : "") + std::to_string(hundredths / 100) + (fraction.size() < 2 ? ".0" : ".") +
-           fraction + " s";
+    std::string text = seconds < 0.0 ? "-" : "";
+    text += std::to_string(hundredths / 100);
+    text += hundredths % 100 < 10 ? ".0" : ".";
+    text += std::to_string(hundredths % 100);
+    text += " s";
+    return text;
 }
 
 [[nodiscard]] inline std::string channelPath(std::size_t channel)

@@ -4,10 +4,11 @@
 
 #include <pacini/linearize/LevelAnalysis.h>
 #include <pacini/linearize/RecordingChecks.h>
+#include <pacini/linearize/ResponseChecks.h>
+#include <pacini/linearize/StrongestResponse.h>
 #include <pacini/linearize/SweepLocator.h>
 #include <pacini/linearize/SweepTiming.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,140 +18,6 @@
 
 namespace pacini
 {
-
-namespace detail
-{
-/// The channels' impulse responses along the direction of most energy: the eigenvector of their 3 x 3 covariance, with
-/// the sign of its largest component.
-[[nodiscard]] inline ImpulseResponse strongestDirection(std::span<const ResponseCut> channels, double rate)
-{
-    const auto n = static_cast<Eigen::Index>(channels.size());
-    Eigen::MatrixXd covariance(n, n);
-    for (Eigen::Index a = 0; a < n; ++a)
-        for (Eigen::Index b = 0; b < n; ++b)
-        {
-            const auto& x = channels[static_cast<std::size_t>(a)].samples;
-            const auto& y = channels[static_cast<std::size_t>(b)].samples;
-            double sum = 0.0;
-            for (std::size_t i = 0; i < x.size(); ++i)
-                sum += x[i] * y[i];
-            covariance(a, b) = sum;
-        }
-    Eigen::VectorXd direction = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).eigenvectors().col(n - 1);
-    Eigen::Index largest = 0;
-    direction.cwiseAbs().maxCoeff(&largest);
-    if (direction(largest) < 0.0)
-        direction = -direction;
-    ImpulseResponse out{rate, static_cast<std::size_t>(-channels.front().firstLag), {}};
-    out.samples.assign(channels.front().samples.size(), 0.0);
-    for (Eigen::Index c = 0; c < n; ++c)
-        for (std::size_t i = 0; i < out.samples.size(); ++i)
-            out.samples[i] += direction(c) * channels[static_cast<std::size_t>(c)].samples[i];
-    return out;
-}
-
-/// The lag, s, of the largest envelope (magnitude of the analytic signal), between samples by a parabola.
-[[nodiscard]] inline double strongestLag(const ImpulseResponse& response)
-{
-    const std::size_t size = nextFastFftSize(2 * response.samples.size());
-    SplitFft<double> fft(size);
-    SplitArray<double> time(size);
-    SplitArray<double> bins(size);
-    std::copy(response.samples.begin(), response.samples.end(), time.re.begin());
-    fft.forward(time.re.data(), time.im.data(), bins.re.data(), bins.im.data());
-    for (std::size_t k = size / 2 + 1; k < size; ++k)
-        bins.re[k] = bins.im[k] = 0.0;
-    fft.inverse(bins.re.data(), bins.im.data(), time.re.data(), time.im.data());
-    const auto envelope = [&](std::size_t i)
-    {
-        return std::hypot(time.re[i], time.im[i]);
-    };
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < response.samples.size(); ++i)
-        if (envelope(i) > envelope(best))
-            best = i;
-    double fraction = 0.0;
-    if (best > 0 && best + 1 < response.samples.size())
-    {
-        const double bend = envelope(best - 1) - 2.0 * envelope(best) + envelope(best + 1);
-        if (bend < 0.0)
-            fraction = 0.5 * (envelope(best - 1) - envelope(best + 1)) / bend;
-    }
-    return (static_cast<double>(best) + fraction - static_cast<double>(response.origin)) / response.sampleRate;
-}
-
-[[nodiscard]] inline std::string hertzText(double f)
-{
-    return f < 100.0
-               ? std::to_string(std::lround(f * 10.0) / 10) + "." + std::to_string(std::lround(f * 10.0) % 10) + " Hz"
-               : std::to_string(std::lround(f)) + " Hz";
-}
-
-/// Channels with noise only, and channels that carry the drive: nothing mechanical moves at the same acceleration from
-/// the lowest to the highest frequency.
-inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepParams& params,
-                            std::vector<MeasurementWarning>& warnings)
-{
-    constexpr double octaves = 1.0 / 6.0;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-    {
-        const bool known =
-            std::any_of(warnings.begin(), warnings.end(),
-                        [&](const MeasurementWarning& warning) {
-                            return warning.code == MeasurementDefect::silentChannel && warning.where == channelPath(c);
-                        });
-        if (known)
-            continue;
-        const SmoothedPower power(channels[c].frequency, channels[c].power);
-        const SmoothedPower noise(channels[c].frequency, channels[c].noise);
-        std::vector<double> ratio;
-        double least = std::numeric_limits<double>::max();
-        double most = 0.0;
-        for (const double f : logSpaced(1.2 * params.lowFrequency, params.highFrequency / 1.2, 60))
-        {
-            const double p = power.at(f, octaves);
-            ratio.push_back(p / std::max(noise.at(f, octaves), 1e-300));
-            least = std::min(least, p);
-            most = std::max(most, p);
-        }
-        std::nth_element(ratio.begin(), ratio.begin() + 30, ratio.end());
-        if (ratio[30] < 2.0)
-            warnings.push_back({MeasurementDefect::noiseChannel, channelPath(c),
-                                "has noise but no response; check which input the sensor is connected to"});
-        else if (ratio[30] > 100.0 && most < std::pow(10.0, 0.1) * least)
-            warnings.push_back({MeasurementDefect::loopback, channelPath(c),
-                                "is flat within 1 dB: it carries the drive, not a movement"});
-    }
-}
-
-/// Where the signal stands out too little, one warning for each range.
-inline void warnOfSnr(const FrequencyResponse& snr, double wanted, std::vector<MeasurementWarning>& warnings)
-{
-    for (std::size_t i = 0; i < snr.size();)
-    {
-        if (snr.level[i] >= wanted)
-        {
-            ++i;
-            continue;
-        }
-        std::size_t end = i;
-        double least = snr.level[i];
-        for (; end < snr.size() && snr.level[end] < wanted; ++end)
-            least = std::min(least, snr.level[end]);
-        std::string range = "at every frequency";
-        if (i == 0 && end < snr.size())
-            range = "below " + hertzText(snr.frequency[end]);
-        else if (i > 0)
-            range = end == snr.size()
-                        ? "above " + hertzText(snr.frequency[i - 1])
-                        : "from " + hertzText(snr.frequency[i]) + " to " + hertzText(snr.frequency[end - 1]);
-        warnings.push_back({MeasurementDefect::lowSnr, range,
-                            "the signal is down to " + std::to_string(std::lround(least)) +
-                                " dB over the noise; drive harder, or play longer or more sweeps"});
-        i = end;
-    }
-}
-} // namespace detail
 
 /// Analyses what 1 to 3 channels recorded of makeSweepSignal(params): an accelerometer's axes in any orientation, or a
 /// microphone. `recordingRate` is a whole number of Hz, which may differ from that of the playback. The recording may
@@ -254,11 +121,11 @@ inline void warnOfSnr(const FrequencyResponse& snr, double wanted, std::vector<M
         result.levels.push_back(summariseLevel(responses, params.levels[i], frequency, measurement.smoothing, highest));
         if (i != result.main)
             continue;
-        result.impulseResponse = detail::strongestDirection(responses.impulses, recording.rate);
-        result.latency = timing.start + detail::strongestLag(result.impulseResponse);
-        detail::warnOfResponses(responses.linear, params, result.warnings);
+        result.impulseResponse = strongestDirection(responses.impulses, recording.rate);
+        result.latency = timing.start + strongestLag(result.impulseResponse);
+        warnOfResponses(responses.linear, params, result.warnings);
     }
-    detail::warnOfSnr(result.levels[result.main].snr, measurement.wantedSnr, result.warnings);
+    warnOfSnr(result.levels[result.main].snr, measurement.wantedSnr, result.warnings);
     return result;
 }
 

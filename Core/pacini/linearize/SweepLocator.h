@@ -8,10 +8,12 @@
 #include <pacini/linearize/SweepSchedule.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -29,6 +31,41 @@ namespace detail
 {
 inline constexpr double locatorStep = 0.001; // s
 
+/// The largest of any range of values in constant time: the maxima of all runs of 2^k cells (M. Bender, M.
+/// Farach-Colton, "The LCA problem revisited", 2000), of ten values each, to which ranges are widened.
+class RangeMaximum
+{
+public:
+    explicit RangeMaximum(std::span<const double> values)
+    {
+        auto& cells = runs.emplace_back(values.size() / cell + 1, 0.0f);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            cells[i / cell] = std::max(cells[i / cell], static_cast<float>(values[i]));
+        for (std::size_t length = 1; 2 * length <= runs.front().size(); length *= 2)
+        {
+            std::vector<float> longer(runs.back().size() - length);
+            for (std::size_t i = 0; i < longer.size(); ++i)
+                longer[i] = std::max(runs.back()[i], runs.back()[i + length]);
+            runs.push_back(std::move(longer));
+        }
+    }
+
+    /// Of the values first .. last; 0 when last < first, or for what lies behind the end.
+    [[nodiscard]] double over(std::size_t first, std::size_t last) const noexcept
+    {
+        const std::size_t begin = first / cell;
+        const std::size_t end = std::min(last / cell + 1, runs.front().size());
+        if (last < first || begin >= end)
+            return 0.0;
+        const auto k = static_cast<std::size_t>(std::bit_width(end - begin) - 1);
+        return static_cast<double>(std::max(runs[k][begin], runs[k][end - (std::size_t(1) << k)]));
+    }
+
+private:
+    static constexpr std::size_t cell = 10;
+    std::vector<std::vector<float>> runs;
+};
+
 /// The strength of the response to a sweep that starts at each ms from `first` s on: the root of the power in windows
 /// of 20 ms, summed over the channels relative to each one's median, so that a noisy channel does not hide the others.
 struct ArrivalStrength
@@ -36,18 +73,6 @@ struct ArrivalStrength
     double first = 0.0;
     std::vector<double> strength;
     std::size_t channels = 0; ///< that are not constant
-
-    /// The largest value from `from` to `to` s.
-    [[nodiscard]] double largest(double from, double to) const noexcept
-    {
-        const auto size = static_cast<double>(strength.size());
-        const auto begin = static_cast<std::size_t>(std::clamp(std::floor((from - first) / locatorStep), 0.0, size));
-        const auto end = static_cast<std::size_t>(std::clamp(std::ceil((to - first) / locatorStep), 0.0, size));
-        double value = 0.0;
-        for (std::size_t i = begin; i < end; ++i)
-            value = std::max(value, strength[i]);
-        return value;
-    }
 };
 
 [[nodiscard]] inline ArrivalStrength arrivalStrength(const RecordedChannels& recording, const ExponentialSweep& sweep)
@@ -115,6 +140,16 @@ inline constexpr double widestDrift = 0.005;
                                                 double playRate, const ExponentialSweep& sweep, double stretch = 1.0)
 {
     const auto arrivals = detail::arrivalStrength(recording, sweep);
+    const detail::RangeMaximum maxima(arrivals.strength);
+    const auto largest = [&](double from, double to)
+    {
+        const auto size = static_cast<double>(arrivals.strength.size());
+        const double first = std::floor((from - arrivals.first) / detail::locatorStep);
+        const double last = std::ceil((to - arrivals.first) / detail::locatorStep);
+        return last < 0.0 || first >= size ? 0.0
+                                           : maxima.over(static_cast<std::size_t>(std::max(first, 0.0)),
+                                                         static_cast<std::size_t>(std::min(last, size - 1.0)));
+    };
     const auto startOf = [&](const ScheduledSweep& s)
     {
         return stretch * static_cast<double>(s.startFrame) / playRate;
@@ -132,7 +167,7 @@ inline constexpr double widestDrift = 0.005;
         {
             const double at = start + startOf(schedule.sweeps[k]);
             const double tolerance = 0.01 + widestDrift * (startOf(schedule.sweeps[k]) - firstStart);
-            score += Decibels(schedule.sweeps[k].level).gain() * arrivals.largest(at - tolerance, at + tolerance);
+            score += Decibels(schedule.sweeps[k].level).gain() * largest(at - tolerance, at + tolerance);
         }
         if (score > best)
         {
@@ -142,7 +177,7 @@ inline constexpr double widestDrift = 0.005;
     }
     const double at = found.start + startOf(loudest);
     const double tolerance = 0.02 + widestDrift * (startOf(loudest) - firstStart);
-    const double peak = arrivals.largest(at - tolerance, at + tolerance);
+    const double peak = largest(at - tolerance, at + tolerance);
     found.contrast = peak * peak / static_cast<double>(std::max<std::size_t>(1, arrivals.channels));
     double near = 0.0;
     double wide = 0.0;

@@ -99,22 +99,37 @@ struct SweepTiming
         timing.start = reference.arrival - played.front().time * (1.0 + timing.drift);
         if (played.size() == 1)
             return timing;
-        const auto longest = static_cast<std::size_t>((2.0 * std::max(reach(sweep), after) + 1.0) * recording.rate);
+        const auto longest = static_cast<std::size_t>(2.0 * std::max(reach(sweep), after) * recording.rate) + 2;
         DelayTrack track(reference, recording.rate, longest);
         std::vector<DelayPoint> points;
+        std::vector<ArrivedSweep> all;
         for (const Played& p : played)
         {
             const double before = p.sweep.seconds() < params.duration ? nearest : reach(p.sweep);
-            const auto arrived = &p == &played.front() ? reference : arrive(p, before, std::max(before, after));
+            all.push_back(&p == &played.front() ? reference : arrive(p, before, std::max(before, after)));
             // A third of an octave at both ends belongs to bands that the sweep does not fill.
             const auto more =
-                track.compare(arrived, p.sweep, played.front().sweep, timing.drift,
+                track.compare(all.back(), p.sweep, played.front().sweep, timing.drift,
                               params.lowFrequency * std::exp2(1.0 / 3.0), params.highFrequency * std::exp2(-1.0 / 3.0));
             points.insert(points.end(), more.begin(), more.end());
         }
-        const auto fit = fitDelays(points, 0.7 / params.sampleRate);
+        auto fit = fitDelays(points, 0.7 / params.sampleRate);
         if (!fit)
             return timing;
+        for (DelayStep& step : fit->steps)
+            for (std::size_t k = 1; k < played.size(); ++k)
+            {
+                const double end = played[k].time + played[k].sweep.seconds();
+                if (step.time < played[k].time || step.time > end)
+                    continue;
+                // A band of a third of an octave on either side is what the first look is uncertain by.
+                const double reachable = played[k].sweep.growthTime() * std::numbers::ln2 / 3.0;
+                const double earlier = fit->steppedAt(step.time) - step.seconds;
+                step.time = track.stepTime(all[k], played[k].sweep, fit->drift, earlier, step.seconds,
+                                           std::max(step.time - reachable, played[k].time),
+                                           std::min(step.time + reachable, end));
+                break;
+            }
         timing.drift = fit->drift;
         timing.driftKnown = true;
         timing.steps = fit->steps;
