@@ -153,6 +153,12 @@ CLI::App* FitStep::declare(CLI::App& app)
         ->capture_default_str()
         ->check(numberFrom(0.0, 40.0))
         ->type_name("DB");
+    command
+        ->add_option("--goal", goal,
+                     "Largest deviation that an automatic number of sections must reach, dB; RMS a quarter of it")
+        ->capture_default_str()
+        ->check(numberFrom(0.01, 100.0))
+        ->type_name("DB");
     command->add_option("--low", low, "Start of the range to flatten, Hz [of the profile; else the first point]")
         ->check(numberFrom(0.1, 200000.0))
         ->type_name("HZ");
@@ -199,6 +205,8 @@ Exit FitStep::run(Console& console)
     params.maxBoost = maxBoost;
     params.lowFrequency = low.value_or(profile ? profile->range.lowFrequency : 0.0);
     params.highFrequency = high.value_or(profile ? profile->range.highFrequency : 0.0);
+    params.goalMax = goal;
+    params.goalRms = 0.25 * goal;
     params.boostOutside = boostOutside;
     params.shelves = !peaksOnly;
     if (highpass)

@@ -28,6 +28,7 @@ private:
     std::string sections = "auto";
     double rate = 48000.0;
     double maxBoost = 12.0;
+    double goal = 2.0;
     std::optional<double> low;
     std::optional<double> high;
     std::optional<double> highpass;

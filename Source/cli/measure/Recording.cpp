@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -86,6 +87,53 @@ Result<Channels> readChannels(const std::string& file, const std::vector<int>& w
     return channels;
 }
 
+/// The warnings of many recordings, each text once.
+class WarningList
+{
+public:
+    void add(const std::string& file, const SweepMeasurement& measured, const std::vector<int>& channels)
+    {
+        for (const MeasurementWarning& warning : measured.warnings)
+        {
+            const std::string text = channelName(warning.where, channels) + ": " + warning.message;
+            const auto known =
+                std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.text == text; });
+            if (known == entries.end())
+                entries.push_back({file, text, 0});
+            else
+                ++known->more;
+        }
+    }
+
+    void print(Console& console) const
+    {
+        for (const Entry& entry : entries)
+            console.warning(entry.more == 0 ? entry.file : fmt::format("{} and {} more", entry.file, entry.more),
+                            entry.text);
+    }
+
+private:
+    struct Entry
+    {
+        std::string file;
+        std::string text;
+        int more = 0;
+    };
+
+    /// `channels[1]` is the second of those chosen; people count the channels of the recording from 1.
+    static std::string channelName(const std::string& where, const std::vector<int>& chosen)
+    {
+        constexpr std::string_view start = "channels[";
+        std::size_t index = 0;
+        if (!where.starts_with(start) ||
+            std::from_chars(where.data() + start.size(), where.data() + where.size(), index).ec != std::errc())
+            return where;
+        return fmt::format("channel {}", index < chosen.size() ? chosen[index] : static_cast<int>(index) + 1);
+    }
+
+    std::vector<Entry> entries;
+};
+
 /// The description of the sweep; of a sound, the one beside it.
 std::filesystem::path sweepPath(const std::string& named)
 {
@@ -157,6 +205,7 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
         params.fullScale.push_back(*acceleration(value));
 
     bool failed = false;
+    WarningList warnings;
     for (std::size_t i = 0; i < options.recordings.size(); ++i)
     {
         const std::string& file = options.recordings[i];
@@ -172,11 +221,11 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
             failed = true;
             continue;
         }
-        for (const MeasurementWarning& warning : measured->warnings)
-            console.warning(file, warning.where + ": " + warning.message);
+        warnings.add(file, *measured, options.channels);
         result.recordings.push_back({file, std::move(*measured)});
     }
     console.endProgress();
+    warnings.print(console);
     if (failed)
         return std::nullopt;
     std::vector<FrequencyResponse> responses;
