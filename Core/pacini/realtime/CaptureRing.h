@@ -89,8 +89,7 @@ public:
         if (oldest > capture.firstFrame)
         {
             const auto lost = std::min<std::uint64_t>(oldest - capture.firstFrame, wanted);
-            capture.samples.erase(capture.samples.begin(),
-                                  capture.samples.begin() + static_cast<std::ptrdiff_t>(lost));
+            capture.samples.erase(capture.samples.begin(), capture.samples.begin() + static_cast<std::ptrdiff_t>(lost));
             capture.firstFrame += lost;
         }
         return capture;

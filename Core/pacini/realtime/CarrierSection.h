@@ -83,8 +83,8 @@ public:
         }
     }
 
-    /// One hop or part of it.
-    void process(std::span<const double> in, std::span<double> out) noexcept
+    /// Frames `at` and on of the hop: listens to `in`, adds to `out`.
+    void process(std::span<const double> in, std::span<double> out, std::size_t at) noexcept
     {
         if (!any)
             return;
@@ -93,7 +93,7 @@ public:
             {
                 listeners[k].process(in);
                 if (!oscillators[k].silent())
-                    oscillators[k].addTo(out);
+                    oscillators[k].addTo(out, at);
             }
     }
 

@@ -40,8 +40,9 @@ public:
         centre = std::sqrt(low.value * high.value) * turn;
         lowest = std::tan(std::min(0.6 * low.value * turn, 1.4));
         highest = std::tan(std::min(1.6 * high.value * turn, 1.5));
-        // A quarter of the band's frequency: the ripple of the means stays below 2 %.
-        pitchShare = hopShare(2.0 / (std::numbers::pi * std::clamp(std::sqrt(low.value * high.value), 30.0, 300.0)), fs);
+        // A sixth of the band's frequency, at most 40 Hz: the ripple of the means stays below 1 %.
+        const double corner = std::clamp(std::sqrt(low.value * high.value) / 6.0, 8.0, 40.0);
+        pitchShare = hopShare(1.0 / (2.0 * std::numbers::pi * corner), fs);
         reset();
     }
 
@@ -86,8 +87,7 @@ public:
         if (slow[1] > 1e-24)
             tangent = std::clamp(0.5 * std::sqrt(slow[3] / slow[1]), lowest, highest);
         const double square = tangent * tangent;
-        const double power =
-            (means + 0.25 * differences / square) * (1.0 + square) / static_cast<double>(controlHop);
+        const double power = (means + 0.25 * differences / square) * (1.0 + square) / static_cast<double>(controlHop);
         means = differences = 0.0;
         return {power, std::atan(tangent) / std::numbers::pi};
     }
@@ -150,14 +150,15 @@ public:
     [[nodiscard]] bool silent() const noexcept { return amplitude.silent(); }
     [[nodiscard]] double level() const noexcept { return amplitude.end(); }
 
-    void addTo(std::span<double> out) noexcept
+    /// Adds frames `at` and on of the hop.
+    void addTo(std::span<double> out, std::size_t at) noexcept
     {
-        for (double& y : out)
+        for (std::size_t n = 0; n < out.size(); ++n)
         {
             const double next = re * stepRe - im * stepIm;
             im = re * stepIm + im * stepRe;
             re = next;
-            y += amplitude.next() * im;
+            out[n] += amplitude.at(at + n) * im;
         }
     }
 

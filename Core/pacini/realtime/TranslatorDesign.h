@@ -10,8 +10,9 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/filters/BandLayout.h>
+#include <pacini/realtime/BandMeter.h>
 #include <pacini/realtime/CarrierVoice.h>
-#include <pacini/realtime/DirectBank.h>
+#include <pacini/realtime/DirectPath.h>
 #include <pacini/realtime/TranslatorParams.h>
 #include <pacini/synthesis/TransientPulse.h>
 
@@ -61,7 +62,9 @@ struct TranslatorDesign
     BandLayout layout;
     FixedVector<TranslatorBand, maxTranslatorBands> bands;
     double innerRate = 6000.0; ///< Hz
-    DirectBank bank;           ///< to be copied, as the listeners, so that the audio thread designs nothing
+    BandMeter meter;           ///< to be copied, as what follows, so that the audio thread designs nothing
+    DirectPath direct;
+    bool anyDirect = false;
     std::array<BandListener, maxTranslatorBands> listeners;
     std::optional<FrequencyMap> frequencies; ///< none: every frequency stays
     double lowest = 5.0;                     ///< Hz that carriers reach
@@ -129,10 +132,10 @@ struct TranslatorDesign
 
             OutputFilterParams filter;
             filter.flattening = flattening;
-            const auto pruned = pruneEqualizer(profile.equalizer,
-                                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency),
-                                                Decibels(0.1)},
-                                               design.innerRate);
+            const auto pruned =
+                pruneEqualizer(profile.equalizer,
+                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
+                               design.innerRate);
             filter.equalizer = pruned.kept;
             design.filter = designOutputFilter(filter, design.innerRate);
             for (const DroppedSection& section : pruned.dropped)
@@ -164,13 +167,22 @@ struct TranslatorDesign
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
     design.lowest = std::min(design.lowest, design.highest);
 
-    design.bank.design(design.layout, design.innerRate);
+    design.meter.design(design.layout, design.innerRate);
+    Hertz low(1.0), border(1.0), high(1.0);
     const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
     for (std::size_t k = 0; k < design.layout.bands(); ++k)
     {
         TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};
         band.rumble = band.centre.value < 100.0;
         band.shown = anyWaveform && band.centre.value >= design.lowest && band.centre.value <= design.highest;
+        if (band.rumble)
+            border = band.high;
+        if (band.shown)
+        {
+            low = design.anyDirect ? low : band.low;
+            high = band.high;
+            design.anyDirect = true;
+        }
         design.bands.pushBack(band);
         design.listeners[k].design(band.low, band.high, design.innerRate);
         if (band.shown)
@@ -179,6 +191,7 @@ struct TranslatorDesign
             plan.push_back({"bands[" + std::to_string(k) + "].direct",
                             anyWaveform ? "lies outside the actuator's range" : "the actuator has too few voices"});
     }
+    design.direct.design(low, border, high, design.innerRate);
     return design;
 }
 

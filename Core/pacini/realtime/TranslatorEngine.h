@@ -33,7 +33,8 @@ public:
     {
         design = &wanted;
         const double fs = wanted.innerRate;
-        bank = wanted.bank;
+        meter = wanted.meter;
+        direct = wanted.direct;
         carriers.adopt(wanted);
         if (wanted.motor)
         {
@@ -123,12 +124,13 @@ public:
     [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
 
 private:
-    static constexpr double baseThreshold = 2.0;
-    static constexpr double brightShare = 0.5; // of an event's full-band peak that is felt, as in EventTransients.h
+    static constexpr double baseThreshold = 1.0;
+    static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
 
     void clearSignal() noexcept
     {
-        bank.reset();
+        meter.reset();
+        direct.reset();
         carriers.reset();
         pulses.reset();
         motor.reset();
@@ -151,18 +153,13 @@ private:
         fade.jump(1.0);
         fadeTarget = 1.0;
         ratio = transposition;
-        for (std::size_t k = 0; k < design->bands.size(); ++k)
-            directGains[k].jump(directTarget(k));
+        direct.jump(rumble * directShare(), texture * directShare());
     }
 
-    [[nodiscard]] double roleGain(std::size_t k) const noexcept { return design->bands[k].rumble ? rumble : texture; }
-    [[nodiscard]] bool mayBeDirect(std::size_t k) const noexcept
+    /// How much of a band's own signal is played where the actuator can show it.
+    [[nodiscard]] double directShare() const noexcept
     {
-        return design->bands[k].shown && params.transposition == 0.0;
-    }
-    [[nodiscard]] double directTarget(std::size_t k) const noexcept
-    {
-        return mayBeDirect(k) ? roleGain(k) * params.direct : 0.0;
+        return design->anyDirect && params.transposition == 0.0 ? params.direct : 0.0;
     }
 
     void beginHop() noexcept
@@ -180,7 +177,8 @@ private:
         asleep = frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0;
         if (asleep)
         {
-            bank.reset();
+            meter.reset();
+            direct.reset();
             carriers.reset();
             filterStates = {};
             bandPowers = {};
@@ -188,16 +186,19 @@ private:
         }
         loudest = 0.0;
 
+        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
         std::array<double, maxTranslatorBands> carrierGains{};
         double wanted = 0.0;
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
-            directGains[k].aim(directTarget(k), gainShare);
+            const TranslatorBand& band = design->bands[k];
+            const double role = band.rumble ? rumble : texture;
             if (!design->motor)
-                carrierGains[k] = mayBeDirect(k) ? roleGain(k) * (1.0 - params.direct) : roleGain(k);
-            const double power = 2.0 * bank.takePower(k) / static_cast<double>(controlHop);
-            wanted += roleGain(k) * roleGain(k) * power;
+                carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
+            const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
+            wanted += role * role * power;
             bandPowers[k] += levelShare * (power - bandPowers[k]);
+            flushTiny(bandPowers[k]);
         }
         carriers.aim(carrierGains, ratio, attackShare, releaseShare);
         if (design->motor)
@@ -215,7 +216,10 @@ private:
             levelGain.aim(playedPeak > 1e-9 ? design->levels(playedPeak) / playedPeak : 1.0, gainShare);
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
-        bank.flush();
+        for (double* value : {&playedPeak, &heardPeak, &strengthSquared})
+            flushTiny(*value);
+        meter.flush();
+        direct.flush();
         carriers.flush();
         watch.flush();
         for (StateVariableState& state : filterStates)
@@ -228,42 +232,45 @@ private:
         const std::size_t n = in.size();
         std::array<double, controlHop> x{}, y{}, gates{};
         double heard = 0.0;
+        std::size_t eventAt = n;
+        HeardEvent event;
         for (std::size_t i = 0; i < n; ++i)
         {
-            const double g = input.next();
+            const double g = input.at(framesIntoHop + i);
             x[i] = g * static_cast<double>(in[i]);
             const double peak = g * static_cast<double>(peaks[i]);
             gates[i] = gate.tick(peak);
             heard = std::max({heard, std::abs(x[i]), peak});
-            heardPeak = std::max(heardPeak, std::abs(x[i]));
-            HeardEvent event;
             if (watch.tick(peak, threshold, event) && gates[i] > 0.0)
-            {
-                onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
-                beginPulse(event);
-            }
+                eventAt = i; // events are farther apart than a hop
         }
         loudest = std::max(loudest, heard);
         if (asleep && heard == 0.0 && pulses.silent())
         {
             std::fill(out.begin(), out.end(), 0.0f);
-            moveRamps(n);
             return;
         }
         asleep = false;
         const auto xs = std::span<const double>(x).first(n);
         const auto ys = std::span<double>(y).first(n);
-        bank.process(xs, std::span(directGains).first(design->bands.size()), ys);
-        carriers.process(xs, ys);
+        meter.process(xs);
+        if (!direct.silent())
+            direct.process(xs, ys, framesIntoHop);
+        carriers.process(xs, ys, framesIntoHop);
         for (std::size_t i = 0; i < n; ++i)
         {
+            heardPeak = std::max(heardPeak, std::abs(x[i]));
             playedPeak = std::max(playedPeak, std::abs(y[i]));
             out[i] = static_cast<float>(y[i]);
+            if (i == eventAt)
+            {
+                onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
+                beginPulse(event, i);
+            }
         }
         if (!pulses.silent() && !design->motor)
             pulses.addTo(out);
         finish(out, gates);
-        moveGains(n);
     }
 
     /// From the sum of what is played to the drive.
@@ -271,46 +278,33 @@ private:
     {
         for (std::size_t i = 0; i < out.size(); ++i)
         {
-            const double wanted = design->motor ? strength.next() : levelGain.next() * static_cast<double>(out[i]);
-            out[i] = toSample(drive.next() * gates[i] * wanted);
+            const double wanted = design->motor ? strength.at(framesIntoHop + i)
+                                                : levelGain.at(framesIntoHop + i) * static_cast<double>(out[i]);
+            out[i] = toSample(drive.at(framesIntoHop + i) * gates[i] * wanted);
         }
         if (design->motor)
             motor.process(out, out);
         const std::size_t sections = design->filter.sections.size();
-        for (float& sample : out)
+        for (std::size_t i = 0; i < out.size(); ++i)
         {
-            auto y = static_cast<double>(sample);
+            auto y = static_cast<double>(out[i]);
             for (std::size_t s = 0; s < sections; ++s)
                 y = filterStates[s].tick(design->filter.sections[s], y);
             loudest = std::max(loudest, std::abs(y));
-            y *= design->scale * fade.next();
+            y *= design->scale * fade.at(framesIntoHop + i);
             if (!design->protection)
             {
                 const double g = limiter.tick(y * y);
                 smallestGain = std::min(smallestGain, g);
                 y *= g;
             }
-            sample = toSample(y);
+            out[i] = toSample(y);
         }
-    }
-
-    void moveGains(std::size_t n) noexcept
-    {
-        for (HopRamp& gain : directGains)
-            gain.skip(n);
-    }
-
-    /// As far as a sounding hop would have moved them.
-    void moveRamps(std::size_t n) noexcept
-    {
-        moveGains(n);
-        for (HopRamp* ramp : {&strength, &levelGain, &drive, &fade})
-            ramp->skip(n);
     }
 
     /// The pulse tops what the bands give the event up to what is to be felt of it. Sharp is what the range of touch
     /// holds little of.
-    void beginPulse(const HeardEvent& event) noexcept
+    void beginPulse(const HeardEvent& event, std::size_t at) noexcept
     {
         const double wanted = std::min(1.0, transients * brightShare * event.amplitude);
         if (design->motor)
@@ -327,7 +321,7 @@ private:
             return;
         const double share = std::min(1.0, heardPeak / std::max(event.amplitude, 1e-9));
         const double sharpness = std::clamp(1.0 - share + params.transientSharpness, 0.0, 1.0);
-        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing);
+        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing, at);
     }
 
     const TranslatorDesign* design = nullptr;
@@ -340,21 +334,21 @@ private:
     LiveGate gate;
     EventWatch watch;
     EventPulses pulses;
-    DirectBank bank;
+    BandMeter meter;
+    DirectPath direct;
     CarrierSection carriers;
     MotorDrive motor;
     LimiterGain limiter;
     std::array<StateVariableState, maxBiquadSections> filterStates{};
 
     HopRamp input, strength, drive, levelGain, fade;
-    std::array<HopRamp, maxTranslatorBands> directGains;
     double fadeTarget = 1.0;
     double ratio = 1.0;
     double strengthSquared = 0.0;
     double burst = 0.0;
-    std::size_t burstLeft = 0;                             // hops
-    double playedPeak = 0.0, heardPeak = 0.0;              // of late
-    double loudest = 0.0;                                  // in this hop, of input and output
+    std::size_t burstLeft = 0;                // hops
+    double playedPeak = 0.0, heardPeak = 0.0; // of late
+    double loudest = 0.0;                     // in this hop, of input and output
     std::array<double, maxTranslatorBands> bandPowers{};
     double smallestGain = 1.0;
     std::size_t framesIntoHop = 0;
