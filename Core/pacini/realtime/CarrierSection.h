@@ -67,6 +67,8 @@ public:
             amplitudes[k] = gains[k] * std::sqrt(std::max(heard.power, 0.0));
             pitches[k] = heard.frequency;
             masters[k] = k;
+            if (oscillators[k].silent())
+                oscillators[k].begin(heard.sine, heard.cosine);
         }
         mergeNeighbours(bands);
         shareVoices(bands);

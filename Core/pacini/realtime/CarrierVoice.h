@@ -49,7 +49,7 @@ public:
     void reset() noexcept
     {
         states = {};
-        before = means = differences = 0.0;
+        before = mean = difference = means = differences = 0.0;
         slow = {};
         tangent = std::tan(centre);
     }
@@ -62,8 +62,8 @@ public:
             band = states[1].tick(lower, band).high;
             band = states[2].tick(upper, band).low;
             band = states[3].tick(upper, band).low;
-            const double mean = 0.5 * (band + before);
-            const double difference = band - before;
+            mean = 0.5 * (band + before);
+            difference = band - before;
             before = band;
             means += mean * mean;
             differences += difference * difference;
@@ -75,6 +75,8 @@ public:
     {
         double power = 0.0;     ///< A^2
         double frequency = 0.0; ///< cycles per frame
+        double sine = 0.0;      ///< A sin and A cos of the band's phase at its newest frames
+        double cosine = 0.0;
     };
 
     /// At the end of a hop.
@@ -89,15 +91,17 @@ public:
         const double square = tangent * tangent;
         const double power = (means + 0.25 * differences / square) * (1.0 + square) / static_cast<double>(controlHop);
         means = differences = 0.0;
-        return {power, std::atan(tangent) / std::numbers::pi};
+        return {power, std::atan(tangent) / std::numbers::pi, mean, 0.5 * difference / tangent};
     }
 
     void flush() noexcept
     {
         for (StateVariableState& state : states)
             state.flush();
-        for (double& mean : slow)
-            flushTiny(mean);
+        for (double& average : slow)
+            flushTiny(average);
+        flushTiny(mean);
+        flushTiny(difference);
         flushTiny(before);
     }
 
@@ -108,6 +112,7 @@ private:
     double pitchShare = 1.0;
     std::array<StateVariableState, 4> states{};
     double before = 0.0;
+    double mean = 0.0, difference = 0.0;   // of the two newest frames
     double means = 0.0, differences = 0.0; // sums of squares over the hop
     std::array<double, 4> slow{};
     double tangent = 0.1;
@@ -137,6 +142,17 @@ public:
         const double norm = 1.5 - 0.5 * (re * re + im * im); // rounding must not let it grow or shrink
         re *= norm;
         im *= norm;
+    }
+
+    /// While it is silent: begins at the phase of a sinusoid with this sine and cosine, of any amplitude, so that bands
+    /// which share a tone begin together as the tone does.
+    void begin(double sine, double cosine) noexcept
+    {
+        const double size = std::hypot(sine, cosine);
+        if (!(size > 1e-12))
+            return;
+        re = cosine / size;
+        im = sine / size;
     }
 
     /// While it is silent: goes on from the phase of another one, so that what is handed over between two of one pitch

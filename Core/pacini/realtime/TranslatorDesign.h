@@ -177,7 +177,7 @@ struct TranslatorDesign
         band.shown = anyWaveform && band.centre.value >= design.lowest && band.centre.value <= design.highest;
         if (band.rumble)
             border = band.high;
-        if (band.shown)
+        if (band.shown || design.motor) // whose strength is that of the whole range
         {
             low = design.anyDirect ? low : band.low;
             high = band.high;

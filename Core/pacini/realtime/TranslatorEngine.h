@@ -49,6 +49,7 @@ public:
         }
         gainShare = hopShare(0.005, fs);
         levelShare = hopShare(0.030, fs);
+        strengthShare = hopShare(0.010, fs); // a motor follows no faster
         peakDecay = 1.0 - hopShare(0.020, fs);
         clearSignal();
         setParams(params);
@@ -136,7 +137,7 @@ private:
         motor.reset();
         filterStates = {};
         bandPowers = {};
-        strengthSquared = playedPeak = heardPeak = 0.0;
+        firstStrength = strengthSquared = playedEnergy = playedPeak = heardPeak = 0.0;
         loudest = 0.0;
         burstLeft = 0;
         asleep = false;
@@ -159,6 +160,8 @@ private:
     /// How much of a band's own signal is played where the actuator can show it.
     [[nodiscard]] double directShare() const noexcept
     {
+        if (design->motor)
+            return 1.0;
         return design->anyDirect && params.transposition == 0.0 ? params.direct : 0.0;
     }
 
@@ -174,21 +177,20 @@ private:
             ratio = transposition;
 
         // A hop without any sign of life: what may be left is 180 dB below full scale.
-        asleep = frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0;
-        if (asleep)
+        const bool wasAsleep = std::exchange(asleep, frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0);
+        if (asleep && !wasAsleep)
         {
             meter.reset();
             direct.reset();
             carriers.reset();
             filterStates = {};
             bandPowers = {};
-            strengthSquared = 0.0;
+            firstStrength = strengthSquared = 0.0;
         }
         loudest = 0.0;
 
         direct.aim(rumble * directShare(), texture * directShare(), gainShare);
         std::array<double, maxTranslatorBands> carrierGains{};
-        double wanted = 0.0;
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
             const TranslatorBand& band = design->bands[k];
@@ -196,15 +198,17 @@ private:
             if (!design->motor)
                 carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
             const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
-            wanted += role * role * power;
             bandPowers[k] += levelShare * (power - bandPowers[k]);
             flushTiny(bandPowers[k]);
         }
         carriers.aim(carrierGains, ratio, attackShare, releaseShare);
         if (design->motor)
         {
-            strengthSquared += (wanted > strengthSquared ? attackShare : releaseShare) * (wanted - strengthSquared);
-            double level = std::sqrt(std::max(strengthSquared, 0.0));
+            // Twice smoothed: the drive of a motor sharpens every ripple.
+            const double energy = playedEnergy / static_cast<double>(controlHop);
+            firstStrength += strengthShare * (energy - firstStrength);
+            strengthSquared += strengthShare * (firstStrength - strengthSquared);
+            double level = std::sqrt(2.0 * std::max(strengthSquared, 0.0));
             if (burstLeft > 0)
             {
                 --burstLeft;
@@ -214,9 +218,10 @@ private:
         }
         else if (!design->levels.isIdentity())
             levelGain.aim(playedPeak > 1e-9 ? design->levels(playedPeak) / playedPeak : 1.0, gainShare);
+        playedEnergy = 0.0;
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
-        for (double* value : {&playedPeak, &heardPeak, &strengthSquared})
+        for (double* value : {&playedPeak, &heardPeak, &firstStrength, &strengthSquared})
             flushTiny(*value);
         meter.flush();
         direct.flush();
@@ -261,6 +266,7 @@ private:
         {
             heardPeak = std::max(heardPeak, std::abs(x[i]));
             playedPeak = std::max(playedPeak, std::abs(y[i]));
+            playedEnergy += y[i] * y[i];
             out[i] = static_cast<float>(y[i]);
             if (i == eventAt)
             {
@@ -329,7 +335,7 @@ private:
     TranslatorParams params;
     double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, intensity = 1.0, transposition = 1.0;
     double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
-    double gainShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
+    double gainShare = 1.0, levelShare = 1.0, strengthShare = 1.0, peakDecay = 0.9;
 
     LiveGate gate;
     EventWatch watch;
@@ -344,9 +350,10 @@ private:
     HopRamp input, strength, drive, levelGain, fade;
     double fadeTarget = 1.0;
     double ratio = 1.0;
-    double strengthSquared = 0.0;
+    double firstStrength = 0.0, strengthSquared = 0.0;
     double burst = 0.0;
     std::size_t burstLeft = 0;                // hops
+    double playedEnergy = 0.0;                // in this hop
     double playedPeak = 0.0, heardPeak = 0.0; // of late
     double loudest = 0.0;                     // in this hop, of input and output
     std::array<double, maxTranslatorBands> bandPowers{};

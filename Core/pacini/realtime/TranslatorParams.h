@@ -23,9 +23,9 @@ struct TranslatorParams
 {
     double inputGain = 0.0;     ///< dB, -60 to 48: what the analysis sees
     double intensity = 0.0;     ///< dB, -60 to 24: gain of the drive
-    RoleParams rumble;          ///< bands with centres below 100 Hz
-    RoleParams texture;         ///< the other bands
-    RoleParams transients;      ///< events: pulses that top what the bands give them
+    RoleParams rumble{};        ///< bands with centres below 100 Hz
+    RoleParams texture{};       ///< the other bands
+    RoleParams transients{};    ///< events: pulses that top what the bands give them
     double transposition = 0.0; ///< semitones, -48 to 48; other than 0 everything is played by carriers
     double direct = 1.0;        ///< 0 to 1: share of a band's own signal where the actuator can show it, against its
                                 ///< carrier
