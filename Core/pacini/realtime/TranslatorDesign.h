@@ -11,6 +11,7 @@
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/filters/BandLayout.h>
 #include <pacini/realtime/BandMeter.h>
+#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierVoice.h>
 #include <pacini/realtime/DirectPath.h>
 #include <pacini/realtime/TranslatorParams.h>
@@ -77,7 +78,8 @@ struct TranslatorDesign
     BiquadCascadeCoefficients filter; ///< equaliser and flattening at the inner rate
     double scale = 1.0;               ///< room for overdrive
     std::optional<ProtectionParams> protection;
-    double feltRange = 60.0; ///< dB between full drive and the weakest drive that is felt
+    double brightFrequency = 0.0; ///< Hz at which sounds too high for the skin are felt; 0: there is no need
+    double feltRange = 60.0;      ///< dB between full drive and the weakest drive that is felt
     TranslatorPlan plan;
 };
 
@@ -191,6 +193,14 @@ struct TranslatorDesign
             plan.push_back({"bands[" + std::to_string(k) + "].direct",
                             anyWaveform ? "lies outside the actuator's range" : "the actuator has too few voices"});
     }
+    // Bands that are moved into a narrower range are felt already.
+    const bool showsAll = std::all_of(design.bands.begin(), design.bands.end(),
+                                      [](const TranslatorBand& band)
+                                      { return band.shown || band.high.value <= BrightVoice::border.value; });
+    if (anyWaveform && showsAll)
+        design.brightFrequency = clampTo(BrightVoice::frequency, design.lowest, design.highest);
+    else
+        plan.push_back({"brightness", "high bands are moved into the actuator's range"});
     design.direct.design(low, border, high, design.innerRate);
     return design;
 }
@@ -203,6 +213,8 @@ struct TranslatorDesign
         plan.push_back({"rumble", "is muted"});
     if (params.texture.muted)
         plan.push_back({"texture", "is muted"});
+    if (!(params.brightness > lowestBrightness))
+        plan.push_back({"brightness", "is off"});
     if (params.transients.muted)
         plan.push_back({"transients", "are muted"});
     return plan;

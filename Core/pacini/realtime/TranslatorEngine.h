@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/MotorDrive.h>
+#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/EventPulses.h>
 #include <pacini/realtime/EventWatch.h>
@@ -46,6 +47,7 @@ public:
         {
             rate = fs;
             watch.prepare(fs);
+            bright.design(fs);
         }
         gainShare = hopShare(0.005, fs);
         levelShare = hopShare(0.030, fs);
@@ -72,6 +74,7 @@ public:
         texture = role(params.texture);
         transients = role(params.transients);
         intensity = gain(params.intensity);
+        brightness = params.brightness > lowestBrightness ? gain(params.brightness) : 0.0;
         transposition = std::exp2(params.transposition / 12.0);
         attackShare = hopShare(0.001 * params.attack, rate);
         releaseShare = hopShare(0.001 * params.release, rate);
@@ -126,6 +129,7 @@ public:
 
 private:
     static constexpr double baseThreshold = 1.0;
+    static constexpr double leastShare = 0.06;
     static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
 
     void clearSignal() noexcept
@@ -133,6 +137,7 @@ private:
         meter.reset();
         direct.reset();
         carriers.reset();
+        bright.reset();
         pulses.reset();
         motor.reset();
         filterStates = {};
@@ -155,6 +160,7 @@ private:
         fadeTarget = 1.0;
         ratio = transposition;
         direct.jump(rumble * directShare(), texture * directShare());
+        bright.jump(brightGain());
     }
 
     /// How much of a band's own signal is played where the actuator can show it.
@@ -163,6 +169,11 @@ private:
         if (design->motor)
             return 1.0;
         return design->anyDirect && params.transposition == 0.0 ? params.direct : 0.0;
+    }
+
+    [[nodiscard]] double brightGain() const noexcept
+    {
+        return design->brightFrequency > 0.0 ? texture * brightness : 0.0;
     }
 
     void beginHop() noexcept
@@ -183,6 +194,7 @@ private:
             meter.reset();
             direct.reset();
             carriers.reset();
+            bright.reset();
             filterStates = {};
             bandPowers = {};
             firstStrength = strengthSquared = 0.0;
@@ -202,6 +214,7 @@ private:
             flushTiny(bandPowers[k]);
         }
         carriers.aim(carrierGains, ratio, attackShare, releaseShare);
+        bright.aim(brightGain(), gainShare, design->brightFrequency / rate);
         if (design->motor)
         {
             // Twice smoothed: the drive of a motor sharpens every ripple.
@@ -226,6 +239,7 @@ private:
         meter.flush();
         direct.flush();
         carriers.flush();
+        bright.flush();
         watch.flush();
         for (StateVariableState& state : filterStates)
             state.flush();
@@ -262,6 +276,8 @@ private:
         if (!direct.silent())
             direct.process(xs, ys, framesIntoHop);
         carriers.process(xs, ys, framesIntoHop);
+        if (!bright.silent())
+            bright.process(xs, ys, framesIntoHop);
         for (std::size_t i = 0; i < n; ++i)
         {
             heardPeak = std::max(heardPeak, std::abs(x[i]));
@@ -312,7 +328,8 @@ private:
     /// holds little of.
     void beginPulse(const HeardEvent& event, std::size_t at) noexcept
     {
-        const double wanted = std::min(1.0, transients * brightShare * event.amplitude);
+        const double felt = std::clamp(heardPeak, leastShare * event.amplitude, brightShare * event.amplitude);
+        const double wanted = std::min(1.0, transients * felt);
         if (design->motor)
         {
             if (wanted > 0.0)
@@ -333,7 +350,8 @@ private:
     const TranslatorDesign* design = nullptr;
     double rate = 0.0;
     TranslatorParams params;
-    double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, intensity = 1.0, transposition = 1.0;
+    double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, brightness = 0.5, intensity = 1.0,
+           transposition = 1.0;
     double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
     double gainShare = 1.0, levelShare = 1.0, strengthShare = 1.0, peakDecay = 0.9;
 
@@ -343,6 +361,7 @@ private:
     BandMeter meter;
     DirectPath direct;
     CarrierSection carriers;
+    BrightVoice bright;
     MotorDrive motor;
     LimiterGain limiter;
     std::array<StateVariableState, maxBiquadSections> filterStates{};
