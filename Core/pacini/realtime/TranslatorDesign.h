@@ -67,6 +67,7 @@ struct TranslatorDesign
     DirectPath direct;
     bool anyDirect = false;
     std::array<BandListener, maxTranslatorBands> listeners;
+    BandListener wide;                       ///< to the whole range
     std::optional<FrequencyMap> frequencies; ///< none: every frequency stays
     double lowest = 5.0;                     ///< Hz that carriers reach
     double highest = 2000.0;
@@ -148,7 +149,7 @@ struct TranslatorDesign
                                                   : "the equaliser does it"});
         }
         ProtectionParams limits = protectionParams(profile, Seconds(0.0));
-        if (limits.excursion || limits.heat)
+        if ((limits.excursion || limits.heat) && !design.motor)
         {
             const double overdrive = profile.drive.overdrive;
             if (limits.excursion)
@@ -161,7 +162,8 @@ struct TranslatorDesign
     if (!known)
         plan.push_back({"adaptation", "no actuator is known"});
     if (!design.protection)
-        plan.push_back({"protection", "no drive within full scale reaches a limit of the profile"});
+        plan.push_back({"protection", design.motor ? "a motor bears its rated voltage"
+                                                   : "no drive within full scale reaches a limit of the profile"});
     if (known && design.levels.isIdentity())
         plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
     design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;
@@ -201,6 +203,8 @@ struct TranslatorDesign
         design.brightFrequency = clampTo(BrightVoice::frequency, design.lowest, design.highest);
     else
         plan.push_back({"brightness", "high bands are moved into the actuator's range"});
+    design.wide.design(design.layout.lowerEdge(0), design.layout.upperEdge(design.layout.bands() - 1),
+                       design.innerRate);
     design.direct.design(low, border, high, design.innerRate);
     return design;
 }

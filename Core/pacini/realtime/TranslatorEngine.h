@@ -213,7 +213,7 @@ private:
             bandPowers[k] += levelShare * (power - bandPowers[k]);
             flushTiny(bandPowers[k]);
         }
-        carriers.aim(carrierGains, ratio, attackShare, releaseShare);
+        carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
         bright.aim(brightGain(), gainShare, design->brightFrequency / rate);
         if (design->motor)
         {
@@ -314,7 +314,7 @@ private:
                 y = filterStates[s].tick(design->filter.sections[s], y);
             loudest = std::max(loudest, std::abs(y));
             y *= design->scale * fade.at(framesIntoHop + i);
-            if (!design->protection)
+            if (!design->protection && !design->motor)
             {
                 const double g = limiter.tick(y * y);
                 smallestGain = std::min(smallestGain, g);

@@ -47,7 +47,7 @@ struct TranslatorPreset
          {.rumble = {0.0, true}, .texture = {0.0, true}, .transients = {12.0}}},
         {"Subtle",
          "in the background, for long wearing",
-         {.intensity = -9.0, .texture = {-3.0}, .transients = {-6.0}, .gateThreshold = -55.0}},
+         {.intensity = -9.0, .texture = {-3.0}, .transients = {-6.0}, .brightness = -12.0, .gateThreshold = -55.0}},
     }};
     return presets;
 }
