@@ -174,6 +174,8 @@ struct TranslatorDesign
     design.meter.design(design.layout, design.innerRate);
     Hertz low(1.0), border(1.0), high(1.0);
     const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
+    if (!anyWaveform) // few voices play where they are felt
+        design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
     for (std::size_t k = 0; k < design.layout.bands(); ++k)
     {
         TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};
