@@ -140,7 +140,8 @@ struct TranslatorDesign
                                {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
                                design.innerRate);
             filter.equalizer = pruned.kept;
-            design.filter = designOutputFilter(filter, design.innerRate);
+            if (!design.motor)
+                design.filter = designOutputFilter(filter, design.innerRate);
             for (const DroppedSection& section : pruned.dropped)
                 plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
             if (!flattening)
