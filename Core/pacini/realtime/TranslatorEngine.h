@@ -47,6 +47,8 @@ public:
         peakDecay = 1.0 - hopShare(0.020, fs);
         clearSignal();
         setParams(params);
+        direct.jump(rumble * directShare(), texture * directShare());
+        bright.jump(brightGain());
     }
 
     /// Linear gains and the like of clamped parameters. [audio]
@@ -120,8 +122,10 @@ public:
 
 private:
     static constexpr double baseThreshold = 1.0;
+    // An event shall be felt as strong as its peak below 3 kHz, within these parts of its full-band peak: a bright click
+    // holds little there, but shall be felt.
     static constexpr double leastShare = 0.06;
-    static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
+    static constexpr double brightShare = 0.25;
 
     void clearSignal() noexcept
     {
