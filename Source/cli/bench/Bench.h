@@ -62,12 +62,14 @@ struct Bench
 [[nodiscard]] Bench scenesBench();
 [[nodiscard]] Bench actuatorsBench();
 [[nodiscard]] Bench equalizersBench();
+[[nodiscard]] Bench liveBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(),  filtersBench(),    analysisBench(), synthesisBench(), oscillatorsBench(),
-            scenesBench(),   actuatorsBench(), equalizersBench(), bodyBench(),     stagesBench(),    methodsBench()};
+    return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),
+            oscillatorsBench(), scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),
+            bodyBench(),        stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli
