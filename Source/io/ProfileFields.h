@@ -51,9 +51,45 @@ enum class Need
     optional ///< an object that is not written when it equals its default
 };
 
+/// The entries of a measurement, see visitFields().
+template <typename AnyMeasurement, typename Visitor>
+void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
+{
+    using enum Need;
+    visitor.integer("fittings", measurement.fittings, "must be a whole number, 1 to 1000000");
+    visitor.number("drive", measurement.drive, usual);
+    visitor.optionalNumber("distortionDrive", measurement.distortionDrive);
+    visitor.optionalObject("linearity", measurement.linearity,
+                           [&](auto& linearity)
+                           {
+                               visitor.number("lowFrequency", linearity.lowFrequency, required);
+                               visitor.number("highFrequency", linearity.highFrequency, required);
+                               visitor.number("tolerance", linearity.tolerance, required);
+                               visitor.number("level", linearity.level, required);
+                               visitor.number("meanDeviation", linearity.meanDeviation, required);
+                               visitor.number("standardDeviation", linearity.standardDeviation, required);
+                               visitor.number("worstDeviation", linearity.worstDeviation, required);
+                               visitor.number("worstFrequency", linearity.worstFrequency, required);
+                               visitor.list("outliers", linearity.outliers, "outliers",
+                                            [&](auto& outlier)
+                                            {
+                                                visitor.number("lowFrequency", outlier.lowFrequency, required);
+                                                visitor.number("highFrequency", outlier.highFrequency, required);
+                                                visitor.number("deviation", outlier.deviation, required);
+                                            });
+                           });
+    visitor.list("points", measurement.points, "points",
+                 [&](auto& point)
+                 {
+                     visitor.number("frequency", point.frequency, required);
+                     visitor.number("level", point.level, required);
+                     visitor.optionalNumber("linearised", point.linearised);
+                 });
+}
+
 /// Shows `visitor` all entries of `profile` (a Profile, const for a writer) in the order of the file. The visitor has
 /// text, number, optionalNumber, integer and choice for single entries, object and optionalObject for entries in
-/// braces, list for the equalizer and sources for the sources.
+/// braces, list for lists of these and sources for the sources.
 template <typename AnyProfile, typename Visitor>
 void visitFields(AnyProfile& profile, Visitor& visitor)
 {
@@ -120,6 +156,8 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
                                visitor.number("skinStiffness", body.skinStiffness, usual);
                                visitor.number("skinDamping", body.skinDamping, usual);
                            });
+    visitor.optionalObject("measurement", profile.measurement,
+                           [&](auto& measurement) { visitMeasurement(measurement, visitor); });
     visitor.sources("sources", profile.sources);
 }
 

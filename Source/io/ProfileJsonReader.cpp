@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace pacini
 {
@@ -17,6 +19,32 @@ namespace
 {
 using Json = nlohmann::json;
 using profileFields::Need;
+
+std::size_t mostIn(const EqualizerSections& sections)
+{
+    return sections.capacity();
+}
+
+std::size_t mostIn(const std::vector<MeasuredPoint>&)
+{
+    return ProfileMeasurement::mostPoints;
+}
+
+std::size_t mostIn(const std::vector<LinearityOutlier>&)
+{
+    return ProfileMeasurement::mostOutliers;
+}
+
+void append(EqualizerSections& sections)
+{
+    sections.pushBack({});
+}
+
+template <typename T>
+void append(std::vector<T>& values)
+{
+    values.emplace_back();
+}
 
 /// Fills a profile from a tree, entry by entry, and remembers the first thing that is wrong.
 class Reader
@@ -113,11 +141,11 @@ public:
             return;
         if (!entry->is_array())
             return fail(name, fmt::format("must be a list of {}", elements));
-        if (entry->size() > values.capacity())
-            return fail(name, fmt::format("has more than {} {}", values.capacity(), elements), ErrorCode::tooLarge);
+        if (entry->size() > mostIn(values))
+            return fail(name, fmt::format("has more than {} {}", mostIn(values), elements), ErrorCode::tooLarge);
         for (std::size_t i = 0; i < entry->size() && !error; ++i)
         {
-            values.pushBack({});
+            append(values);
             enter(fmt::format("{}[{}]", name, i), (*entry)[i], [&] { fields(values[i]); });
         }
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -15,7 +16,7 @@ namespace
 {
 using profileFields::Need;
 
-/// Builds the text: entries of the profile on lines of their own, objects on one line but the sources.
+/// Builds the text: entries of the profile and elements of lists on lines of their own, other objects on one line.
 class Writer
 {
 public:
@@ -76,10 +77,12 @@ public:
         output += '[';
         for (const auto& value : values)
         {
-            output += &value == values.begin() ? "\n    " : ",\n    ";
+            output += &value == &*values.begin() ? "" : ",";
+            lineBreak(depth + 2);
             braces([&] { fields(value); });
         }
-        output += "\n  ]";
+        lineBreak(depth + 1);
+        output += ']';
     }
 
     void sources(const char* name, const ProfileSources& values)
@@ -102,7 +105,10 @@ private:
     void key(const char* name)
     {
         output += first ? "" : ",";
-        output += inBraces ? " " : "\n  ";
+        if (depth > 0)
+            output += ' ';
+        else
+            lineBreak(1);
         first = false;
         string(name);
         output += ": ";
@@ -118,14 +124,22 @@ private:
     void braces(Fields fields)
     {
         output += '{';
-        inBraces = first = true;
+        ++depth;
+        first = true;
         fields();
-        inBraces = first = false;
+        first = false;
+        --depth;
         output += " }";
     }
 
+    void lineBreak(int steps)
+    {
+        output += '\n';
+        output.append(2 * static_cast<std::size_t>(steps), ' ');
+    }
+
     bool first = true;
-    bool inBraces = false;
+    int depth = 0; ///< braces that are open inside those of the profile
 };
 } // namespace
 

@@ -76,6 +76,30 @@ inline Profile randomProfile(std::uint64_t seed)
                                   wide(1e-7, 100.0),
                                   chance() ? 0.0 : wide(1.0, 1e9),
                                   chance() ? 0.0 : wide(1e-3, 1e6)};
+    if (chance())
+    {
+        ProfileMeasurement& measured = profile.measurement.emplace();
+        measured.fittings = whole(1, 1000000);
+        measured.drive = random.uniform(-200.0, 40.0);
+        if (chance())
+            measured.distortionDrive = random.uniform(-200.0, 40.0);
+        if (chance())
+        {
+            const auto level = [&]
+            {
+                return random.uniform(-400.0, 400.0);
+            };
+            measured.linearity = Linearity{wide(0.1, 2e5), wide(0.1, 2e5), random.uniform(0.0, 100.0),
+                                           level(),        level(),        level(),
+                                           level(),        wide(0.1, 2e5), {}};
+            for (int i = whole(0, 3); i > 0; --i)
+                measured.linearity->outliers.push_back({wide(0.1, 2e5), wide(0.1, 2e5), level()});
+        }
+        double frequency = wide(0.1, 10.0);
+        for (int i = whole(0, 5); i > 0; --i, frequency *= wide(1.01, 2.0))
+            measured.points.push_back({frequency, random.uniform(-400.0, 400.0),
+                                       chance() ? std::optional(random.uniform(-400.0, 400.0)) : std::nullopt});
+    }
     for (const char* path : {"body", "drive.overdrive", "resonance", "ä \"\\\n", "ö"})
         if (chance())
             profile.sources.push_back({path, "assumed: \"ü\" \x02"});

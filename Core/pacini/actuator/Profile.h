@@ -3,6 +3,7 @@
 // What is known of an actuator.
 
 #include <pacini/actuator/Equalizer.h>
+#include <pacini/actuator/ProfileMeasurement.h>
 #include <pacini/actuator/ProfileSource.h>
 #include <pacini/foundation/Result.h>
 
@@ -117,6 +118,7 @@ struct Profile
     EqualizerSections equalizer;
     ActuatorTransient transient;
     std::optional<BodyParams> body;
+    std::optional<ProfileMeasurement> measurement;
     ProfileSources sources;
     bool operator==(const Profile&) const = default;
 };
@@ -182,6 +184,9 @@ struct Profile
         check("body.skinStiffness", body.skinStiffness, 0.0, 1e9, "must be 0 to 1e9 N/m");
         check("body.skinDamping", body.skinDamping, 0.0, 1e6, "must be 0 to 1000000 N s/m");
     }
+    if (profile.measurement)
+        if (auto valid = validate(*profile.measurement, "measurement"); !valid && !error)
+            error = valid.error();
     if (error)
         return *error;
     return validate(profile.sources);
