@@ -60,9 +60,9 @@ void LevelMeter::paint(juce::Graphics& g)
     g.fillRoundedRectangle(bar, 3.0f);
     const auto from = static_cast<float>(pixelOf(scale.from));
     const auto to = static_cast<float>(pixelOf(level));
-    if (std::abs(to - from) >= 1.0f)
+    if (level >= scale.low && std::abs(to - from) >= 1.0f)
     {
-        g.setColour(level > scale.warnAbove ? p.warning : p.accent);
+        g.setColour(level > scale.warnAbove ? p.warning : (level < scale.from ? p.dim : p.accent));
         g.fillRoundedRectangle({std::min(from, to), bar.getY(), std::abs(to - from), bar.getHeight()}, 3.0f);
     }
     if (scale.from > scale.low)

@@ -28,12 +28,12 @@ void setAsGesture(juce::AudioProcessorParameter& parameter, float normal)
     parameter.endChangeGesture();
 }
 
-ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& name,
-                                 const juce::String& help)
+ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& label,
+                                 const juce::String& name, const juce::String& help)
     : parameter(shown), shape(wanted)
 {
     const bool knob = shape == Shape::knob;
-    title.setText(name, juce::dontSendNotification);
+    title.setText(label, juce::dontSendNotification);
     title.setFont(smallFont());
     title.setJustificationType(knob ? juce::Justification::centred : juce::Justification::centredLeft);
     title.setInterceptsMouseClicks(false, false);
@@ -50,7 +50,7 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     {
         return static_cast<double>(parameter.getValueForText(text));
     };
-    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 8 * grid, 2 * grid + 2);
+    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid, 2 * grid + 2);
     slider.setDoubleClickReturnValue(true, static_cast<double>(parameter.getDefaultValue()));
     slider.setWantsKeyboardFocus(true);
     slider.setTitle(name);
@@ -93,7 +93,7 @@ void ParameterSlider::resized()
     if (shape == Shape::knob)
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else
-        title.setBounds(area.removeFromLeft(11 * grid));
+        title.setBounds(area.removeFromLeft(11 * grid - 2));
     slider.setBounds(area);
 }
 

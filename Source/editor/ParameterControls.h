@@ -22,8 +22,9 @@ public:
         bar   ///< name at the left, value at the right
     };
 
-    ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& name,
-                    const juce::String& help);
+    /// `label` is what is shown, `name` what a screen reader says.
+    ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& label,
+                    const juce::String& name, const juce::String& help);
 
     void refresh() override;
     void resized() override;

@@ -120,7 +120,7 @@ std::string textOf(const ParameterRow& row, double value)
     case ParameterUnit::semitones:
         return decimals(limited, 2) + " st";
     case ParameterUnit::milliseconds:
-        return decimals(limited, limited < 100.0 ? 1 : 0) + " ms";
+        return decimals(limited, limited < 9.995 ? 2 : (limited < 99.95 ? 1 : 0)) + " ms";
     case ParameterUnit::percent:
         return decimals(100.0 * limited, 0) + " %";
     case ParameterUnit::number:

@@ -13,14 +13,34 @@ namespace
 {
 using editor::grid;
 
-constexpr int usualWidth = 944;
-constexpr int usualHeight = 608;
+constexpr int usualWidth = 1024;
+constexpr int usualHeight = 616;
+constexpr int leastWidth = 936;
+constexpr int leastHeight = 544;
 constexpr int rowHeight = 3 * grid + 2;
 constexpr int framesPerSecond = 30;
 
 juce::String nameOf(ParameterId parameter)
 {
     return rowOf(parameter).name;
+}
+
+/// Beside the name of the group, under a knob.
+juce::String labelOf(ParameterId parameter)
+{
+    switch (parameter)
+    {
+    case ParameterId::transposition:
+        return "Transpose";
+    case ParameterId::transientSensitivity:
+        return "Sensitivity";
+    case ParameterId::gateThreshold:
+        return "Threshold";
+    case ParameterId::gateRelease:
+        return "Release";
+    default:
+        return nameOf(parameter);
+    }
 }
 
 juce::String helpOf(ParameterId parameter)
@@ -123,9 +143,9 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
     addAndMakeVisible(status);
 
     setDark(look.isDark());
+    const auto wanted = processor.windowSize(); // before the limits set a size
     setResizable(true, true);
-    setResizeLimits(856, 560, 2400, 1600);
-    const auto wanted = processor.windowSize();
+    setResizeLimits(leastWidth, leastHeight, 2400, 1600);
     setSize(wanted.x > 0 ? wanted.x : usualWidth, wanted.y > 0 ? wanted.y : usualHeight);
     refresh();
     startTimerHz(framesPerSecond);
@@ -147,8 +167,8 @@ void PluginWindow::adopt(juce::Component& component, editor::Refreshed* wanted)
 
 std::unique_ptr<editor::ParameterSlider> PluginWindow::slider(ParameterId parameter, Shape shape)
 {
-    auto made = std::make_unique<editor::ParameterSlider>(processor.parameter(parameter), shape, nameOf(parameter),
-                                                          helpOf(parameter));
+    auto made = std::make_unique<editor::ParameterSlider>(processor.parameter(parameter), shape, labelOf(parameter),
+                                                          nameOf(parameter), helpOf(parameter));
     adopt(*made, made.get());
     return made;
 }
@@ -297,7 +317,7 @@ void PluginWindow::resized()
     feltMeter.setBounds(row(right));
 
     // Roles, character, events, gate
-    auto roles = card(lower.removeFromLeft(41 * grid), "What is felt");
+    auto roles = card(lower.removeFromLeft(36 * grid), "What is felt");
     lower.removeFromLeft(grid);
     for (std::size_t i = 0; i < roleLevels.size(); ++i)
     {

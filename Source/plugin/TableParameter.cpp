@@ -29,13 +29,18 @@ juce::String labelOf(const ParameterRow& row)
     }
     return {};
 }
+/// Hosts hand over floats of 0 to 1. Finer than anything that matters, this makes 8 ms of 8.0000004 ms.
+double tidied(double value) noexcept
+{
+    return std::round(1e4 * value) / 1e4;
+}
 } // namespace
 
 TableParameter::TableParameter(const ParameterRow& wanted)
     : AudioProcessorParameterWithID(juce::ParameterID(wanted.id, wanted.since), wanted.name,
                                     juce::AudioProcessorParameterWithIDAttributes().withLabel(labelOf(wanted))),
       tableRow(&wanted), normal(static_cast<float>(normalOf(wanted, wanted.standard))),
-      plain(static_cast<float>(wanted.standard))
+      plain(wanted.standard)
 {
 }
 
@@ -49,7 +54,7 @@ void TableParameter::setPlainNotifyingHost(double wanted)
 void TableParameter::setValue(float newValue)
 {
     const double value = valueAt(*tableRow, static_cast<double>(newValue));
-    plain.store(static_cast<float>(value), std::memory_order_relaxed);
+    plain.store(tidied(value), std::memory_order_relaxed);
     normal.store(static_cast<float>(plugin::isDiscrete(*tableRow)
                                         ? normalOf(*tableRow, value)
                                         : juce::jlimit(0.0, 1.0, static_cast<double>(newValue))),

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] const ParameterRow& row() const noexcept { return *tableRow; }
 
     /// In the unit of the row.
-    [[nodiscard]] double value() const noexcept { return static_cast<double>(plain.load(std::memory_order_relaxed)); }
+    [[nodiscard]] double value() const noexcept { return plain.load(std::memory_order_relaxed); }
     /// Tells the host and whoever listens. [message]
     void setPlainNotifyingHost(double wanted);
 
@@ -36,7 +36,8 @@ public:
 
 private:
     const ParameterRow* tableRow;
-    std::atomic<float> normal, plain;
+    std::atomic<float> normal;
+    std::atomic<double> plain;
 };
 
 } // namespace pacini::plugin
