@@ -25,7 +25,8 @@ struct Capture
 /// there, then looks at the announcements: frames that may have been overwritten meanwhile are those more than a ring's
 /// length before the newest announcement, and they are dropped from the copy's beginning (the protocol of H.-J. Boehm,
 /// "Can seqlocks get along with programming language memory models?", MSPC 2012, with positions instead of a sequence
-/// number, so that a copy never fails as a whole). Samples are relaxed atomics: plain moves on every machine.
+/// number, so that a copy never fails as a whole). Samples are atomics of their own,
+/// plain moves on x86.
 class CaptureRing
 {
 public:
@@ -57,11 +58,10 @@ public:
         }
         const std::uint64_t end = position + in.size();
         announced.store(end, std::memory_order_relaxed);
-        std::atomic_thread_fence(std::memory_order_release);
         auto at = static_cast<std::size_t>(position % capacity);
         for (const float sample : in)
         {
-            ring[at].store(sample, std::memory_order_relaxed);
+            ring[at].store(sample, std::memory_order_release); // whoever sees it sees its announcement
             at = at + 1 == capacity ? 0 : at + 1;
         }
         written.store(end, std::memory_order_release);
@@ -80,17 +80,15 @@ public:
         auto at = static_cast<std::size_t>(capture.firstFrame % capacity);
         for (float& sample : capture.samples)
         {
-            sample = ring[at].load(std::memory_order_relaxed);
+            sample = ring[at].load(std::memory_order_acquire);
             at = at + 1 == capacity ? 0 : at + 1;
         }
-        std::atomic_thread_fence(std::memory_order_acquire);
         const std::uint64_t newestEnd = announced.load(std::memory_order_relaxed);
         const std::uint64_t oldest = newestEnd > capacity ? newestEnd - capacity : 0;
         if (oldest > capture.firstFrame)
         {
             const auto lost = std::min<std::uint64_t>(oldest - capture.firstFrame, wanted);
-            capture.samples.erase(capture.samples.begin(),
-                                  capture.samples.begin() + static_cast<std::ptrdiff_t>(lost));
+            capture.samples.erase(capture.samples.begin(), capture.samples.begin() + static_cast<std::ptrdiff_t>(lost));
             capture.firstFrame += lost;
         }
         return capture;

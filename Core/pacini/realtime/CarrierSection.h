@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace pacini
 {
@@ -29,6 +30,7 @@ public:
     {
         design = &wanted;
         listeners = wanted.listeners;
+        wide = wanted.wide;
         reset();
     }
 
@@ -38,19 +40,26 @@ public:
             listener.reset();
         for (CarrierOscillator& oscillator : oscillators)
             oscillator.reset();
+        wide.reset();
         listening = {};
-        any = false;
+        any = levelling = false;
     }
 
     /// At the start of a hop: `gains` for each band, the ratio of transposition and the shares of the way that
     /// amplitudes go up and down in a hop.
-    void aim(std::span<const double> gains, double transposition, double attack, double release) noexcept
+    void aim(std::span<const double> gains, double transposition, double attack, double release, bool level) noexcept
     {
         const std::size_t bands = design->bands.size();
         any = false;
+        bool anyWanted = false;
+        for (std::size_t k = 0; k < bands; ++k)
+            anyWanted = anyWanted || gains[k] > 0.0;
+        if (level && anyWanted && !levelling)
+            wide.reset();
+        levelling = level && anyWanted;
         for (std::size_t k = 0; k < bands; ++k)
         {
-            const bool wanted = gains[k] > 0.0;
+            const bool wanted = gains[k] > 0.0 || levelling;
             if (wanted && !listening[k])
                 listeners[k].reset();
             listening[k] = wanted || !oscillators[k].silent();
@@ -60,15 +69,20 @@ public:
             return;
         for (std::size_t k = 0; k < bands; ++k)
         {
-            amplitudes[k] = 0.0;
+            amplitudes[k] = plain[k] = 0.0;
             if (!listening[k])
                 continue;
             const auto heard = listeners[k].hear();
-            amplitudes[k] = gains[k] * std::sqrt(std::max(heard.power, 0.0));
+            plain[k] = std::sqrt(std::max(heard.power, 0.0));
+            amplitudes[k] = gains[k] * plain[k];
             pitches[k] = heard.frequency;
             masters[k] = k;
+            if (oscillators[k].silent())
+                oscillators[k].begin(heard.sine, heard.cosine);
         }
         mergeNeighbours(bands);
+        if (levelling)
+            levelToWhole(bands);
         shareVoices(bands);
         for (std::size_t k = 0; k < bands; ++k)
         {
@@ -83,17 +97,19 @@ public:
         }
     }
 
-    /// One hop or part of it.
-    void process(std::span<const double> in, std::span<double> out) noexcept
+    /// Frames `at` and on of the hop: listens to `in`, adds to `out`.
+    void process(std::span<const double> in, std::span<double> out, std::size_t at) noexcept
     {
         if (!any)
             return;
+        if (levelling)
+            wide.process(in);
         for (std::size_t k = 0; k < design->bands.size(); ++k)
             if (listening[k])
             {
                 listeners[k].process(in);
                 if (!oscillators[k].silent())
-                    oscillators[k].addTo(out);
+                    oscillators[k].addTo(out, at);
             }
     }
 
@@ -107,6 +123,7 @@ public:
 private:
     static constexpr double samePitch = 0.15;
     static constexpr double keep = 1.41; // in amplitude
+    static constexpr double largestScale = 8.0;
 
     /// The louder of two, where the one that sounds counts for more.
     [[nodiscard]] double claim(std::size_t k) const noexcept
@@ -129,6 +146,7 @@ private:
                 const std::size_t slave = upper ? below : k;
                 amplitudes[slave] = 0.0;
                 amplitudes[master] = sum;
+                plain[master] += std::exchange(plain[slave], 0.0);
                 for (std::size_t j = 0; j <= k; ++j)
                     if (masters[j] == slave)
                         masters[j] = master;
@@ -137,6 +155,19 @@ private:
             else
                 below = k;
         }
+    }
+
+    /// Narrow bands answer late, each at its own time, and overlap. Their sum is brought to the strength of the whole
+    /// range, which answers at once.
+    void levelToWhole(std::size_t bands) noexcept
+    {
+        const double whole = std::sqrt(std::max(wide.hear().power, 0.0));
+        double sum = 0.0;
+        for (std::size_t k = 0; k < bands; ++k)
+            sum += plain[k] * plain[k];
+        const double scale = sum > 0.0 ? std::min(whole / std::sqrt(sum), largestScale) : 1.0;
+        for (std::size_t k = 0; k < bands; ++k)
+            amplitudes[k] *= scale;
     }
 
     void shareVoices(std::size_t bands) noexcept
@@ -185,7 +216,10 @@ private:
     std::array<BandListener, maxTranslatorBands> listeners;
     std::array<CarrierOscillator, maxTranslatorBands> oscillators;
     std::array<bool, maxTranslatorBands> listening{};
+    BandListener wide;
+    bool levelling = false;
     std::array<double, maxTranslatorBands> amplitudes{};
+    std::array<double, maxTranslatorBands> plain{}; // without the gains of the roles
     std::array<double, maxTranslatorBands> pitches{};
     std::array<std::size_t, maxTranslatorBands> masters{};
     bool any = false;

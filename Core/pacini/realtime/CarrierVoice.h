@@ -40,15 +40,16 @@ public:
         centre = std::sqrt(low.value * high.value) * turn;
         lowest = std::tan(std::min(0.6 * low.value * turn, 1.4));
         highest = std::tan(std::min(1.6 * high.value * turn, 1.5));
-        // A quarter of the band's frequency: the ripple of the means stays below 2 %.
-        pitchShare = hopShare(2.0 / (std::numbers::pi * std::clamp(std::sqrt(low.value * high.value), 30.0, 300.0)), fs);
+        // A sixth of the band's frequency, at most 40 Hz: the ripple of the means stays below 1 %.
+        const double corner = std::clamp(std::sqrt(low.value * high.value) / 6.0, 8.0, 40.0);
+        pitchShare = hopShare(1.0 / (2.0 * std::numbers::pi * corner), fs);
         reset();
     }
 
     void reset() noexcept
     {
         states = {};
-        before = means = differences = 0.0;
+        before = mean = difference = means = differences = 0.0;
         slow = {};
         tangent = std::tan(centre);
     }
@@ -61,8 +62,8 @@ public:
             band = states[1].tick(lower, band).high;
             band = states[2].tick(upper, band).low;
             band = states[3].tick(upper, band).low;
-            const double mean = 0.5 * (band + before);
-            const double difference = band - before;
+            mean = 0.5 * (band + before);
+            difference = band - before;
             before = band;
             means += mean * mean;
             differences += difference * difference;
@@ -74,6 +75,8 @@ public:
     {
         double power = 0.0;     ///< A^2
         double frequency = 0.0; ///< cycles per frame
+        double sine = 0.0;      ///< A sin and A cos of the band's phase at its newest frames
+        double cosine = 0.0;
     };
 
     /// At the end of a hop.
@@ -86,18 +89,19 @@ public:
         if (slow[1] > 1e-24)
             tangent = std::clamp(0.5 * std::sqrt(slow[3] / slow[1]), lowest, highest);
         const double square = tangent * tangent;
-        const double power =
-            (means + 0.25 * differences / square) * (1.0 + square) / static_cast<double>(controlHop);
+        const double power = (means + 0.25 * differences / square) * (1.0 + square) / static_cast<double>(controlHop);
         means = differences = 0.0;
-        return {power, std::atan(tangent) / std::numbers::pi};
+        return {power, std::atan(tangent) / std::numbers::pi, mean, 0.5 * difference / tangent};
     }
 
     void flush() noexcept
     {
         for (StateVariableState& state : states)
             state.flush();
-        for (double& mean : slow)
-            flushTiny(mean);
+        for (double& average : slow)
+            flushTiny(average);
+        flushTiny(mean);
+        flushTiny(difference);
         flushTiny(before);
     }
 
@@ -108,6 +112,7 @@ private:
     double pitchShare = 1.0;
     std::array<StateVariableState, 4> states{};
     double before = 0.0;
+    double mean = 0.0, difference = 0.0;   // of the two newest frames
     double means = 0.0, differences = 0.0; // sums of squares over the hop
     std::array<double, 4> slow{};
     double tangent = 0.1;
@@ -139,6 +144,17 @@ public:
         im *= norm;
     }
 
+    /// While it is silent: begins at the phase of a sinusoid with this sine and cosine, of any amplitude, so that bands
+    /// which share a tone begin together as the tone does.
+    void begin(double sine, double cosine) noexcept
+    {
+        const double size = std::hypot(sine, cosine);
+        if (!(size > 1e-12))
+            return;
+        re = cosine / size;
+        im = sine / size;
+    }
+
     /// While it is silent: goes on from the phase of another one, so that what is handed over between two of one pitch
     /// does not cancel.
     void follow(const CarrierOscillator& other) noexcept
@@ -150,14 +166,15 @@ public:
     [[nodiscard]] bool silent() const noexcept { return amplitude.silent(); }
     [[nodiscard]] double level() const noexcept { return amplitude.end(); }
 
-    void addTo(std::span<double> out) noexcept
+    /// Adds frames `at` and on of the hop.
+    void addTo(std::span<double> out, std::size_t at) noexcept
     {
-        for (double& y : out)
+        for (std::size_t n = 0; n < out.size(); ++n)
         {
             const double next = re * stepRe - im * stepIm;
             im = re * stepIm + im * stepRe;
             re = next;
-            y += amplitude.next() * im;
+            out[n] += amplitude.at(at + n) * im;
         }
     }
 

@@ -10,14 +10,15 @@ namespace pacini
 
 inline constexpr std::size_t controlHop = 8; ///< inner frames, 0.7 to 1.3 ms
 
-/// A number that runs in straight lines between the points of the grid.
+/// A number that runs in straight lines between the points of the grid. Its value depends on the frame of the hop only,
+/// not on how the hop is cut into calls.
 class HopRamp
 {
 public:
     /// To `target` at once.
     void jump(double target) noexcept
     {
-        now = goal = target;
+        from = goal = target;
         step = 0.0;
     }
 
@@ -25,22 +26,21 @@ public:
     /// is jumped, so that a gain arrives.
     void aim(double target, double share) noexcept
     {
-        now = goal;
-        goal = std::abs(target - now) <= 1e-6 ? target : now + share * (target - now);
-        step = (goal - now) / static_cast<double>(controlHop);
+        from = goal;
+        goal = std::abs(target - from) <= 1e-6 ? target : from + share * (target - from);
+        step = (goal - from) / static_cast<double>(controlHop);
     }
 
-    [[nodiscard]] double next() noexcept { return now += step; }
-    void skip(std::size_t frames) noexcept { now += static_cast<double>(frames) * step; }
-    [[nodiscard]] double value() const noexcept { return now; }
+    /// At frame `frame` of the hop, 0 to controlHop - 1.
+    [[nodiscard]] double at(std::size_t frame) const noexcept { return from + static_cast<double>(frame + 1) * step; }
+    [[nodiscard]] double start() const noexcept { return from; }
     [[nodiscard]] double end() const noexcept { return goal; }
-    [[nodiscard]] double perFrame() const noexcept { return step; }
 
     /// Whether it is 0 during the whole hop.
-    [[nodiscard]] bool silent() const noexcept { return now == 0.0 && step == 0.0; }
+    [[nodiscard]] bool silent() const noexcept { return from == 0.0 && goal == 0.0; }
 
 private:
-    double now = 0.0;
+    double from = 0.0;
     double goal = 0.0;
     double step = 0.0;
 };

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace pacini
 {
@@ -18,9 +19,10 @@ class EventPulses
 public:
     void reset() noexcept { *this = EventPulses(); }
 
-    void begin(const Pulse& pulse, double gain) noexcept
+    /// From frame `after` of the next call of addTo() on.
+    void begin(const Pulse& pulse, double gain, std::size_t after) noexcept
     {
-        voices[next] = {PulseVoice(pulse), gain};
+        voices[next] = {PulseVoice(pulse), gain, after};
         next = (next + 1) % voices.size();
         ++sounding;
     }
@@ -33,7 +35,8 @@ public:
         for (Voice& voice : voices)
             if (!voice.pulse.finished())
             {
-                voice.pulse.addTo(out, voice.gain);
+                const std::size_t wait = std::min(std::exchange(voice.after, 0), out.size());
+                voice.pulse.addTo(out.subspan(wait), voice.gain);
                 sounding += voice.pulse.finished() ? 0u : 1u;
             }
     }
@@ -43,6 +46,7 @@ private:
     {
         PulseVoice pulse;
         double gain = 0.0;
+        std::size_t after = 0;
     };
 
     std::array<Voice, 4> voices{};

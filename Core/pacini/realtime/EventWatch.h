@@ -20,10 +20,10 @@ struct HeardEvent
     double gap = 0.0;       ///< s since the event before
 };
 
-/// The relative score of TransientDetector, (fast - slow) / (slow + floor), on the peaks of the full band: bright events
-/// count that the range of touch hardly holds. TransientDetector itself names an event when nothing later can replace
-/// it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for the time in which skin
-/// takes two events for one.
+/// The relative score of TransientDetector, (fast - slow) / (slow + floor), on the peaks of the full band: bright
+/// events count that the range of touch hardly holds. TransientDetector itself names an event when nothing later can
+/// replace it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for the time in which
+/// skin takes two events for one.
 class EventWatch
 {
 public:

@@ -221,8 +221,8 @@ private:
     /// dry holds the newest `latency` frames of the input and, behind them, this piece.
     void keepDry(std::span<const float> in) noexcept
     {
-        std::copy(dry.begin() + static_cast<std::ptrdiff_t>(dryFrames), dry.begin() + static_cast<std::ptrdiff_t>(dryFrames + latency),
-                  dry.begin());
+        std::copy(dry.begin() + static_cast<std::ptrdiff_t>(dryFrames),
+                  dry.begin() + static_cast<std::ptrdiff_t>(dryFrames + latency), dry.begin());
         for (std::size_t i = 0; i < in.size(); ++i)
             dry[latency + i] = toSample(finiteOrZero(in[i]));
         dryFrames = in.size();
@@ -234,7 +234,7 @@ private:
         {
             bypass = bypassTarget > bypass ? std::min(bypass + bypassStep, bypassTarget)
                                            : std::max(bypass - bypassStep, bypassTarget);
-            out[i] += bypass * (dry[i] - out[i]);
+            out[i] = bypass * dry[i] + (1.0f - bypass) * out[i];
         }
     }
 

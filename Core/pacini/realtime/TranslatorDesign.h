@@ -10,8 +10,10 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/filters/BandLayout.h>
+#include <pacini/realtime/BandMeter.h>
+#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierVoice.h>
-#include <pacini/realtime/DirectBank.h>
+#include <pacini/realtime/DirectPath.h>
 #include <pacini/realtime/TranslatorParams.h>
 #include <pacini/synthesis/TransientPulse.h>
 
@@ -61,8 +63,11 @@ struct TranslatorDesign
     BandLayout layout;
     FixedVector<TranslatorBand, maxTranslatorBands> bands;
     double innerRate = 6000.0; ///< Hz
-    DirectBank bank;           ///< to be copied, as the listeners, so that the audio thread designs nothing
+    BandMeter meter;           ///< to be copied, as what follows, so that the audio thread designs nothing
+    DirectPath direct;
+    bool anyDirect = false;
     std::array<BandListener, maxTranslatorBands> listeners;
+    BandListener wide;                       ///< to the whole range
     std::optional<FrequencyMap> frequencies; ///< none: every frequency stays
     double lowest = 5.0;                     ///< Hz that carriers reach
     double highest = 2000.0;
@@ -74,7 +79,8 @@ struct TranslatorDesign
     BiquadCascadeCoefficients filter; ///< equaliser and flattening at the inner rate
     double scale = 1.0;               ///< room for overdrive
     std::optional<ProtectionParams> protection;
-    double feltRange = 60.0; ///< dB between full drive and the weakest drive that is felt
+    double brightFrequency = 0.0; ///< Hz at which sounds too high for the skin are felt; 0: there is no need
+    double feltRange = 60.0;      ///< dB between full drive and the weakest drive that is felt
     TranslatorPlan plan;
 };
 
@@ -129,10 +135,10 @@ struct TranslatorDesign
 
             OutputFilterParams filter;
             filter.flattening = flattening;
-            const auto pruned = pruneEqualizer(profile.equalizer,
-                                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency),
-                                                Decibels(0.1)},
-                                               design.innerRate);
+            const auto pruned =
+                pruneEqualizer(profile.equalizer,
+                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
+                               design.innerRate);
             filter.equalizer = pruned.kept;
             design.filter = designOutputFilter(filter, design.innerRate);
             for (const DroppedSection& section : pruned.dropped)
@@ -143,7 +149,7 @@ struct TranslatorDesign
                                                   : "the equaliser does it"});
         }
         ProtectionParams limits = protectionParams(profile, Seconds(0.0));
-        if (limits.excursion || limits.heat)
+        if ((limits.excursion || limits.heat) && !design.motor)
         {
             const double overdrive = profile.drive.overdrive;
             if (limits.excursion)
@@ -156,7 +162,8 @@ struct TranslatorDesign
     if (!known)
         plan.push_back({"adaptation", "no actuator is known"});
     if (!design.protection)
-        plan.push_back({"protection", "no drive within full scale reaches a limit of the profile"});
+        plan.push_back({"protection", design.motor ? "a motor bears its rated voltage"
+                                                   : "no drive within full scale reaches a limit of the profile"});
     if (known && design.levels.isIdentity())
         plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
     design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;
@@ -164,13 +171,22 @@ struct TranslatorDesign
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
     design.lowest = std::min(design.lowest, design.highest);
 
-    design.bank.design(design.layout, design.innerRate);
+    design.meter.design(design.layout, design.innerRate);
+    Hertz low(1.0), border(1.0), high(1.0);
     const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
     for (std::size_t k = 0; k < design.layout.bands(); ++k)
     {
         TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};
         band.rumble = band.centre.value < 100.0;
         band.shown = anyWaveform && band.centre.value >= design.lowest && band.centre.value <= design.highest;
+        if (band.rumble)
+            border = band.high;
+        if (band.shown || design.motor) // whose strength is that of the whole range
+        {
+            low = design.anyDirect ? low : band.low;
+            high = band.high;
+            design.anyDirect = true;
+        }
         design.bands.pushBack(band);
         design.listeners[k].design(band.low, band.high, design.innerRate);
         if (band.shown)
@@ -179,6 +195,17 @@ struct TranslatorDesign
             plan.push_back({"bands[" + std::to_string(k) + "].direct",
                             anyWaveform ? "lies outside the actuator's range" : "the actuator has too few voices"});
     }
+    // Bands that are moved into a narrower range are felt already.
+    const bool showsAll = std::all_of(design.bands.begin(), design.bands.end(),
+                                      [](const TranslatorBand& band)
+                                      { return band.shown || band.high.value <= BrightVoice::border.value; });
+    if (anyWaveform && showsAll)
+        design.brightFrequency = clampTo(BrightVoice::frequency, design.lowest, design.highest);
+    else
+        plan.push_back({"brightness", "high bands are moved into the actuator's range"});
+    design.wide.design(design.layout.lowerEdge(0), design.layout.upperEdge(design.layout.bands() - 1),
+                       design.innerRate);
+    design.direct.design(low, border, high, design.innerRate);
     return design;
 }
 
@@ -190,6 +217,8 @@ struct TranslatorDesign
         plan.push_back({"rumble", "is muted"});
     if (params.texture.muted)
         plan.push_back({"texture", "is muted"});
+    if (!(params.brightness > lowestBrightness))
+        plan.push_back({"brightness", "is off"});
     if (params.transients.muted)
         plan.push_back({"transients", "are muted"});
     return plan;

@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/MotorDrive.h>
+#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/EventPulses.h>
 #include <pacini/realtime/EventWatch.h>
@@ -33,7 +34,8 @@ public:
     {
         design = &wanted;
         const double fs = wanted.innerRate;
-        bank = wanted.bank;
+        meter = wanted.meter;
+        direct = wanted.direct;
         carriers.adopt(wanted);
         if (wanted.motor)
         {
@@ -45,9 +47,11 @@ public:
         {
             rate = fs;
             watch.prepare(fs);
+            bright.design(fs);
         }
         gainShare = hopShare(0.005, fs);
         levelShare = hopShare(0.030, fs);
+        strengthShare = hopShare(0.010, fs); // a motor follows no faster
         peakDecay = 1.0 - hopShare(0.020, fs);
         clearSignal();
         setParams(params);
@@ -70,6 +74,7 @@ public:
         texture = role(params.texture);
         transients = role(params.transients);
         intensity = gain(params.intensity);
+        brightness = params.brightness > lowestBrightness ? gain(params.brightness) : 0.0;
         transposition = std::exp2(params.transposition / 12.0);
         attackShare = hopShare(0.001 * params.attack, rate);
         releaseShare = hopShare(0.001 * params.release, rate);
@@ -123,18 +128,21 @@ public:
     [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
 
 private:
-    static constexpr double baseThreshold = 2.0;
-    static constexpr double brightShare = 0.5; // of an event's full-band peak that is felt, as in EventTransients.h
+    static constexpr double baseThreshold = 1.0;
+    static constexpr double leastShare = 0.06;
+    static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
 
     void clearSignal() noexcept
     {
-        bank.reset();
+        meter.reset();
+        direct.reset();
         carriers.reset();
+        bright.reset();
         pulses.reset();
         motor.reset();
         filterStates = {};
         bandPowers = {};
-        strengthSquared = playedPeak = heardPeak = 0.0;
+        firstStrength = strengthSquared = playedEnergy = playedPeak = heardPeak = 0.0;
         loudest = 0.0;
         burstLeft = 0;
         asleep = false;
@@ -151,18 +159,21 @@ private:
         fade.jump(1.0);
         fadeTarget = 1.0;
         ratio = transposition;
-        for (std::size_t k = 0; k < design->bands.size(); ++k)
-            directGains[k].jump(directTarget(k));
+        direct.jump(rumble * directShare(), texture * directShare());
+        bright.jump(brightGain());
     }
 
-    [[nodiscard]] double roleGain(std::size_t k) const noexcept { return design->bands[k].rumble ? rumble : texture; }
-    [[nodiscard]] bool mayBeDirect(std::size_t k) const noexcept
+    /// How much of a band's own signal is played where the actuator can show it.
+    [[nodiscard]] double directShare() const noexcept
     {
-        return design->bands[k].shown && params.transposition == 0.0;
+        if (design->motor)
+            return 1.0;
+        return design->anyDirect && params.transposition == 0.0 ? params.direct : 0.0;
     }
-    [[nodiscard]] double directTarget(std::size_t k) const noexcept
+
+    [[nodiscard]] double brightGain() const noexcept
     {
-        return mayBeDirect(k) ? roleGain(k) * params.direct : 0.0;
+        return design->brightFrequency > 0.0 ? texture * brightness : 0.0;
     }
 
     void beginHop() noexcept
@@ -177,33 +188,40 @@ private:
             ratio = transposition;
 
         // A hop without any sign of life: what may be left is 180 dB below full scale.
-        asleep = frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0;
-        if (asleep)
+        const bool wasAsleep = std::exchange(asleep, frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0);
+        if (asleep && !wasAsleep)
         {
-            bank.reset();
+            meter.reset();
+            direct.reset();
             carriers.reset();
+            bright.reset();
             filterStates = {};
             bandPowers = {};
-            strengthSquared = 0.0;
+            firstStrength = strengthSquared = 0.0;
         }
         loudest = 0.0;
 
+        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
         std::array<double, maxTranslatorBands> carrierGains{};
-        double wanted = 0.0;
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
-            directGains[k].aim(directTarget(k), gainShare);
+            const TranslatorBand& band = design->bands[k];
+            const double role = band.rumble ? rumble : texture;
             if (!design->motor)
-                carrierGains[k] = mayBeDirect(k) ? roleGain(k) * (1.0 - params.direct) : roleGain(k);
-            const double power = 2.0 * bank.takePower(k) / static_cast<double>(controlHop);
-            wanted += roleGain(k) * roleGain(k) * power;
+                carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
+            const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
             bandPowers[k] += levelShare * (power - bandPowers[k]);
+            flushTiny(bandPowers[k]);
         }
-        carriers.aim(carrierGains, ratio, attackShare, releaseShare);
+        carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
+        bright.aim(brightGain(), gainShare, design->brightFrequency / rate);
         if (design->motor)
         {
-            strengthSquared += (wanted > strengthSquared ? attackShare : releaseShare) * (wanted - strengthSquared);
-            double level = std::sqrt(std::max(strengthSquared, 0.0));
+            // Twice smoothed: the drive of a motor sharpens every ripple.
+            const double energy = playedEnergy / static_cast<double>(controlHop);
+            firstStrength += strengthShare * (energy - firstStrength);
+            strengthSquared += strengthShare * (firstStrength - strengthSquared);
+            double level = std::sqrt(2.0 * std::max(strengthSquared, 0.0));
             if (burstLeft > 0)
             {
                 --burstLeft;
@@ -213,10 +231,15 @@ private:
         }
         else if (!design->levels.isIdentity())
             levelGain.aim(playedPeak > 1e-9 ? design->levels(playedPeak) / playedPeak : 1.0, gainShare);
+        playedEnergy = 0.0;
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
-        bank.flush();
+        for (double* value : {&playedPeak, &heardPeak, &firstStrength, &strengthSquared})
+            flushTiny(*value);
+        meter.flush();
+        direct.flush();
         carriers.flush();
+        bright.flush();
         watch.flush();
         for (StateVariableState& state : filterStates)
             state.flush();
@@ -228,42 +251,48 @@ private:
         const std::size_t n = in.size();
         std::array<double, controlHop> x{}, y{}, gates{};
         double heard = 0.0;
+        std::size_t eventAt = n;
+        HeardEvent event;
         for (std::size_t i = 0; i < n; ++i)
         {
-            const double g = input.next();
+            const double g = input.at(framesIntoHop + i);
             x[i] = g * static_cast<double>(in[i]);
             const double peak = g * static_cast<double>(peaks[i]);
             gates[i] = gate.tick(peak);
             heard = std::max({heard, std::abs(x[i]), peak});
-            heardPeak = std::max(heardPeak, std::abs(x[i]));
-            HeardEvent event;
             if (watch.tick(peak, threshold, event) && gates[i] > 0.0)
-            {
-                onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
-                beginPulse(event);
-            }
+                eventAt = i; // events are farther apart than a hop
         }
         loudest = std::max(loudest, heard);
         if (asleep && heard == 0.0 && pulses.silent())
         {
             std::fill(out.begin(), out.end(), 0.0f);
-            moveRamps(n);
             return;
         }
         asleep = false;
         const auto xs = std::span<const double>(x).first(n);
         const auto ys = std::span<double>(y).first(n);
-        bank.process(xs, std::span(directGains).first(design->bands.size()), ys);
-        carriers.process(xs, ys);
+        meter.process(xs);
+        if (!direct.silent())
+            direct.process(xs, ys, framesIntoHop);
+        carriers.process(xs, ys, framesIntoHop);
+        if (!bright.silent())
+            bright.process(xs, ys, framesIntoHop);
         for (std::size_t i = 0; i < n; ++i)
         {
+            heardPeak = std::max(heardPeak, std::abs(x[i]));
             playedPeak = std::max(playedPeak, std::abs(y[i]));
+            playedEnergy += y[i] * y[i];
             out[i] = static_cast<float>(y[i]);
+            if (i == eventAt)
+            {
+                onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
+                beginPulse(event, i);
+            }
         }
         if (!pulses.silent() && !design->motor)
             pulses.addTo(out);
         finish(out, gates);
-        moveGains(n);
     }
 
     /// From the sum of what is played to the drive.
@@ -271,48 +300,36 @@ private:
     {
         for (std::size_t i = 0; i < out.size(); ++i)
         {
-            const double wanted = design->motor ? strength.next() : levelGain.next() * static_cast<double>(out[i]);
-            out[i] = toSample(drive.next() * gates[i] * wanted);
+            const double wanted = design->motor ? strength.at(framesIntoHop + i)
+                                                : levelGain.at(framesIntoHop + i) * static_cast<double>(out[i]);
+            out[i] = toSample(drive.at(framesIntoHop + i) * gates[i] * wanted);
         }
         if (design->motor)
             motor.process(out, out);
         const std::size_t sections = design->filter.sections.size();
-        for (float& sample : out)
+        for (std::size_t i = 0; i < out.size(); ++i)
         {
-            auto y = static_cast<double>(sample);
+            auto y = static_cast<double>(out[i]);
             for (std::size_t s = 0; s < sections; ++s)
                 y = filterStates[s].tick(design->filter.sections[s], y);
             loudest = std::max(loudest, std::abs(y));
-            y *= design->scale * fade.next();
-            if (!design->protection)
+            y *= design->scale * fade.at(framesIntoHop + i);
+            if (!design->protection && !design->motor)
             {
                 const double g = limiter.tick(y * y);
                 smallestGain = std::min(smallestGain, g);
                 y *= g;
             }
-            sample = toSample(y);
+            out[i] = toSample(y);
         }
-    }
-
-    void moveGains(std::size_t n) noexcept
-    {
-        for (HopRamp& gain : directGains)
-            gain.skip(n);
-    }
-
-    /// As far as a sounding hop would have moved them.
-    void moveRamps(std::size_t n) noexcept
-    {
-        moveGains(n);
-        for (HopRamp* ramp : {&strength, &levelGain, &drive, &fade})
-            ramp->skip(n);
     }
 
     /// The pulse tops what the bands give the event up to what is to be felt of it. Sharp is what the range of touch
     /// holds little of.
-    void beginPulse(const HeardEvent& event) noexcept
+    void beginPulse(const HeardEvent& event, std::size_t at) noexcept
     {
-        const double wanted = std::min(1.0, transients * brightShare * event.amplitude);
+        const double felt = std::clamp(heardPeak, leastShare * event.amplitude, brightShare * event.amplitude);
+        const double wanted = std::min(1.0, transients * felt);
         if (design->motor)
         {
             if (wanted > 0.0)
@@ -327,34 +344,37 @@ private:
             return;
         const double share = std::min(1.0, heardPeak / std::max(event.amplitude, 1e-9));
         const double sharpness = std::clamp(1.0 - share + params.transientSharpness, 0.0, 1.0);
-        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing);
+        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing, at);
     }
 
     const TranslatorDesign* design = nullptr;
     double rate = 0.0;
     TranslatorParams params;
-    double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, intensity = 1.0, transposition = 1.0;
+    double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, brightness = 0.5, intensity = 1.0,
+           transposition = 1.0;
     double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
-    double gainShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
+    double gainShare = 1.0, levelShare = 1.0, strengthShare = 1.0, peakDecay = 0.9;
 
     LiveGate gate;
     EventWatch watch;
     EventPulses pulses;
-    DirectBank bank;
+    BandMeter meter;
+    DirectPath direct;
     CarrierSection carriers;
+    BrightVoice bright;
     MotorDrive motor;
     LimiterGain limiter;
     std::array<StateVariableState, maxBiquadSections> filterStates{};
 
     HopRamp input, strength, drive, levelGain, fade;
-    std::array<HopRamp, maxTranslatorBands> directGains;
     double fadeTarget = 1.0;
     double ratio = 1.0;
-    double strengthSquared = 0.0;
+    double firstStrength = 0.0, strengthSquared = 0.0;
     double burst = 0.0;
-    std::size_t burstLeft = 0;                             // hops
-    double playedPeak = 0.0, heardPeak = 0.0;              // of late
-    double loudest = 0.0;                                  // in this hop, of input and output
+    std::size_t burstLeft = 0;                // hops
+    double playedEnergy = 0.0;                // in this hop
+    double playedPeak = 0.0, heardPeak = 0.0; // of late
+    double loudest = 0.0;                     // in this hop, of input and output
     std::array<double, maxTranslatorBands> bandPowers{};
     double smallestGain = 1.0;
     std::size_t framesIntoHop = 0;

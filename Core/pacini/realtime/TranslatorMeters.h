@@ -19,12 +19,12 @@ struct TranslatorMeterReading
 {
     std::array<double, maxTranslatorBands> bandLevels{}; ///< dB of the source's band, 0 = full scale sine; -infinity
     std::size_t bands = 0;
-    std::uint32_t events = 0;           ///< since reset, modulo 2^32: a lamp lights when it changes
-    std::uint64_t lastEventFrame = 0;   ///< of the input, where the newest event begins
-    double lastEventLevel = 0.0;        ///< linear
-    double outputPeak = 0.0;            ///< linear, of the last call
-    double gainReduction = 0.0;         ///< dB, of limiter or protection in the last call
-    double overThreshold = 0.0;         ///< dB of the drive above what is just felt; negative: below
+    std::uint32_t events = 0;         ///< since reset, modulo 2^32: a lamp lights when it changes
+    std::uint64_t lastEventFrame = 0; ///< of the input, where the newest event begins
+    double lastEventLevel = 0.0;      ///< linear
+    double outputPeak = 0.0;          ///< linear, of the last call
+    double gainReduction = 0.0;       ///< dB, of limiter or protection in the last call
+    double overThreshold = 0.0;       ///< dB of the drive above what is just felt; negative: below
 };
 
 /// One writer, any number of readers, no locks: every number is an atomic of its own. Numbers of one reading may come
@@ -44,8 +44,8 @@ public:
         reading.lastEventLevel = static_cast<double>(lastEventLevel.load(std::memory_order_relaxed));
         reading.outputPeak = static_cast<double>(outputPeak.load(std::memory_order_relaxed));
         reading.gainReduction = static_cast<double>(gainReduction.load(std::memory_order_relaxed));
-        reading.overThreshold = 20.0 * std::log10(reading.outputPeak) +
-                                static_cast<double>(feltRange.load(std::memory_order_relaxed));
+        reading.overThreshold =
+            20.0 * std::log10(reading.outputPeak) + static_cast<double>(feltRange.load(std::memory_order_relaxed));
         return reading;
     }
 

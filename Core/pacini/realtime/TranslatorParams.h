@@ -17,25 +17,28 @@ struct RoleParams
     bool operator==(const RoleParams&) const = default;
 };
 
+inline constexpr double lowestBrightness = -60.0; ///< dB, which is off
+
 /// Values outside their ranges are clamped, NaN to the lower end (see clamped()). Every change is smoothed: gains move
 /// within about 20 ms, pitches glide.
 struct TranslatorParams
 {
-    double inputGain = 0.0;          ///< dB, -60 to 48: what the analysis sees
-    double intensity = 0.0;          ///< dB, -60 to 24: gain of the drive
-    RoleParams rumble;               ///< bands with centres below 100 Hz
-    RoleParams texture;              ///< the other bands
-    RoleParams transients;           ///< events: pulses that top what the bands give them
-    double transposition = 0.0;      ///< semitones, -48 to 48; other than 0 everything is played by carriers
-    double direct = 1.0;             ///< 0 to 1: share of a band's own signal where the actuator can show it, against its
-                                     ///< carrier
-    double attack = 1.0;             ///< ms, 0 to 200: of the carriers' envelopes
-    double release = 8.0;            ///< ms, 0 to 1000: of the carriers' envelopes
+    double inputGain = 0.0;     ///< dB, -60 to 48: what the analysis sees
+    double intensity = 0.0;     ///< dB, -60 to 24: gain of the drive
+    RoleParams rumble{};        ///< bands with centres below 100 Hz
+    RoleParams texture{};       ///< the other bands
+    RoleParams transients{};    ///< events: pulses that top what the bands give them
+    double brightness = -6.0;   ///< dB, -60 (off) to 12: of what is too high for the skin, felt as a tone of 200 Hz
+    double transposition = 0.0; ///< semitones, -48 to 48; other than 0 everything is played by carriers
+    double direct = 1.0;        ///< 0 to 1: share of a band's own signal where the actuator can show it, against its
+                                ///< carrier
+    double attack = 1.0;        ///< ms, 0 to 200: of the carriers' envelopes
+    double release = 8.0;       ///< ms, 0 to 1000: of the carriers' envelopes
     double transientSensitivity = 0.5; ///< 0 to 1; each tenth is 3 dB of how far an event must stand out
-    double transientSharpness = 0.0; ///< -1 (dull, 100 Hz) to 1 (crisp, 280 Hz), added to the event's own
-    double gateThreshold = -75.0;    ///< dBFS of the full-band peak, -120 to 0; below it nothing is played
-    double gateRelease = 60.0;       ///< ms, 1 to 2000
-    bool bypass = false;             ///< the input itself, as late as the drive
+    double transientSharpness = 0.0;   ///< -1 (dull, 100 Hz) to 1 (crisp, 280 Hz), added to the event's own
+    double gateThreshold = -75.0;      ///< dBFS of the full-band peak, -120 to 0; below it nothing is played
+    double gateRelease = 60.0;         ///< ms, 1 to 2000
+    bool bypass = false;               ///< the input itself, as late as the drive
     bool operator==(const TranslatorParams&) const = default;
 };
 
@@ -45,6 +48,7 @@ struct TranslatorParams
         role->level = clampTo(role->level, -60.0, 24.0);
     p.inputGain = clampTo(p.inputGain, -60.0, 48.0);
     p.intensity = clampTo(p.intensity, -60.0, 24.0);
+    p.brightness = clampTo(p.brightness, lowestBrightness, 12.0);
     p.transposition = clampTo(p.transposition, -48.0, 48.0);
     p.direct = clampTo(p.direct, 0.0, 1.0);
     p.attack = clampTo(p.attack, 0.0, 200.0);
