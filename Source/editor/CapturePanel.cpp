@@ -141,7 +141,8 @@ void CapturePanel::take(Result<Clip> made)
 void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
-        "Save the clip", juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(chip.file().getFileName()),
+        "Save the clip",
+        juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(chip.file().getFileName()),
         "*.json;*.pacb");
     chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
                          [this](const juce::FileChooser& chosen)
@@ -155,8 +156,8 @@ void CapturePanel::save(const juce::File& file)
 {
     const bool packed = file.hasFileExtension("pacb");
     const juce::File target = packed || file.hasFileExtension("json") ? file : file.withFileExtension("json");
-    const auto written = writeClip(target.getFullPathName().toStdString(), *clip,
-                                   packed ? ClipFormat::packed : ClipFormat::json);
+    const auto written =
+        writeClip(target.getFullPathName().toStdString(), *clip, packed ? ClipFormat::packed : ClipFormat::json);
     if (!written)
         say("Not saved: " + juce::String(written.error().text()), true);
 }

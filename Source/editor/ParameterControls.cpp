@@ -50,7 +50,8 @@ ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wan
     {
         return static_cast<double>(parameter.getValueForText(text));
     };
-    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid, 2 * grid + 2);
+    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid,
+                           2 * grid + 2);
     slider.setDoubleClickReturnValue(true, static_cast<double>(parameter.getDefaultValue()));
     slider.setWantsKeyboardFocus(true);
     slider.setTitle(name);

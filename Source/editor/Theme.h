@@ -33,7 +33,8 @@ public:
     void drawLinearSlider(juce::Graphics&, int x, int y, int width, int height, float position, float least, float most,
                           juce::Slider::SliderStyle, juce::Slider&) override;
     void drawToggleButton(juce::Graphics&, juce::ToggleButton&, bool highlighted, bool down) override;
-    void drawButtonBackground(juce::Graphics&, juce::Button&, const juce::Colour&, bool highlighted, bool down) override;
+    void drawButtonBackground(juce::Graphics&, juce::Button&, const juce::Colour&, bool highlighted,
+                              bool down) override;
     void drawComboBox(juce::Graphics&, int width, int height, bool down, int x, int y, int w, int h,
                       juce::ComboBox&) override;
     void positionComboBoxText(juce::ComboBox&, juce::Label&) override;

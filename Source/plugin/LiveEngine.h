@@ -25,8 +25,8 @@ inline constexpr std::size_t mostSidechainChannels = 8;
 inline constexpr std::size_t mostHapticChannels = 8;
 inline constexpr double captureSeconds = 30.0;
 
-/// The channels of one block. Main goes in and comes out in place. A haptic channel may lie in the memory of a sidechain
-/// channel: what goes in is read before anything is written.
+/// The channels of one block. Main goes in and comes out in place. A haptic channel may lie in the memory of a
+/// sidechain channel: what goes in is read before anything is written.
 struct EngineBlock
 {
     std::span<float* const> main;

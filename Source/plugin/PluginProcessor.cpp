@@ -110,8 +110,8 @@ void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) n
         if (bus >= getBusCount(isInput))
             return 0;
         const int first = getChannelIndexInProcessBlockBuffer(isInput, bus, 0);
-        const int count = std::min({getChannelCountOfBus(isInput, bus), static_cast<int>(channels.size()),
-                                    buffer.getNumChannels() - first});
+        const int count = std::min(
+            {getChannelCountOfBus(isInput, bus), static_cast<int>(channels.size()), buffer.getNumChannels() - first});
         for (int c = 0; c < count; ++c)
             channels[static_cast<std::size_t>(c)] = buffer.getWritePointer(first + c);
         return static_cast<std::size_t>(std::max(count, 0));

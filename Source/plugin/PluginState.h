@@ -5,9 +5,8 @@
 
 #include "plugin/ParameterValues.h"
 
-#include <pacini/foundation/Result.h>
-
 #include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Result.h>
 
 #include <optional>
 #include <string>

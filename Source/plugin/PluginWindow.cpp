@@ -65,9 +65,13 @@ bool systemIsDark()
 } // namespace
 
 PluginWindow::PluginWindow(PluginProcessor& shown)
-    : AudioProcessorEditor(shown), processor(shown), tooltips(this, 600),
-      inputMeter("Input", "Peak of the sound that is turned into touch", {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
-      outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive", {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
+    : AudioProcessorEditor(shown),
+      processor(shown),
+      tooltips(this, 600),
+      inputMeter("Input", "Peak of the sound that is turned into touch",
+                 {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
+      outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
+                  {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
       reductionMeter("Gain reduction", "What limiter and protection of the actuator take away",
                      {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
       feltMeter("Above touch threshold", "How far the haptic signal stands above what is just felt",
@@ -256,7 +260,8 @@ void PluginWindow::chooseActuator()
                              if (!loaded)
                                  juce::NativeMessageBox::showMessageBoxAsync(
                                      juce::MessageBoxIconType::WarningIcon, "Not a profile",
-                                     chosen.getResult().getFileName() + ": " + juce::String(loaded.error().text()), this);
+                                     chosen.getResult().getFileName() + ": " + juce::String(loaded.error().text()),
+                                     this);
                          });
 }
 
@@ -321,7 +326,8 @@ void PluginWindow::resized()
     lower.removeFromLeft(grid);
     for (std::size_t i = 0; i < roleLevels.size(); ++i)
     {
-        auto line = roles.removeFromTop(roles.getHeight() / static_cast<int>(roleLevels.size() - i)).withSizeKeepingCentre(roles.getWidth(), rowHeight);
+        auto line = roles.removeFromTop(roles.getHeight() / static_cast<int>(roleLevels.size() - i))
+                        .withSizeKeepingCentre(roles.getWidth(), rowHeight);
         roleMutes[i]->setBounds(line.removeFromRight(6 * grid));
         line.removeFromRight(grid);
         roleLevels[i]->setBounds(line);

@@ -15,10 +15,10 @@ namespace pacini::plugin
 namespace
 {
 /// In the order of profileChoices; never reordered, new ones at the end.
-constexpr std::array<std::string_view, 12> names{"flat-pcm",   "l5-wristband",     "l5-test-jig",
-                                                 "lra-175",    "lra-235-narrow",   "erm-coin",
-                                                 "piezo",      "phone-taptic",     "quest-controller",
-                                                 "dualsense-voice-coil", "joycon-hd-rumble", "wideband-exciter"};
+constexpr std::array<std::string_view, 12> names{
+    "flat-pcm",         "l5-wristband",    "l5-test-jig",  "lra-175",          "lra-235-narrow",
+    "erm-coin",         "piezo",           "phone-taptic", "quest-controller", "dualsense-voice-coil",
+    "joycon-hd-rumble", "wideband-exciter"};
 } // namespace
 
 std::string_view profileNameOf(std::size_t slot) noexcept

@@ -30,8 +30,7 @@ public:
     {
         const bool both = choice == SourceChoice::mix;
         const auto mainGain = static_cast<float>(both ? std::min(1.0, 2.0 - 2.0 * mix) : choice == SourceChoice::main);
-        const auto sideGain =
-            static_cast<float>(both ? std::min(1.0, 2.0 * mix) : choice == SourceChoice::sidechain);
+        const auto sideGain = static_cast<float>(both ? std::min(1.0, 2.0 * mix) : choice == SourceChoice::sidechain);
         if (begun)
         {
             main.aim(mainGain);

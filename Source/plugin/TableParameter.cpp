@@ -39,7 +39,8 @@ double tidied(double value) noexcept
 TableParameter::TableParameter(const ParameterRow& wanted)
     : AudioProcessorParameterWithID(juce::ParameterID(wanted.id, wanted.since), wanted.name,
                                     juce::AudioProcessorParameterWithIDAttributes().withLabel(labelOf(wanted))),
-      tableRow(&wanted), normal(static_cast<float>(normalOf(wanted, wanted.standard))),
+      tableRow(&wanted),
+      normal(static_cast<float>(normalOf(wanted, wanted.standard))),
       plain(wanted.standard)
 {
 }
@@ -68,7 +69,8 @@ float TableParameter::getDefaultValue() const
 
 juce::String TableParameter::getText(float normalisedValue, int maximumLength) const
 {
-    const auto text = juce::String::fromUTF8(textOf(*tableRow, valueAt(*tableRow, static_cast<double>(normalisedValue))).c_str());
+    const auto text =
+        juce::String::fromUTF8(textOf(*tableRow, valueAt(*tableRow, static_cast<double>(normalisedValue))).c_str());
     return maximumLength > 0 ? text.substring(0, maximumLength) : text;
 }
 

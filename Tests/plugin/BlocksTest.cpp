@@ -98,7 +98,8 @@ TEST_CASE("Offline, another actuator counts from the block on that brings it")
     {
         Rig rig;
         rig.plugin.setNonRealtime(true);
-        return rig.run(in, {}, {512}, [&](std::size_t block) { rig.set(ParameterId::profile, block < 20 ? 0.0 : 3.0); });
+        return rig.run(in, {}, {512},
+                       [&](std::size_t block) { rig.set(ParameterId::profile, block < 20 ? 0.0 : 3.0); });
     };
     const auto once = render();
     CHECK(once == render());

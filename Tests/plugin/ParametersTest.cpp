@@ -1,11 +1,10 @@
 // The table of parameters, and values as text.
 
+#include "io/ProfileFile.h"
 #include "plugin/ParameterText.h"
 #include "plugin/ProfileShelf.h"
 #include "plugin/Programs.h"
 #include "plugin/Rig.h"
-
-#include "io/ProfileFile.h"
 
 #include <filesystem>
 #include <set>
@@ -81,7 +80,8 @@ TEST_CASE("Normalised values survive exactly, discrete ones snap")
             const auto normal = static_cast<float>(random.uniform());
             parameter.setValue(normal);
             if (parameter.isDiscrete())
-                CHECK(std::abs(parameter.getValue() - normal) <= 0.5001f / static_cast<float>(parameter.getNumSteps() - 1));
+                CHECK(std::abs(parameter.getValue() - normal) <=
+                      0.5001f / static_cast<float>(parameter.getNumSteps() - 1));
             else
                 CHECK(parameter.getValue() == normal);
             const auto text = parameter.getText(parameter.getValue(), 0);
@@ -102,12 +102,12 @@ TEST_CASE("The ids of released parameters never change")
     for (const ParameterRow& row : parameterTable)
         unique.insert(ids.emplace_back(row.id));
     CHECK(unique.size() == parameterCount);
-    const std::set<std::string> first{"source",        "sourceMix",     "outputMode",    "outputChannel",
-                                      "profile",       "inputGain",     "intensity",     "rumbleLevel",
-                                      "rumbleMute",    "textureLevel",  "textureMute",   "transientLevel",
-                                      "transientMute", "transposition", "direct",        "attack",
-                                      "release",       "transientSensitivity",           "transientSharpness",
-                                      "gateThreshold", "gateRelease",   "bypass"};
+    const std::set<std::string> first{
+        "source",      "sourceMix",      "outputMode",           "outputChannel",      "profile",
+        "inputGain",   "intensity",      "rumbleLevel",          "rumbleMute",         "textureLevel",
+        "textureMute", "transientLevel", "transientMute",        "transposition",      "direct",
+        "attack",      "release",        "transientSensitivity", "transientSharpness", "gateThreshold",
+        "gateRelease", "bypass"};
     CHECK(std::includes(unique.begin(), unique.end(), first.begin(), first.end()));
 }
 

@@ -109,11 +109,12 @@ TEST_CASE("State can be saved from a background thread while sound plays and par
     const juce::ScopedJuceInitialiser_GUI messages;
     Rig rig;
     std::atomic<bool> running{true};
-    std::thread audio([&]
-                      {
-                          while (running)
-                              (void)trafficOf(rig.plugin, 1, [](int) {});
-                      });
+    std::thread audio(
+        [&]
+        {
+            while (running)
+                (void)trafficOf(rig.plugin, 1, [](int) {});
+        });
     std::size_t saves = 0;
     std::thread saver(
         [&]
@@ -122,7 +123,9 @@ TEST_CASE("State can be saved from a background thread while sound plays and par
             {
                 juce::MemoryBlock block;
                 rig.plugin.getStateInformation(block);
-                saves += plugin::readState({static_cast<const char*>(block.getData()), block.getSize()}).ok() ? 1u : 1000000u;
+                saves += plugin::readState({static_cast<const char*>(block.getData()), block.getSize()}).ok()
+                             ? 1u
+                             : 1000000u;
             }
         });
     Random random(9);

@@ -1,11 +1,10 @@
 // What sessions keep.
 
+#include "io/ProfileFile.h"
 #include "plugin/ProfileShelf.h"
 #include "plugin/Rig.h"
 #include "support/RandomProfile.h"
 #include "support/TempFolder.h"
-
-#include "io/ProfileFile.h"
 
 #include <filesystem>
 
