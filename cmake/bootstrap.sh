@@ -4,14 +4,19 @@
 #   bash cmake/bootstrap.sh demo    install, build, encode and render the demo sounds, print the report
 #   bash cmake/bootstrap.sh test    install, build, run every test (release build, then with sanitizers)
 #   bash cmake/bootstrap.sh build   install and build the command: build/release/bin/pacini
+#   bash cmake/bootstrap.sh plugin  install and build the plugin and the standalone: build/release/plugins
 #   bash cmake/bootstrap.sh deps    only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,8p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
     libkissfft-dev libeigen3-dev libcairo2-dev)
-test_packages=(catch2 python3 python3-jsonschema clang-format)
+# The plugin, and the hosts that it is tried in.
+plugin_packages=(juce-modules-source fonts-dejavu-core)
+host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth imagemagick x11-utils jackd2 jack-tools ardour)
+host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
+test_packages=(catch2 python3 python3-jsonschema clang-format "${plugin_packages[@]}" "${host_packages[@]}")
 
 say() { printf '\n== %s\n' "$*"; }
 usage() { printf '%s\n' "$help"; }
@@ -49,6 +54,18 @@ TEXT
     "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# Hosts that come as Python modules, in a place of their own.
+install_host_modules() {
+    local venv=build/hosts-venv
+    [ "$(cat "$venv/modules" 2>/dev/null)" != "${host_modules[*]}" ] || return 0
+    say "Installing ${host_modules[*]} in $venv"
+    if python3 -m venv "$venv" && "$venv/bin/python" -m pip install -q --disable-pip-version-check "${host_modules[@]}"; then
+        printf '%s' "${host_modules[*]}" >"$venv/modules"
+    else
+        printf 'bootstrap: these modules cannot be installed; the tests in DawDreamer and Pedalboard will be SKIPPED\n' >&2
+    fi
+}
+
 build() { # preset, target
     cmake --preset "$1" "${@:3}" >/dev/null || { cmake --preset "$1" "${@:3}"; fail "cannot configure the preset $1"; }
     cmake --build --preset "$1" --target "$2"
@@ -57,6 +74,7 @@ build() { # preset, target
 case "${1:-}" in
 deps)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
+    install_host_modules
     ;;
 build)
     install_packages "${build_packages[@]}"
@@ -80,8 +98,15 @@ demo)
     "$pacini" render build/demo/clips -o build/demo/flat >/dev/null
     "$pacini" compare Resources/demo build/demo/flat
     ;;
+plugin)
+    install_packages "${build_packages[@]}" "${plugin_packages[@]}"
+    say "Building the plugin"
+    build release pacini_plugin_All -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=ON
+    say "VST3, LV2 and the standalone program are in build/release/plugins"
+    ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
+    install_host_modules
     say "Building"
     build release all -DPACINI_BUILD_TESTS=ON
     say "Compiling every header on its own"
@@ -98,7 +123,7 @@ test)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

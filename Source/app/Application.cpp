@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The plugin as a program of its own.
+
+#include "app/AudioRig.h"
+#include "app/Settings.h"
+#include "app/StandaloneWindow.h"
+
+#include <juce_audio_utils/juce_audio_utils.h>
+
+#include <memory>
+
+namespace pacini::app
+{
+
+class Application final : public juce::JUCEApplication
+{
+public:
+    const juce::String getApplicationName() override { return "Pacini"; }
+    const juce::String getApplicationVersion() override { return JucePlugin_VersionString; }
+    bool moreThanOneInstanceAllowed() override { return true; }
+
+    void initialise(const juce::String&) override
+    {
+        wishes = wishesOf(getCommandLineParameterArray());
+        if (!wishes.fresh)
+            settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
+        processor = std::make_unique<plugin::PluginProcessor>();
+        rig = std::make_unique<AudioRig>(*processor);
+        Routing routing;
+        std::unique_ptr<juce::XmlElement> devices;
+        if (settings)
+        {
+            routing = routingOf(*settings);
+            devices = settings->getXmlValue("devices");
+            juce::MemoryOutputStream state;
+            if (juce::Base64::convertFromBase64(state, settings->getValue("state")))
+                processor->setStateInformation(state.getData(), static_cast<int>(state.getDataSize()));
+        }
+        if (wishes.testSignal)
+            routing.input = InputChoice::test;
+        routing.hapticOutput = wishes.hapticOutput.value_or(routing.hapticOutput);
+        routing.mainOutput = wishes.soundOutput.value_or(routing.mainOutput);
+        rig->setRouting(routing);
+        if (const auto error = rig->open(devices.get(), wishes.deviceType); error.isNotEmpty())
+            juce::Logger::writeToLog("Pacini: no sound device: " + error);
+        if (wishes.file != juce::File())
+            if (const auto played = rig->play(wishes.file); !played)
+                juce::Logger::writeToLog("Pacini: " + juce::String(played.error().text()));
+        window = std::make_unique<StandaloneWindow>(*processor, *rig);
+    }
+
+    void shutdown() override
+    {
+        if (settings)
+        {
+            remember(*settings, rig->routing());
+            if (const auto devices = rig->devices().createStateXml())
+                settings->setValue("devices", devices.get());
+            juce::MemoryBlock state;
+            processor->getStateInformation(state);
+            settings->setValue("state", juce::Base64::toBase64(state.getData(), state.getSize()));
+            settings->saveIfNeeded();
+        }
+        window.reset();
+        rig.reset();
+        processor.reset();
+    }
+
+    void systemRequestedQuit() override { quit(); }
+
+private:
+    static juce::PropertiesFile::Options settingsOptions()
+    {
+        juce::PropertiesFile::Options options;
+        options.applicationName = "Pacini";
+        options.filenameSuffix = ".settings";
+        options.osxLibrarySubFolder = "Application Support";
+#if JUCE_LINUX || JUCE_BSD
+        options.folderName = "~/.config";
+#endif
+        return options;
+    }
+
+    CommandLineWishes wishes;
+    std::unique_ptr<juce::PropertiesFile> settings;
+    std::unique_ptr<plugin::PluginProcessor> processor;
+    std::unique_ptr<AudioRig> rig;
+    std::unique_ptr<StandaloneWindow> window;
+};
+
+} // namespace pacini::app
+
+/// What JUCE's entry point calls; it owns the result.
+juce::JUCEApplicationBase* juce_CreateApplication();
+juce::JUCEApplicationBase* juce_CreateApplication()
+{
+    return new pacini::app::Application();
+}

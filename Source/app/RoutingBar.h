@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What goes in and where it comes out, above the plugin's window.
+
+#include "app/AudioRig.h"
+#include "editor/Theme.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <memory>
+
+namespace pacini::app
+{
+
+class RoutingBar final : public juce::Component, private juce::ChangeListener
+{
+public:
+    explicit RoutingBar(AudioRig& wanted);
+    ~RoutingBar() override;
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    std::function<void()> onDevices; ///< the button for the sound devices was pressed
+
+private:
+    void changeListenerCallback(juce::ChangeBroadcaster*) override { fillMenus(); }
+    void fillMenus();
+    void readMenus();
+    void chooseFile();
+
+    AudioRig& rig;
+    juce::TextButton devicesButton, fileButton;
+    juce::ComboBox input, sidechain, heard, haptic;
+    juce::Label inputLabel, sidechainLabel, heardLabel, hapticLabel;
+    std::unique_ptr<juce::FileChooser> chooser;
+};
+
+} // namespace pacini::app

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the standalone program remembers, and what its command line says instead.
+
+#include "app/AudioRig.h"
+
+#include <juce_data_structures/juce_data_structures.h>
+
+#include <optional>
+
+namespace pacini::app
+{
+
+/// `--fresh` remembers nothing and forgets nothing; `--device-type JACK`; `--test-signal`; `--play FILE`;
+/// `--haptic-output N` and `--sound-output N`, channels from 1, 0 for none.
+struct CommandLineWishes
+{
+    bool fresh = false;
+    bool testSignal = false;
+    juce::String deviceType;
+    juce::File file;
+    std::optional<int> hapticOutput, soundOutput; ///< from 0, -1: none
+};
+
+[[nodiscard]] CommandLineWishes wishesOf(const juce::StringArray& arguments);
+
+/// Reads what was remembered; defaults where nothing was.
+[[nodiscard]] Routing routingOf(juce::PropertiesFile& settings);
+void remember(juce::PropertiesFile& settings, const Routing& routing);
+
+} // namespace pacini::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/StandaloneWindow.h"
+
+namespace pacini::app
+{
+
+namespace
+{
+constexpr int barHeight = 5 * editor::grid + 2;
+}
+
+/// Bar and plugin, one look.
+class StandaloneWindow::Content final : public juce::Component, private juce::ComponentListener
+{
+public:
+    Content(plugin::PluginProcessor& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
+    {
+        bar.setLookAndFeel(&plugin.getLookAndFeel());
+        bar.onDevices = [this]
+        {
+            showDevices();
+        };
+        addAndMakeVisible(bar);
+        addAndMakeVisible(plugin);
+        plugin.setResizable(true, false); // the window has borders of its own
+        plugin.addComponentListener(this);
+        setSize(plugin.getWidth(), plugin.getHeight() + barHeight);
+    }
+
+    ~Content() override
+    {
+        plugin.removeComponentListener(this);
+        bar.setLookAndFeel(nullptr);
+    }
+
+    void resized() override
+    {
+        auto area = getLocalBounds();
+        bar.setBounds(area.removeFromTop(barHeight));
+        plugin.setBounds(area);
+    }
+
+private:
+    void componentMovedOrResized(juce::Component&, bool, bool) override
+    {
+        if (plugin.getWidth() != getWidth() || plugin.getHeight() + barHeight != getHeight())
+            setSize(plugin.getWidth(), plugin.getHeight() + barHeight);
+    }
+
+    void showDevices()
+    {
+        auto selector = std::make_unique<juce::AudioDeviceSelectorComponent>(rig.devices(), 0, 256, 0, 256, false,
+                                                                             false, false, false);
+        selector->setSize(560, 520);
+        selector->setLookAndFeel(&plugin.getLookAndFeel());
+        juce::DialogWindow::LaunchOptions options;
+        options.content.setOwned(selector.release());
+        options.dialogTitle = "Sound devices";
+        options.dialogBackgroundColour = editor::paletteFor(plugin).background;
+        options.useNativeTitleBar = true;
+        options.resizable = false;
+        options.componentToCentreAround = this;
+        options.launchAsync();
+    }
+
+    AudioRig& rig;
+    plugin::PluginWindow plugin;
+    RoutingBar bar;
+};
+
+StandaloneWindow::StandaloneWindow(plugin::PluginProcessor& processor, AudioRig& rig)
+    : DocumentWindow("Pacini", juce::Colours::black, DocumentWindow::allButtons)
+{
+    setUsingNativeTitleBar(true);
+    setContentOwned(new Content(processor, rig), true);
+    setResizable(true, false);
+    setResizeLimits(936, 544 + barHeight, 2400, 1700);
+    centreWithSize(getWidth(), getHeight());
+    setVisible(true);
+}
+
+StandaloneWindow::~StandaloneWindow() = default;
+
+void StandaloneWindow::closeButtonPressed()
+{
+    juce::JUCEApplication::getInstance()->systemRequestedQuit();
+}
+
+} // namespace pacini::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plugin's window with the routing bar above it.
+
+#include "app/AudioRig.h"
+#include "app/RoutingBar.h"
+#include "plugin/PluginWindow.h"
+
+#include <juce_audio_utils/juce_audio_utils.h>
+
+#include <memory>
+
+namespace pacini::app
+{
+
+class StandaloneWindow final : public juce::DocumentWindow
+{
+public:
+    StandaloneWindow(plugin::PluginProcessor& processor, AudioRig& rig);
+    ~StandaloneWindow() override;
+
+    void closeButtonPressed() override;
+
+private:
+    class Content;
+};
+
+} // namespace pacini::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/CaptureJob.h"
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/clip/PackedClip.h>
+
+#include <cmath>
+#include <utility>
+
+namespace pacini::editor
+{
+
+Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name)
+{
+    const int rate = static_cast<int>(std::lround(sampleRate));
+    if (rate < 8000 || rate > 384000)
+        return Error{ErrorCode::invalidArgument, "sample rate", "must be 8 to 384 kHz to be encoded"};
+    if (static_cast<double>(capture.samples.size()) < 0.1 * sampleRate)
+        return Error{ErrorCode::invalidData, "", "less than a tenth of a second was heard"};
+    Encoder encoder{EncoderParams{}};
+    encoder.start(rate, 1);
+    encoder.push(capture.samples);
+    Clip clip = encoder.finish();
+    clip.name = name;
+    return unpackClip(packClip(clip, packParamsFor(clip)));
+}
+
+CaptureJob::~CaptureJob()
+{
+    cancelPendingUpdate();
+    stopThread(-1);
+}
+
+bool CaptureJob::begin(Capture capture, double sampleRate, const juce::String& name,
+                       std::function<void(Result<Clip>)> done)
+{
+    if (busy)
+        return false;
+    stopThread(-1);
+    busy = true;
+    samples = std::move(capture);
+    fs = sampleRate;
+    clipName = name.toStdString();
+    finished = std::move(done);
+    startThread();
+    return true;
+}
+
+void CaptureJob::run()
+{
+    result.emplace(clipOfCapture(samples, fs, clipName));
+    triggerAsyncUpdate();
+}
+
+void CaptureJob::handleAsyncUpdate()
+{
+    busy = false;
+    if (result)
+        finished(std::move(*result));
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The last seconds of the sound as a clip: one button, and something to drag out or to save.
+
+#include "editor/CaptureJob.h"
+#include "editor/LiveSource.h"
+#include "editor/Refreshed.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <memory>
+
+namespace pacini::editor
+{
+
+/// The captured clip: it can be dragged to a folder or a track, as a file.
+class ClipChip final : public juce::Component, public juce::SettableTooltipClient
+{
+public:
+    ClipChip();
+    void show(const Clip& clip, const juce::File& wanted);
+    [[nodiscard]] const juce::File& file() const noexcept { return dragged; }
+    void paint(juce::Graphics& g) override;
+    void mouseDrag(const juce::MouseEvent& event) override;
+
+private:
+    juce::File dragged;
+    juce::String text;
+    juce::Path curve; // of the envelope, within 0 to 1
+};
+
+class CapturePanel final : public juce::Component
+{
+public:
+    explicit CapturePanel(LiveSource& heard);
+
+    void resized() override;
+
+private:
+    void captureNow();
+    void take(Result<Clip> clip);
+    void chooseFile();
+    void save(const juce::File& file);
+    void say(const juce::String& text, bool wrong);
+
+    LiveSource& source;
+    juce::ComboBox length;
+    juce::TextButton button, saveButton;
+    ClipChip chip;
+    juce::Label message;
+    std::optional<Clip> clip;
+    std::unique_ptr<juce::FileChooser> chooser;
+    int captures = 0;
+    CaptureJob job; // ends first
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/ParameterControls.h"
+
+#include "editor/Theme.h"
+
+#include <cmath>
+#include <utility>
+
+namespace pacini::editor
+{
+
+namespace
+{
+juce::String withRange(const juce::AudioProcessorParameter& parameter, const juce::String& help)
+{
+    const auto text = [&](float normal)
+    {
+        return parameter.getText(normal, 0);
+    };
+    return help + "\n" + text(0.0f) + " to " + text(1.0f) + ", usually " + text(parameter.getDefaultValue());
+}
+} // namespace
+
+void setAsGesture(juce::AudioProcessorParameter& parameter, float normal)
+{
+    parameter.beginChangeGesture();
+    parameter.setValueNotifyingHost(normal);
+    parameter.endChangeGesture();
+}
+
+ParameterSlider::ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& label,
+                                 const juce::String& name, const juce::String& help)
+    : parameter(shown), shape(wanted)
+{
+    const bool knob = shape == Shape::knob;
+    title.setText(label, juce::dontSendNotification);
+    title.setFont(smallFont());
+    title.setJustificationType(knob ? juce::Justification::centred : juce::Justification::centredLeft);
+    title.setInterceptsMouseClicks(false, false);
+    title.setAccessible(false);
+    addAndMakeVisible(title);
+
+    slider.setSliderStyle(knob ? juce::Slider::RotaryHorizontalVerticalDrag : juce::Slider::LinearHorizontal);
+    slider.setRange(0.0, 1.0, parameter.isDiscrete() ? 1.0 / (parameter.getNumSteps() - 1) : 0.0);
+    slider.textFromValueFunction = [this](double value)
+    {
+        return parameter.getText(static_cast<float>(value), 0);
+    };
+    slider.valueFromTextFunction = [this](const juce::String& text)
+    {
+        return static_cast<double>(parameter.getValueForText(text));
+    };
+    slider.setTextBoxStyle(knob ? juce::Slider::TextBoxBelow : juce::Slider::TextBoxRight, false, 7 * grid,
+                           2 * grid + 2);
+    slider.setDoubleClickReturnValue(true, static_cast<double>(parameter.getDefaultValue()));
+    slider.setWantsKeyboardFocus(true);
+    slider.setTitle(name);
+    slider.setDescription(help);
+    slider.setTooltip(withRange(parameter, help));
+    slider.setScrollWheelEnabled(true);
+    slider.onDragStart = [this]
+    {
+        dragged = true;
+        parameter.beginChangeGesture();
+    };
+    slider.onDragEnd = [this]
+    {
+        dragged = false;
+        parameter.endChangeGesture();
+    };
+    slider.onValueChange = [this]
+    {
+        const auto value = static_cast<float>(slider.getValue());
+        if (dragged)
+            parameter.setValueNotifyingHost(value);
+        else
+            setAsGesture(parameter, value);
+    };
+    slider.setValue(static_cast<double>(parameter.getValue()), juce::dontSendNotification);
+    slider.updateText();
+    addAndMakeVisible(slider);
+}
+
+void ParameterSlider::refresh()
+{
+    const auto value = static_cast<double>(parameter.getValue());
+    if (!dragged && std::abs(value - slider.getValue()) > 1e-6)
+        slider.setValue(value, juce::dontSendNotification);
+}
+
+void ParameterSlider::resized()
+{
+    auto area = getLocalBounds();
+    if (shape == Shape::knob)
+        title.setBounds(area.removeFromTop(2 * grid + 2));
+    else
+        title.setBounds(area.removeFromLeft(11 * grid - 2));
+    slider.setBounds(area);
+}
+
+void ParameterSlider::enablementChanged()
+{
+    title.setEnabled(isEnabled());
+    slider.setEnabled(isEnabled());
+}
+
+ParameterToggle::ParameterToggle(juce::AudioProcessorParameter& shown, const juce::String& caption,
+                                 const juce::String& name, const juce::String& help)
+    : juce::ToggleButton(caption), parameter(shown)
+{
+    setTitle(name);
+    setDescription(help);
+    setTooltip(help);
+    refresh();
+    onClick = [this]
+    {
+        setAsGesture(parameter, getToggleState() ? 1.0f : 0.0f);
+    };
+}
+
+void ParameterToggle::refresh()
+{
+    const bool on = parameter.getValue() >= 0.5f;
+    if (on != getToggleState())
+        setToggleState(on, juce::dontSendNotification);
+}
+
+ParameterChoice::ParameterChoice(juce::AudioProcessorParameter& shownParameter, std::vector<int> values,
+                                 const juce::String& name, const juce::String& help)
+    : parameter(shownParameter)
+{
+    const float steps = static_cast<float>(parameter.getNumSteps() - 1);
+    for (const int value : values)
+        addItem(parameter.getText(static_cast<float>(value) / steps, 0), value + 1);
+    setTitle(name);
+    setDescription(help);
+    setTooltip(help);
+    setWantsKeyboardFocus(true);
+    refresh();
+    onChange = [this]
+    {
+        if (getSelectedId() == 0)
+            return;
+        shown = getSelectedId() - 1;
+        setAsGesture(parameter, static_cast<float>(shown) / static_cast<float>(parameter.getNumSteps() - 1));
+    };
+}
+
+int ParameterChoice::valueNow() const
+{
+    return static_cast<int>(std::lround(parameter.getValue() * static_cast<float>(parameter.getNumSteps() - 1)));
+}
+
+void ParameterChoice::refresh()
+{
+    const int value = valueNow();
+    if (value == shown)
+        return;
+    shown = value;
+    setSelectedId(value + 1, juce::dontSendNotification);
+    if (getSelectedId() != value + 1)
+        setText(parameter.getCurrentValueAsText(), juce::dontSendNotification);
+}
+
+} // namespace pacini::editor

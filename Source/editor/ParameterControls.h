@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Controls that show and set one parameter of a processor.
+
+#include "editor/Refreshed.h"
+
+#include <juce_audio_processors/juce_audio_processors.h>
+
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// A knob or a horizontal slider with its name and an editable value with unit.
+class ParameterSlider final : public juce::Component, public Refreshed
+{
+public:
+    enum class Shape
+    {
+        knob, ///< name above, value below
+        bar   ///< name at the left, value at the right
+    };
+
+    /// `label` is what is shown, `name` what a screen reader says.
+    ParameterSlider(juce::AudioProcessorParameter& shown, Shape wanted, const juce::String& label,
+                    const juce::String& name, const juce::String& help);
+
+    void refresh() override;
+    void resized() override;
+    void enablementChanged() override;
+
+private:
+    juce::AudioProcessorParameter& parameter;
+    Shape shape;
+    juce::Label title;
+    juce::Slider slider;
+    bool dragged = false;
+};
+
+class ParameterToggle final : public juce::ToggleButton, public Refreshed
+{
+public:
+    ParameterToggle(juce::AudioProcessorParameter& shown, const juce::String& text, const juce::String& name,
+                    const juce::String& help);
+    void refresh() override;
+
+private:
+    juce::AudioProcessorParameter& parameter;
+};
+
+/// A menu of some or all values of a parameter that knows whole values only.
+class ParameterChoice final : public juce::ComboBox, public Refreshed
+{
+public:
+    /// `values` are the numbers of the choices that the menu has.
+    ParameterChoice(juce::AudioProcessorParameter& shown, std::vector<int> values, const juce::String& name,
+                    const juce::String& help);
+    void refresh() override;
+
+private:
+    [[nodiscard]] int valueNow() const;
+
+    juce::AudioProcessorParameter& parameter;
+    int shown = -1;
+};
+
+/// Sets a parameter as one gesture that the host records.
+void setAsGesture(juce::AudioProcessorParameter& parameter, float normal);
+
+} // namespace pacini::editor

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Everything that can be automated, once: ids, names, units, ranges, defaults.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace pacini::plugin
+{
+
+/// The places of the parameters in parameterTable. Hosts know parameters by their text ids, so the order may change.
+enum class ParameterId : std::size_t
+{
+    source,
+    sourceMix,
+    outputMode,
+    outputChannel,
+    profile,
+    inputGain,
+    intensity,
+    rumbleLevel,
+    rumbleMute,
+    textureLevel,
+    textureMute,
+    transientLevel,
+    transientMute,
+    transposition,
+    direct,
+    attack,
+    release,
+    transientSensitivity,
+    transientSharpness,
+    gateThreshold,
+    gateRelease,
+    bypass,
+    count
+};
+
+inline constexpr std::size_t parameterCount = static_cast<std::size_t>(ParameterId::count);
+
+enum class ParameterUnit
+{
+    decibels,
+    semitones,
+    milliseconds,
+    percent, ///< the value itself is a share: 0.5 is 50 %
+    number,  ///< a whole one
+    choice,  ///< the index of one of `choices`
+    toggle   ///< 0 or 1
+};
+
+enum class SourceChoice
+{
+    main,
+    sidechain,
+    mix
+};
+
+/// What the main output carries. The haptic output always carries the drive.
+enum class OutputMode
+{
+    separate,      ///< the sound as it came
+    replaceMain,   ///< the drive on every channel
+    rightHaptic,   ///< channel 2 is the drive, the others as they came
+    monoAndHaptic, ///< channel 1 is the mean of all channels, channel 2 the drive
+    addToChannel   ///< the drive is added to one channel
+};
+
+/// Places for profiles: automation names them by number, so numbers never change their meaning and new profiles take
+/// free ones.
+inline constexpr std::size_t profileSlots = 32;
+inline constexpr std::size_t ownProfileSlot = profileSlots - 1;
+
+inline constexpr std::array<std::string_view, 3> sourceChoices{"Main", "Sidechain", "Mix"};
+inline constexpr std::array<std::string_view, 5> outputModeChoices{
+    "Sound (haptic output separate)", "Haptic replaces sound", "Sound left, haptic right",
+    "Mono sound left, haptic right", "Haptic added to one channel"};
+inline constexpr std::array<std::string_view, profileSlots> profileChoices{
+    "Flat drive", "L5 wristband",     "L5 test jig", "LRA 175 Hz", "LRA 235 Hz",       "ERM coin", "Piezo",
+    "Phone",      "Quest controller", "DualSense",   "Joy-Con",    "Wideband exciter", "Free 12",  "Free 13",
+    "Free 14",    "Free 15",          "Free 16",     "Free 17",    "Free 18",          "Free 19",  "Free 20",
+    "Free 21",    "Free 22",          "Free 23",     "Free 24",    "Free 25",          "Free 26",  "Free 27",
+    "Free 28",    "Free 29",          "Free 30",     "Own file"};
+
+struct ParameterRow
+{
+    ParameterId parameter;
+    const char* id; ///< for ever: sessions keep it
+    int since;      ///< version hint: the release that brought it, counted from 1
+    const char* name;
+    ParameterUnit unit;
+    double low, high, standard;
+    double centre; ///< the value in the middle of a control's way; 0: the mean of low and high
+    std::span<const std::string_view> choices;
+    const char* help;
+};
+
+inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
+    {ParameterId::source, "source", 1, "Source", ParameterUnit::choice, 0, 2, 0, 0, sourceChoices,
+     "What is turned into touch: the main input, the sidechain or both"},
+    {ParameterId::sourceMix,
+     "sourceMix",
+     1,
+     "Source mix",
+     ParameterUnit::percent,
+     0,
+     1,
+     0.5,
+     0,
+     {},
+     "With the source Mix: 0 % main only, 50 % both in full, 100 % sidechain only"},
+    {ParameterId::outputMode, "outputMode", 1, "Main output", ParameterUnit::choice, 0, 4, 0, 0, outputModeChoices,
+     "What the main output carries, for hosts that give effects no further output"},
+    {ParameterId::outputChannel,
+     "outputChannel",
+     1,
+     "Haptic channel",
+     ParameterUnit::number,
+     1,
+     16,
+     4,
+     0,
+     {},
+     "The channel of the main output that the haptic signal is added to"},
+    {ParameterId::profile, "profile", 1, "Actuator", ParameterUnit::choice, 0, profileSlots - 1, 0, 0, profileChoices,
+     "The actuator that the signal is made for"},
+    {ParameterId::inputGain,
+     "inputGain",
+     1,
+     "Input gain",
+     ParameterUnit::decibels,
+     -60,
+     48,
+     0,
+     0,
+     {},
+     "Gain of the sound before it is analysed"},
+    {ParameterId::intensity,
+     "intensity",
+     1,
+     "Intensity",
+     ParameterUnit::decibels,
+     -60,
+     24,
+     0,
+     -6,
+     {},
+     "Gain of the haptic signal"},
+    {ParameterId::rumbleLevel,
+     "rumbleLevel",
+     1,
+     "Rumble",
+     ParameterUnit::decibels,
+     -60,
+     24,
+     0,
+     -6,
+     {},
+     "Level of what lies below 100 Hz"},
+    {ParameterId::rumbleMute,
+     "rumbleMute",
+     1,
+     "Rumble mute",
+     ParameterUnit::toggle,
+     0,
+     1,
+     0,
+     0,
+     {},
+     "Leaves out what lies below 100 Hz"},
+    {ParameterId::textureLevel,
+     "textureLevel",
+     1,
+     "Texture",
+     ParameterUnit::decibels,
+     -60,
+     24,
+     0,
+     -6,
+     {},
+     "Level of what lies above 100 Hz"},
+    {ParameterId::textureMute,
+     "textureMute",
+     1,
+     "Texture mute",
+     ParameterUnit::toggle,
+     0,
+     1,
+     0,
+     0,
+     {},
+     "Leaves out what lies above 100 Hz"},
+    {ParameterId::transientLevel,
+     "transientLevel",
+     1,
+     "Transients",
+     ParameterUnit::decibels,
+     -60,
+     24,
+     0,
+     -6,
+     {},
+     "Level of the pulses that top sudden events"},
+    {ParameterId::transientMute,
+     "transientMute",
+     1,
+     "Transients mute",
+     ParameterUnit::toggle,
+     0,
+     1,
+     0,
+     0,
+     {},
+     "Plays no pulses"},
+    {ParameterId::transposition,
+     "transposition",
+     1,
+     "Transposition",
+     ParameterUnit::semitones,
+     -48,
+     48,
+     0,
+     0,
+     {},
+     "Moves everything that is felt up or down"},
+    {ParameterId::direct,
+     "direct",
+     1,
+     "Direct",
+     ParameterUnit::percent,
+     0,
+     1,
+     1,
+     0,
+     {},
+     "Share of the sound's own waveform where the actuator can show it, against sinusoids"},
+    {ParameterId::attack,
+     "attack",
+     1,
+     "Attack",
+     ParameterUnit::milliseconds,
+     0,
+     200,
+     1,
+     20,
+     {},
+     "How fast sinusoids rise"},
+    {ParameterId::release,
+     "release",
+     1,
+     "Release",
+     ParameterUnit::milliseconds,
+     0,
+     1000,
+     8,
+     100,
+     {},
+     "How fast sinusoids fall"},
+    {ParameterId::transientSensitivity,
+     "transientSensitivity",
+     1,
+     "Transient sensitivity",
+     ParameterUnit::percent,
+     0,
+     1,
+     0.5,
+     0,
+     {},
+     "How little a sudden event must stand out to get a pulse"},
+    {ParameterId::transientSharpness,
+     "transientSharpness",
+     1,
+     "Sharpness",
+     ParameterUnit::percent,
+     -1,
+     1,
+     0,
+     0,
+     {},
+     "Makes pulses duller or crisper"},
+    {ParameterId::gateThreshold,
+     "gateThreshold",
+     1,
+     "Gate",
+     ParameterUnit::decibels,
+     -120,
+     0,
+     -75,
+     0,
+     {},
+     "Below this level nothing is played"},
+    {ParameterId::gateRelease,
+     "gateRelease",
+     1,
+     "Gate release",
+     ParameterUnit::milliseconds,
+     1,
+     2000,
+     60,
+     200,
+     {},
+     "How long the gate stays open"},
+    {ParameterId::bypass,
+     "bypass",
+     1,
+     "Bypass",
+     ParameterUnit::toggle,
+     0,
+     1,
+     0,
+     0,
+     {},
+     "The sound as it came, no haptic signal"},
+}};
+
+[[nodiscard]] constexpr const ParameterRow& rowOf(ParameterId parameter) noexcept
+{
+    return parameterTable[static_cast<std::size_t>(parameter)];
+}
+
+/// Whether every row stands at the place that its enumerator names.
+[[nodiscard]] constexpr bool isInOrder() noexcept
+{
+    for (std::size_t i = 0; i < parameterCount; ++i)
+        if (static_cast<std::size_t>(parameterTable[i].parameter) != i)
+            return false;
+    return true;
+}
+static_assert(isInOrder());
+
+/// Whether only whole values count.
+[[nodiscard]] constexpr bool isDiscrete(const ParameterRow& row) noexcept
+{
+    return row.unit == ParameterUnit::choice || row.unit == ParameterUnit::toggle || row.unit == ParameterUnit::number;
+}
+
+} // namespace pacini::plugin

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the parameters say, for one block.
+
+#include "plugin/ParameterTable.h"
+
+#include <pacini/realtime/TranslatorParams.h>
+
+#include <array>
+#include <cstddef>
+
+namespace pacini::plugin
+{
+
+/// Values in the units of parameterTable.
+class ParameterValues
+{
+public:
+    ParameterValues() noexcept
+    {
+        for (std::size_t i = 0; i < parameterCount; ++i)
+            values[i] = parameterTable[i].standard;
+    }
+
+    [[nodiscard]] double operator[](ParameterId parameter) const noexcept
+    {
+        return values[static_cast<std::size_t>(parameter)];
+    }
+    void set(ParameterId parameter, double value) noexcept { values[static_cast<std::size_t>(parameter)] = value; }
+    [[nodiscard]] bool isOn(ParameterId parameter) const noexcept { return (*this)[parameter] >= 0.5; }
+
+    /// For choices and whole numbers.
+    [[nodiscard]] std::size_t index(ParameterId parameter) const noexcept
+    {
+        return static_cast<std::size_t>((*this)[parameter] + 0.5);
+    }
+
+    /// The translator's part. Its own bypass stays off: a bypassed plugin plays nothing to the actuator.
+    [[nodiscard]] TranslatorParams translator() const noexcept
+    {
+        using enum ParameterId;
+        TranslatorParams params;
+        params.inputGain = (*this)[inputGain];
+        params.intensity = (*this)[intensity];
+        params.rumble = {(*this)[rumbleLevel], isOn(rumbleMute)};
+        params.texture = {(*this)[textureLevel], isOn(textureMute)};
+        params.transients = {(*this)[transientLevel], isOn(transientMute)};
+        params.transposition = (*this)[transposition];
+        params.direct = (*this)[direct];
+        params.attack = (*this)[attack];
+        params.release = (*this)[release];
+        params.transientSensitivity = (*this)[transientSensitivity];
+        params.transientSharpness = (*this)[transientSharpness];
+        params.gateThreshold = (*this)[gateThreshold];
+        params.gateRelease = (*this)[gateRelease];
+        return params;
+    }
+
+    bool operator==(const ParameterValues&) const = default;
+
+private:
+    std::array<double, parameterCount> values{};
+};
+
+} // namespace pacini::plugin

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plugin as hosts see it.
+
+#include "editor/LiveSource.h"
+#include "plugin/LiveEngine.h"
+#include "plugin/PluginState.h"
+#include "plugin/SetupWorker.h"
+#include "plugin/TableParameter.h"
+
+#include <juce_audio_processors/juce_audio_processors.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+
+namespace pacini::plugin
+{
+
+/// Main input and output of 1 to 16 channels; a sidechain of up to 8 and a haptic output of 1 to 8 channels, both of
+/// which may be missing. The main output is the main input, late by the reported latency, unless the output mode says
+/// otherwise.
+class PluginProcessor final : public juce::AudioProcessor, public editor::LiveSource, private SetupWorker::Client
+{
+public:
+    PluginProcessor();
+    ~PluginProcessor() override;
+
+    // Sound
+    void prepareToPlay(double sampleRate, int maximumBlock) override;
+    void releaseResources() override {}
+    void reset() override;
+    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    using AudioProcessor::processBlock;
+    using AudioProcessor::processBlockBypassed;
+    bool isBusesLayoutSupported(const BusesLayout& layout) const override;
+    double getTailLengthSeconds() const override { return 1.0; }
+
+    // Settings
+    [[nodiscard]] TableParameter& parameter(ParameterId wanted) const noexcept
+    {
+        return *table[static_cast<std::size_t>(wanted)];
+    }
+    [[nodiscard]] ParameterValues values() const noexcept;
+    juce::AudioProcessorParameter* getBypassParameter() const override { return &parameter(ParameterId::bypass); }
+    void getStateInformation(juce::MemoryBlock& block) override;
+    void setStateInformation(const void* data, int size) override;
+    int getNumPrograms() override;
+    int getCurrentProgram() override { return program.load(); }
+    void setCurrentProgram(int index) override;
+    const juce::String getProgramName(int index) override;
+    void changeProgramName(int, const juce::String&) override {}
+    /// Sets what the program says even if it is the current one. [message]
+    void applyProgram(int index);
+
+    // Window
+    juce::AudioProcessorEditor* createEditor() override;
+    bool hasEditor() const override { return true; }
+    /// The size that a session wants; 0 if it does not say.
+    [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
+    void setWindowSize(int width, int height) noexcept;
+
+    // LiveSource
+    [[nodiscard]] TranslatorMeterReading readMeters() const override { return engine.readMeters(); }
+    [[nodiscard]] float takeInputPeak() override { return engine.takeInputPeak(); }
+    [[nodiscard]] double sampleRate() const override { return engine.sampleRate(); }
+    [[nodiscard]] int latency() const override { return getLatencySamples(); }
+    [[nodiscard]] Capture capture(double seconds) const override;
+    [[nodiscard]] double captureLength() const override { return captureSeconds; }
+    [[nodiscard]] juce::String actuatorName() const override;
+    Result<void> loadActuator(const juce::File& file) override;
+    [[nodiscard]] juce::String note() const override;
+
+    /// The sessions' text names of formats and versions.
+    const juce::String getName() const override { return "Pacini"; }
+    bool acceptsMidi() const override { return false; }
+    bool producesMidi() const override { return false; }
+
+private:
+    void process(juce::AudioBuffer<float>& buffer, bool bypassed) noexcept;
+    void catchUp() override;
+    void setValues(const ParameterValues& wanted);
+    void say(const juce::String& text);
+    [[nodiscard]] std::size_t wantedSlot() const noexcept;
+
+    std::array<TableParameter*, parameterCount> table{}; // the base owns them
+    LiveEngine engine;
+
+    /// Guards what follows, and the preparation of the engine. Never taken by the audio thread, except when the host
+    /// renders offline.
+    mutable juce::CriticalSection setupLock;
+    std::size_t appliedSlot = 0;
+    std::optional<Profile> applied;
+    std::optional<Profile> ownProfile;
+    juce::String lastNote;
+
+    std::atomic<int> program{0};
+    std::atomic<int> windowWidth{0}, windowHeight{0};
+    juce::SharedResourcePointer<SetupWorker> worker;
+
+    JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginProcessor)
+};
+
+} // namespace pacini::plugin

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/PluginWindow.h"
+
+#include "plugin/ProfileShelf.h"
+#include "plugin/Programs.h"
+
+#include <cmath>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+using editor::grid;
+
+constexpr int usualWidth = 1024;
+constexpr int usualHeight = 616;
+constexpr int leastWidth = 936;
+constexpr int leastHeight = 544;
+constexpr int rowHeight = 3 * grid + 2;
+constexpr int framesPerSecond = 30;
+
+juce::String nameOf(ParameterId parameter)
+{
+    return rowOf(parameter).name;
+}
+
+/// Beside the name of the group, under a knob.
+juce::String labelOf(ParameterId parameter)
+{
+    switch (parameter)
+    {
+    case ParameterId::transposition:
+        return "Transpose";
+    case ParameterId::transientSensitivity:
+        return "Sensitivity";
+    case ParameterId::gateThreshold:
+        return "Threshold";
+    case ParameterId::gateRelease:
+        return "Release";
+    default:
+        return nameOf(parameter);
+    }
+}
+
+juce::String helpOf(ParameterId parameter)
+{
+    return rowOf(parameter).help;
+}
+
+/// The values that a menu offers: all but free slots.
+std::vector<int> offered(const ParameterRow& row)
+{
+    std::vector<int> values;
+    for (std::size_t i = 0; i < row.choices.size(); ++i)
+        if (row.parameter != ParameterId::profile || !profileNameOf(i).empty() || i == ownProfileSlot)
+            values.push_back(static_cast<int>(i));
+    return values;
+}
+
+bool systemIsDark()
+{
+    return juce::Desktop::getInstance().isDarkModeActive();
+}
+} // namespace
+
+PluginWindow::PluginWindow(PluginProcessor& shown)
+    : AudioProcessorEditor(shown),
+      processor(shown),
+      tooltips(this, 600),
+      inputMeter("Input", "Peak of the sound that is turned into touch",
+                 {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
+      outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
+                  {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
+      reductionMeter("Gain reduction", "What limiter and protection of the actuator take away",
+                     {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
+      feltMeter("Above touch threshold", "How far the haptic signal stands above what is just felt",
+                {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true}),
+      capture(shown)
+{
+    using Id = ParameterId;
+    look.setDark(systemIsDark());
+    setLookAndFeel(&look);
+    setTitle("Pacini");
+    setDescription("Turns sound into touch");
+
+    for (int i = 0; i < processor.getNumPrograms(); ++i)
+        programChoice.addItem(processor.getProgramName(i), i + 1);
+    programChoice.setTitle("Program");
+    programChoice.setDescription("Settings to start from");
+    programChoice.setTooltip("Settings to start from");
+    programChoice.onChange = [this]
+    {
+        if (programChoice.getSelectedId() > 0)
+        {
+            processor.applyProgram(programChoice.getSelectedId() - 1);
+            processor.updateHostDisplay(juce::AudioProcessor::ChangeDetails().withProgramChanged(true));
+        }
+    };
+    adopt(programChoice, nullptr);
+    actuator = choice(Id::profile);
+    loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
+    loadButton.setTitle("Load an actuator");
+    loadButton.setTooltip("Takes an actuator from a profile file");
+    loadButton.onClick = [this]
+    {
+        chooseActuator();
+    };
+    adopt(loadButton, nullptr);
+    bypassToggle = toggle(Id::bypass, "Bypass");
+    themeButton.setTooltip("Light or dark");
+    themeButton.onClick = [this]
+    {
+        setDark(!look.isDark());
+    };
+    adopt(themeButton, nullptr);
+
+    sourceChoice = choice(Id::source);
+    sourceMix = slider(Id::sourceMix, Shape::bar);
+    inputGain = slider(Id::inputGain, Shape::bar);
+    for (juce::Component* meter :
+         std::initializer_list<juce::Component*>{&inputMeter, &lamp, &bands, &outputMeter, &reductionMeter, &feltMeter})
+        addAndMakeVisible(meter);
+    outputMode = choice(Id::outputMode);
+    outputChannel = slider(Id::outputChannel, Shape::bar);
+
+    roleLevels = {slider(Id::rumbleLevel, Shape::bar), nullptr, nullptr};
+    roleMutes = {toggle(Id::rumbleMute, "Mute"), nullptr, nullptr};
+    roleLevels[1] = slider(Id::textureLevel, Shape::bar);
+    roleMutes[1] = toggle(Id::textureMute, "Mute");
+    roleLevels[2] = slider(Id::transientLevel, Shape::bar);
+    roleMutes[2] = toggle(Id::transientMute, "Mute");
+    intensity = slider(Id::intensity, Shape::knob);
+    transposition = slider(Id::transposition, Shape::knob);
+    direct = slider(Id::direct, Shape::knob);
+    attack = slider(Id::attack, Shape::knob);
+    release = slider(Id::release, Shape::knob);
+    sensitivity = slider(Id::transientSensitivity, Shape::knob);
+    sharpness = slider(Id::transientSharpness, Shape::knob);
+    gateThreshold = slider(Id::gateThreshold, Shape::knob);
+    gateRelease = slider(Id::gateRelease, Shape::knob);
+
+    adopt(capture, nullptr);
+    status.setFont(editor::smallFont());
+    status.setJustificationType(juce::Justification::centredRight);
+    status.setTitle("State");
+    addAndMakeVisible(status);
+
+    setDark(look.isDark());
+    const auto wanted = processor.windowSize(); // before the limits set a size
+    setResizable(true, true);
+    setResizeLimits(leastWidth, leastHeight, 2400, 1600);
+    setSize(wanted.x > 0 ? wanted.x : usualWidth, wanted.y > 0 ? wanted.y : usualHeight);
+    refresh();
+    startTimerHz(framesPerSecond);
+}
+
+PluginWindow::~PluginWindow()
+{
+    stopTimer();
+    setLookAndFeel(nullptr);
+}
+
+void PluginWindow::adopt(juce::Component& component, editor::Refreshed* wanted)
+{
+    component.setExplicitFocusOrder(++focusOrder);
+    addAndMakeVisible(component);
+    if (wanted)
+        refreshed.push_back(wanted);
+}
+
+std::unique_ptr<editor::ParameterSlider> PluginWindow::slider(ParameterId parameter, Shape shape)
+{
+    auto made = std::make_unique<editor::ParameterSlider>(processor.parameter(parameter), shape, labelOf(parameter),
+                                                          nameOf(parameter), helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+std::unique_ptr<editor::ParameterToggle> PluginWindow::toggle(ParameterId parameter, const juce::String& text)
+{
+    auto made = std::make_unique<editor::ParameterToggle>(processor.parameter(parameter), text, nameOf(parameter),
+                                                          helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+std::unique_ptr<editor::ParameterChoice> PluginWindow::choice(ParameterId parameter)
+{
+    auto made = std::make_unique<editor::ParameterChoice>(processor.parameter(parameter), offered(rowOf(parameter)),
+                                                          nameOf(parameter), helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+void PluginWindow::setDark(bool dark)
+{
+    look.setDark(dark);
+    themeButton.setButtonText(dark ? "Light" : "Dark");
+    themeButton.setTitle(dark ? "Light colours" : "Dark colours");
+    status.setColour(juce::Label::textColourId, look.palette().dim);
+    sendLookAndFeelChange();
+    repaint();
+}
+
+void PluginWindow::refresh()
+{
+    for (editor::Refreshed* each : refreshed)
+        each->refresh();
+    const int program = processor.getCurrentProgram() + 1;
+    if (programChoice.getSelectedId() != program)
+        programChoice.setSelectedId(program, juce::dontSendNotification);
+    showMeters();
+    showRouting();
+    const juce::String text = statusText();
+    if (text != status.getText())
+    {
+        status.setText(text, juce::dontSendNotification);
+        status.setTooltip(text);
+    }
+}
+
+void PluginWindow::showMeters()
+{
+    const auto reading = processor.readMeters();
+    inputMeter.show(20.0 * std::log10(static_cast<double>(processor.takeInputPeak())));
+    lamp.show(reading.events, reading.lastEventLevel);
+    bands.add(reading);
+    outputMeter.show(20.0 * std::log10(reading.outputPeak));
+    reductionMeter.show(reading.gainReduction > 0.05 ? reading.gainReduction : -1.0);
+    feltMeter.show(reading.overThreshold);
+}
+
+void PluginWindow::showRouting()
+{
+    const auto values = processor.values();
+    sourceMix->setEnabled(values.index(ParameterId::source) == static_cast<std::size_t>(SourceChoice::mix));
+    outputChannel->setEnabled(values.index(ParameterId::outputMode) ==
+                              static_cast<std::size_t>(OutputMode::addToChannel));
+}
+
+juce::String PluginWindow::statusText() const
+{
+    const juce::String note = processor.note();
+    if (note.isNotEmpty())
+        return note;
+    const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
+    return processor.actuatorName() + ", latency " + juce::String(milliseconds, 2) + " ms";
+}
+
+void PluginWindow::chooseActuator()
+{
+    chooser = std::make_unique<juce::FileChooser>("Load an actuator", juce::File(), "*.json");
+    chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                         [this](const juce::FileChooser& chosen)
+                         {
+                             if (chosen.getResult() == juce::File())
+                                 return;
+                             const auto loaded = processor.loadActuator(chosen.getResult());
+                             if (!loaded)
+                                 juce::NativeMessageBox::showMessageBoxAsync(
+                                     juce::MessageBoxIconType::WarningIcon, "Not a profile",
+                                     chosen.getResult().getFileName() + ": " + juce::String(loaded.error().text()),
+                                     this);
+                         });
+}
+
+void PluginWindow::paint(juce::Graphics& g)
+{
+    const auto& palette = look.palette();
+    g.fillAll(palette.background);
+    g.setColour(palette.text);
+    g.setFont(editor::titleFont());
+    g.drawText("Pacini", juce::Rectangle<int>(2 * grid, grid, 10 * grid, 4 * grid), juce::Justification::centredLeft,
+               false);
+    for (const Card& card : cards)
+        editor::drawCard(g, card.area, card.name, palette);
+}
+
+void PluginWindow::resized()
+{
+    cards.clear();
+    const auto card = [this](juce::Rectangle<int> area, const juce::String& name)
+    {
+        cards.push_back({area, name});
+        return editor::insideOfCard(area);
+    };
+    auto area = getLocalBounds().reduced(grid);
+    placeHeader(area.removeFromTop(4 * grid).reduced(grid, 0));
+    area.removeFromTop(grid);
+
+    auto footer = area.removeFromBottom(5 * grid).reduced(grid, grid).withTrimmedBottom(-grid / 2);
+    status.setBounds(footer.removeFromRight(footer.getWidth() * 2 / 5));
+    capture.setBounds(footer.withTrimmedRight(2 * grid));
+
+    auto lower = area.removeFromBottom(20 * grid);
+    area.removeFromBottom(grid);
+
+    // Sound, bands, touch
+    auto left = card(area.removeFromLeft(31 * grid), "Sound");
+    area.removeFromLeft(grid);
+    auto right = card(area.removeFromRight(31 * grid), "Touch");
+    area.removeFromRight(grid);
+    bands.setBounds(card(area, "Bands"));
+    const auto row = [](juce::Rectangle<int>& from, int height = rowHeight)
+    {
+        const auto taken = from.removeFromTop(height);
+        from.removeFromTop(grid);
+        return taken;
+    };
+    sourceChoice->setBounds(row(left));
+    sourceMix->setBounds(row(left));
+    inputGain->setBounds(row(left));
+    left.removeFromTop(grid);
+    inputMeter.setBounds(row(left));
+    lamp.setBounds(row(left));
+    outputMode->setBounds(row(right));
+    outputChannel->setBounds(row(right));
+    right.removeFromTop(grid);
+    outputMeter.setBounds(row(right));
+    reductionMeter.setBounds(row(right));
+    feltMeter.setBounds(row(right));
+
+    // Roles, character, events, gate
+    auto roles = card(lower.removeFromLeft(36 * grid), "What is felt");
+    lower.removeFromLeft(grid);
+    for (std::size_t i = 0; i < roleLevels.size(); ++i)
+    {
+        auto line = roles.removeFromTop(roles.getHeight() / static_cast<int>(roleLevels.size() - i))
+                        .withSizeKeepingCentre(roles.getWidth(), rowHeight);
+        roleMutes[i]->setBounds(line.removeFromRight(6 * grid));
+        line.removeFromRight(grid);
+        roleLevels[i]->setBounds(line);
+    }
+    const int knobWidth = (lower.getWidth() - 14 * grid) / 9;
+    auto character = card(lower.removeFromLeft(5 * knobWidth + 4 * grid), "Character");
+    lower.removeFromLeft(grid);
+    placeKnobs(character, {intensity.get(), transposition.get(), direct.get(), attack.get(), release.get()});
+    auto events = card(lower.removeFromLeft(2 * knobWidth + 4 * grid), "Events");
+    lower.removeFromLeft(grid);
+    placeKnobs(events, {sensitivity.get(), sharpness.get()});
+    placeKnobs(card(lower, "Gate"), {gateThreshold.get(), gateRelease.get()});
+
+    processor.setWindowSize(getWidth(), getHeight());
+}
+
+void PluginWindow::placeHeader(juce::Rectangle<int> area)
+{
+    area = area.withSizeKeepingCentre(area.getWidth(), rowHeight);
+    area.removeFromLeft(10 * grid);
+    themeButton.setBounds(area.removeFromRight(7 * grid));
+    area.removeFromRight(grid);
+    bypassToggle->setBounds(area.removeFromRight(9 * grid));
+    area.removeFromRight(3 * grid);
+    loadButton.setBounds(area.removeFromRight(9 * grid));
+    area.removeFromRight(grid);
+    actuator->setBounds(area.removeFromRight(area.getWidth() / 2).withTrimmedLeft(grid));
+    programChoice.setBounds(area);
+}
+
+void PluginWindow::placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs)
+{
+    int left = static_cast<int>(knobs.size());
+    for (editor::ParameterSlider* knob : knobs)
+        knob->setBounds(area.removeFromLeft(area.getWidth() / left--));
+}
+
+} // namespace pacini::plugin

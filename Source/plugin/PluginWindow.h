@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plugin's window.
+
+#include "editor/BandView.h"
+#include "editor/CapturePanel.h"
+#include "editor/Meters.h"
+#include "editor/ParameterControls.h"
+#include "editor/Theme.h"
+#include "plugin/PluginProcessor.h"
+
+#include <juce_audio_processors/juce_audio_processors.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace pacini::plugin
+{
+
+class PluginWindow final : public juce::AudioProcessorEditor, private juce::Timer
+{
+public:
+    explicit PluginWindow(PluginProcessor& shown);
+    ~PluginWindow() override;
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    /// Looks at everything that may have changed, as the timer does.
+    void refresh();
+    void setDark(bool dark);
+
+private:
+    using Shape = editor::ParameterSlider::Shape;
+
+    void timerCallback() override { refresh(); }
+    std::unique_ptr<editor::ParameterSlider> slider(ParameterId parameter, Shape shape);
+    std::unique_ptr<editor::ParameterToggle> toggle(ParameterId parameter, const juce::String& text);
+    std::unique_ptr<editor::ParameterChoice> choice(ParameterId parameter);
+    void adopt(juce::Component& component, editor::Refreshed* refreshed);
+    void chooseActuator();
+    void showMeters();
+    void showRouting();
+    void placeHeader(juce::Rectangle<int> area);
+    void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
+    [[nodiscard]] juce::String statusText() const;
+
+    PluginProcessor& processor;
+    editor::Look look;
+    juce::TooltipWindow tooltips;
+    std::vector<editor::Refreshed*> refreshed;
+    int focusOrder = 0;
+
+    juce::ComboBox programChoice;
+    std::unique_ptr<editor::ParameterChoice> actuator;
+    juce::TextButton loadButton, themeButton;
+    std::unique_ptr<editor::ParameterToggle> bypassToggle;
+
+    std::unique_ptr<editor::ParameterChoice> sourceChoice;
+    std::unique_ptr<editor::ParameterSlider> sourceMix, inputGain;
+    editor::LevelMeter inputMeter;
+    editor::EventLamp lamp;
+
+    editor::BandView bands;
+
+    editor::LevelMeter outputMeter, reductionMeter, feltMeter;
+    std::unique_ptr<editor::ParameterChoice> outputMode;
+    std::unique_ptr<editor::ParameterSlider> outputChannel;
+
+    std::array<std::unique_ptr<editor::ParameterSlider>, 3> roleLevels;
+    std::array<std::unique_ptr<editor::ParameterToggle>, 3> roleMutes;
+    std::unique_ptr<editor::ParameterSlider> intensity, transposition, direct, attack, release;
+    std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
+
+    editor::CapturePanel capture;
+    juce::Label status;
+    std::unique_ptr<juce::FileChooser> chooser;
+
+    struct Card
+    {
+        juce::Rectangle<int> area;
+        juce::String name;
+    };
+    std::vector<Card> cards;
+
+    JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginWindow)
+};
+
+} // namespace pacini::plugin
