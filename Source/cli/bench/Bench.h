@@ -61,12 +61,13 @@ struct Bench
 [[nodiscard]] Bench synthesisBench();
 [[nodiscard]] Bench scenesBench();
 [[nodiscard]] Bench actuatorsBench();
+[[nodiscard]] Bench liveBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
     return {simplifyBench(), decimateBench(),  filtersBench(), analysisBench(), synthesisBench(), oscillatorsBench(),
-            scenesBench(),   actuatorsBench(), bodyBench(),    stagesBench(),   methodsBench()};
+            scenesBench(),   actuatorsBench(), liveBench(),    bodyBench(),     stagesBench(),    methodsBench()};
 }
 
 } // namespace pacini::cli

@@ -1,0 +1,78 @@
+#pragma once
+
+// Big objects on their way to the audio thread and back.
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace pacini
+{
+
+/// Carries objects made on one thread to the audio thread, newest wins, and carries used ones back, so that nothing is
+/// allocated or freed there. One sender, one receiver; neither waits: an exchange each, and the list of used objects is
+/// pushed by the receiver only and taken as a whole by the sender only.
+template <typename T>
+class HandOver
+{
+public:
+    /// What the receiver holds: the object and its place in the list of used ones.
+    struct Parcel
+    {
+        T content;
+        Parcel* next = nullptr;
+    };
+
+    HandOver() = default;
+    HandOver(const HandOver&) = delete;
+    HandOver& operator=(const HandOver&) = delete;
+    ~HandOver()
+    {
+        delete incoming.load(std::memory_order_acquire);
+        collect();
+    }
+
+    /// Replaces what was sent before and not yet received; frees what came back. [message]
+    void send(T content)
+    {
+        auto parcel = std::make_unique<Parcel>(Parcel{std::move(content), nullptr});
+        delete incoming.exchange(parcel.release(), std::memory_order_acq_rel);
+        collect();
+    }
+
+    /// Frees what came back. [message]
+    void collect() noexcept
+    {
+        Parcel* parcel = used.exchange(nullptr, std::memory_order_acquire);
+        while (parcel)
+            delete std::exchange(parcel, parcel->next);
+    }
+
+    /// Whether an object is there to be received. [audio]
+    [[nodiscard]] bool waiting() const noexcept { return incoming.load(std::memory_order_relaxed) != nullptr; }
+
+    /// The newest object, or null; the receiver owns it until it gives it back. [audio]
+    [[nodiscard]] Parcel* receive() noexcept
+    {
+        if (!waiting()) // an exchange locks the bus, a load does not
+            return nullptr;
+        return incoming.exchange(nullptr, std::memory_order_acq_rel);
+    }
+
+    /// Null is allowed. [audio]
+    void giveBack(Parcel* parcel) noexcept
+    {
+        if (!parcel)
+            return;
+        parcel->next = used.load(std::memory_order_relaxed);
+        while (!used.compare_exchange_weak(parcel->next, parcel, std::memory_order_release, std::memory_order_relaxed))
+        {
+        }
+    }
+
+private:
+    std::atomic<Parcel*> incoming{nullptr};
+    std::atomic<Parcel*> used{nullptr};
+};
+
+} // namespace pacini

@@ -1,0 +1,264 @@
+#pragma once
+
+// Sound in, touch out: the live translator.
+
+#include <pacini/actuator/Protection.h>
+#include <pacini/filters/PolyphaseInterpolator.h>
+#include <pacini/foundation/DspBlock.h>
+#include <pacini/realtime/HandOver.h>
+#include <pacini/realtime/TranslatorDesign.h>
+#include <pacini/realtime/TranslatorEngine.h>
+#include <pacini/realtime/TranslatorMeters.h>
+#include <pacini/realtime/TranslatorParams.h>
+#include <pacini/realtime/WholeDecimator.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// A block of mono audio in, a block of drive out, both at the host's rate. Analysis and synthesis run at an inner rate
+/// of 6 to 12 kHz (see TranslatorEngine); linear-phase filters lead there and back and are all of latencyFrames(): 1.3
+/// ms at 48 kHz, never more than 1.4 ms. The latency depends on the host's rate only.
+///
+/// Where the actuator can show a band its own signal is played, scaled by its role: nothing that was in the sound is
+/// then lost, and nothing is smeared. What it cannot show is played by sinusoids that follow the band's strength and
+/// pitch, moved to where it can. Events that the range of touch holds too little of are topped by pulses.
+///
+/// Threads: prepare() and setSetup() [message]; setParams(), reset() and process() [audio]; meters() [any].
+class Translator
+{
+public:
+    using Params = TranslatorParams;
+
+    Translator() { prepare(ProcessSpec{}); }
+
+    /// Allocates; process() must not run.
+    void prepare(const ProcessSpec& spec)
+    {
+        fs = spec.sampleRate;
+        const std::size_t factor = translatorFactor(fs);
+        const double inner = fs / static_cast<double>(factor);
+        decimator = WholeDecimator(factor, fs, passFrequency);
+        interpolator = std::make_unique<PolyphaseInterpolator>(factor, std::min(passFrequency / inner, 0.44));
+        latency = decimator.latencyFrames() + interpolator->latencyFrames();
+        const std::size_t frames = longestPiece / factor + 2;
+        inFrames.assign(frames, 0.0f);
+        peaks.assign(frames, 0.0f);
+        outFrames.assign(frames, 0.0f);
+        ready.assign((frames + 1) * factor, 0.0f);
+        dry.assign(latency + longestPiece, 0.0f);
+        protection.prepare({fs, longestPiece});
+        bypassStep = static_cast<float>(1.0 / (0.010 * fs));
+        sendDesign();
+        reset();
+    }
+
+    /// Another actuator or other bands: the set is designed here and handed over; the audio thread fades out within 6
+    /// ms, takes it and fades in. The latency stays. [message]
+    void setSetup(const TranslatorSetup& wanted)
+    {
+        setup = wanted;
+        sendDesign();
+    }
+    [[nodiscard]] const TranslatorSetup& currentSetup() const noexcept { return setup; }
+
+    /// What is left out with the newest set-up and `params`, and why. [message]
+    [[nodiscard]] TranslatorPlan plan(const Params& wanted) const
+    {
+        return translatorPlan(designTranslator(setup, fs), wanted);
+    }
+
+    /// Takes effect on the next point of the control grid, about 1 ms, smoothly; right after reset() at once. [audio]
+    void setParams(const Params& wanted) noexcept
+    {
+        if (wanted == current)
+            return;
+        current = wanted;
+        const Params valid = clamped(wanted);
+        engine.setParams(valid);
+        bypassTarget = valid.bypass ? 1.0f : 0.0f;
+        if (!begun)
+            bypass = bypassTarget;
+    }
+
+    /// Silence, the newest set-up, the parameters as they are. [audio]
+    void reset() noexcept
+    {
+        takeDesign();
+        engine.reset();
+        decimator.reset();
+        interpolator->reset();
+        protection.reset();
+        std::fill(dry.begin(), dry.end(), 0.0f);
+        dryFrames = leftOver = 0;
+        zeroFrames = 0;
+        bypass = bypassTarget;
+        begun = false;
+        readings->reset();
+    }
+
+    /// Any number of frames, 0 too; `in` and `out` of one length may be the same memory. Not finite input counts as 0.
+    /// The drive stays within +-1. [audio]
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        double peak = 0.0;
+        double reduction = 0.0;
+        for (std::size_t i = 0; i < in.size(); i += longestPiece)
+        {
+            const std::size_t n = std::min(longestPiece, in.size() - i);
+            piece(in.subspan(i, n), out.subspan(i, n));
+            float largest = 0.0f;
+            for (const float y : out.subspan(i, n))
+                largest = std::abs(y) > largest ? std::abs(y) : largest;
+            peak = std::max(peak, static_cast<double>(largest));
+            reduction = std::max(reduction, held->content.protection ? protection.gainReduction() : 0.0);
+        }
+        if (in.empty())
+            return;
+        for (std::size_t k = 0; k < held->content.bands.size(); ++k)
+            readings->setBand(k, engine.bandPower(k));
+        readings->setOutput(peak, std::max(reduction, -20.0 * std::log10(engine.takeLimiterGain())));
+    }
+
+    /// Frames by which the drive is later than the sound.
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
+
+    [[nodiscard]] const TranslatorMeters& meters() const noexcept { return *readings; }
+
+private:
+    using Designs = HandOver<TranslatorDesign>;
+
+    static constexpr std::size_t longestPiece = 256;
+    static constexpr double passFrequency = 1000.0; // Hz
+
+    /// Gives a parcel back to be freed when the translator ends.
+    struct FreeParcel
+    {
+        void operator()(Designs::Parcel* parcel) const noexcept { delete parcel; }
+    };
+
+    void sendDesign() { designs->send(designTranslator(setup, fs)); }
+
+    void takeDesign() noexcept
+    {
+        Designs::Parcel* parcel = designs->receive();
+        if (!parcel)
+            return;
+        designs->giveBack(held.release());
+        held.reset(parcel);
+        const TranslatorDesign& design = parcel->content;
+        engine.adopt(design);
+        if (design.protection)
+            protection.setParams(*design.protection);
+        protection.reset();
+        readings->setBands(design.bands.size(), design.feltRange);
+    }
+
+    void piece(std::span<const float> in, std::span<float> out) noexcept
+    {
+        begun = true;
+        const std::size_t frames = decimator.framesFor(in.size());
+        const auto x = std::span(inFrames).first(frames);
+        const auto p = std::span(peaks).first(frames);
+        const auto y = std::span(outFrames).first(frames);
+        decimator.process(in, x, p);
+        keepDry(in);
+        translate(x, p, y);
+
+        const std::size_t factor = decimator.factor();
+        raise(y, std::span(ready).subspan(leftOver, frames * factor));
+        const std::size_t made = leftOver + frames * factor;
+        std::copy_n(ready.begin(), in.size(), out.begin());
+        std::copy(ready.begin() + static_cast<std::ptrdiff_t>(in.size()),
+                  ready.begin() + static_cast<std::ptrdiff_t>(made), ready.begin());
+        leftOver = made - in.size();
+
+        if (bypass > 0.0f || bypassTarget > 0.0f)
+            mixDry(out);
+        if (held->content.protection)
+            protection.process(out, out);
+        else
+            for (float& sample : out)
+                sample = sample > 1.0f ? 1.0f : (sample < -1.0f ? -1.0f : sample);
+    }
+
+    void translate(std::span<const float> x, std::span<const float> p, std::span<float> y) noexcept
+    {
+        const auto onEvent = [this](std::uint64_t frame, double level)
+        {
+            readings->noteEvent(frame * decimator.factor(), level);
+        };
+        for (std::size_t done = 0; done < x.size();)
+        {
+            engine.setFade(designs->waiting());
+            done += engine.process(x.subspan(done), p.subspan(done), y.subspan(done), onEvent);
+            if (engine.faded())
+                takeDesign();
+        }
+    }
+
+    /// To the host's rate; silence costs nothing.
+    void raise(std::span<const float> y, std::span<float> to) noexcept
+    {
+        const bool silent = std::all_of(y.begin(), y.end(), [](float v) { return v == 0.0f; });
+        const std::size_t taps = 2 * interpolator->latencyFrames() / interpolator->factor();
+        if (silent && zeroFrames >= taps)
+            std::fill(to.begin(), to.end(), 0.0f);
+        else
+            interpolator->process(y, to);
+        zeroFrames = silent ? std::min(zeroFrames + y.size(), taps) : 0;
+    }
+
+    /// dry holds the newest `latency` frames of the input and, behind them, this piece.
+    void keepDry(std::span<const float> in) noexcept
+    {
+        std::copy(dry.begin() + static_cast<std::ptrdiff_t>(dryFrames),
+                  dry.begin() + static_cast<std::ptrdiff_t>(dryFrames + latency), dry.begin());
+        for (std::size_t i = 0; i < in.size(); ++i)
+            dry[latency + i] = toSample(finiteOrZero(in[i]));
+        dryFrames = in.size();
+    }
+
+    void mixDry(std::span<float> out) noexcept
+    {
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+            bypass = bypassTarget > bypass ? std::min(bypass + bypassStep, bypassTarget)
+                                           : std::max(bypass - bypassStep, bypassTarget);
+            out[i] = bypass * dry[i] + (1.0f - bypass) * out[i];
+        }
+    }
+
+    double fs = ProcessSpec{}.sampleRate;
+    TranslatorSetup setup;
+    Params current;
+    std::unique_ptr<Designs> designs = std::make_unique<Designs>();
+    std::unique_ptr<TranslatorMeters> readings = std::make_unique<TranslatorMeters>();
+    std::unique_ptr<Designs::Parcel, FreeParcel> held;
+    TranslatorEngine engine;
+    WholeDecimator decimator;
+    std::unique_ptr<PolyphaseInterpolator> interpolator;
+    Protection protection;
+    std::vector<float> inFrames, peaks, outFrames;
+    std::vector<float> ready; // drive that is made but not given out
+    std::vector<float> dry;
+    std::size_t dryFrames = 0;
+    std::size_t leftOver = 0;
+    std::size_t zeroFrames = 0;
+    std::size_t latency = 0;
+    float bypass = 0.0f, bypassTarget = 0.0f, bypassStep = 1.0f;
+    bool begun = false;
+};
+
+static_assert(DspBlock<Translator>);
+
+} // namespace pacini

@@ -1,0 +1,211 @@
+#pragma once
+
+// What the translator needs to know of an actuator, made before the audio thread gets it.
+
+#include <pacini/actuator/DynamicRangeMap.h>
+#include <pacini/actuator/EqualizerPruning.h>
+#include <pacini/actuator/FrequencyMap.h>
+#include <pacini/actuator/MotorDrive.h>
+#include <pacini/actuator/OutputFilter.h>
+#include <pacini/actuator/Profile.h>
+#include <pacini/actuator/ProtectionParams.h>
+#include <pacini/filters/BandLayout.h>
+#include <pacini/realtime/BandMeter.h>
+#include <pacini/realtime/CarrierVoice.h>
+#include <pacini/realtime/DirectPath.h>
+#include <pacini/realtime/TranslatorParams.h>
+#include <pacini/synthesis/TransientPulse.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// What is decided once for a set-up of the translator.
+struct TranslatorSetup
+{
+    std::optional<Profile> profile; ///< valid; none: the drive signal as it is
+    BandLayoutParams bands;         ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
+    double maxBoost = 6.0;          ///< dB by which the drive may be raised to flatten a resonance, 0 to 40
+    bool operator==(const TranslatorSetup&) const = default;
+};
+
+inline constexpr std::size_t maxTranslatorBands = 12;
+
+/// Something that the translator does without.
+struct TranslatorSaving
+{
+    std::string what;   ///< such as `bands[2].carrier`
+    std::string reason; ///< in plain words
+    bool operator==(const TranslatorSaving&) const = default;
+};
+
+using TranslatorPlan = std::vector<TranslatorSaving>;
+
+/// One source band of the translator.
+struct TranslatorBand
+{
+    Hertz low, centre, high;
+    bool rumble = false; ///< else texture
+    bool shown = true;   ///< the actuator can play the band's own signal
+};
+
+/// Immutable; made off the audio thread by designTranslator().
+struct TranslatorDesign
+{
+    BandLayout layout;
+    FixedVector<TranslatorBand, maxTranslatorBands> bands;
+    double innerRate = 6000.0; ///< Hz
+    BandMeter meter;           ///< to be copied, as what follows, so that the audio thread designs nothing
+    DirectPath direct;
+    bool anyDirect = false;
+    std::array<BandListener, maxTranslatorBands> listeners;
+    std::optional<FrequencyMap> frequencies; ///< none: every frequency stays
+    double lowest = 5.0;                     ///< Hz that carriers reach
+    double highest = 2000.0;
+    std::size_t voices = maxTranslatorBands;
+    std::optional<MotorDriveParams> motor;
+    double motorBurst = 0.0; ///< s that an event drives a motor
+    DynamicRangeMap levels;
+    PulseParams pulses;
+    BiquadCascadeCoefficients filter; ///< equaliser and flattening at the inner rate
+    double scale = 1.0;               ///< room for overdrive
+    std::optional<ProtectionParams> protection;
+    double feltRange = 60.0; ///< dB between full drive and the weakest drive that is felt
+    TranslatorPlan plan;
+};
+
+/// The whole factor by which the translator lowers a rate: to 6 kHz or a little more, where 1 kHz has room.
+[[nodiscard]] inline std::size_t translatorFactor(double fs) noexcept
+{
+    return static_cast<std::size_t>(std::max(1.0, std::floor(clampTo(fs, 2000.0, 1e7) / 6000.0)));
+}
+
+/// The set of one actuator for a host rate of `fs` Hz. A valid profile without polyphony to spare (fewer voices than
+/// bands) gets carriers only; otherwise a band whose centre the actuator reaches, with the flattening (see
+/// flatteningOf), is played by its own signal. [message]
+[[nodiscard]] inline TranslatorDesign designTranslator(const TranslatorSetup& setup, double fs)
+{
+    TranslatorDesign design;
+    TranslatorPlan& plan = design.plan;
+    design.innerRate = fs / static_cast<double>(translatorFactor(fs));
+    BandLayoutParams bands = setup.bands;
+    bands.bands = clampTo<std::size_t>(bands.bands, 1, maxTranslatorBands);
+    design.layout = designBandLayout(bands);
+    const bool known = setup.profile && setup.profile->technology != Technology::pcm;
+    if (setup.profile)
+    {
+        const Profile& profile = *setup.profile;
+        design.scale = 1.0 / profile.drive.overdrive;
+        design.feltRange = profile.range.dynamicRange;
+        if (profile.transient.shape != TransientShape::adaptive)
+            design.pulses = {profile.transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine,
+                             profile.transient.frequency, profile.transient.cycles};
+        if (known)
+        {
+            Profile reached = profile;
+            const auto flattening = flatteningOf(profile, Decibels(setup.maxBoost));
+            if (flattening)
+            {
+                const double ratio = std::exp2(flattening->octaves);
+                reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
+                reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
+            }
+            design.frequencies = FrequencyMap(reached);
+            design.lowest = reached.range.lowFrequency;
+            design.highest = reached.range.highFrequency;
+            design.voices = static_cast<std::size_t>(std::max(profile.polyphony, 1));
+            if (profile.technology == Technology::erm)
+            {
+                design.motor = motorDriveParams(profile);
+                design.motorBurst = std::max(0.012, profile.response.riseTime);
+                design.voices = 1;
+            }
+            constexpr double felt = 35.0; // dB that a sound's loudest part stands above what is just felt beside it
+            design.levels = DynamicRangeMap({profile.range.dynamicRange, felt, 1.0});
+
+            OutputFilterParams filter;
+            filter.flattening = flattening;
+            const auto pruned =
+                pruneEqualizer(profile.equalizer,
+                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
+                               design.innerRate);
+            filter.equalizer = pruned.kept;
+            design.filter = designOutputFilter(filter, design.innerRate);
+            for (const DroppedSection& section : pruned.dropped)
+                plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
+            if (!flattening)
+                plan.push_back({"flattening", profile.technology == Technology::erm
+                                                  ? "a motor has no resonance that a filter could undo"
+                                                  : "the equaliser does it"});
+        }
+        ProtectionParams limits = protectionParams(profile, Seconds(0.0));
+        if (limits.excursion || limits.heat)
+        {
+            const double overdrive = profile.drive.overdrive;
+            if (limits.excursion)
+                limits.excursion->excursion *= overdrive;
+            if (limits.heat)
+                limits.heat->fullDrivePower *= overdrive * overdrive;
+            design.protection = limits;
+        }
+    }
+    if (!known)
+        plan.push_back({"adaptation", "no actuator is known"});
+    if (!design.protection)
+        plan.push_back({"protection", "no drive within full scale reaches a limit of the profile"});
+    if (known && design.levels.isIdentity())
+        plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
+    design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;
+    design.pulses.highest = design.frequencies ? design.highest : design.pulses.highest;
+    design.highest = std::min(design.highest, 0.4 * design.innerRate);
+    design.lowest = std::min(design.lowest, design.highest);
+
+    design.meter.design(design.layout, design.innerRate);
+    Hertz low(1.0), border(1.0), high(1.0);
+    const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
+    for (std::size_t k = 0; k < design.layout.bands(); ++k)
+    {
+        TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};
+        band.rumble = band.centre.value < 100.0;
+        band.shown = anyWaveform && band.centre.value >= design.lowest && band.centre.value <= design.highest;
+        if (band.rumble)
+            border = band.high;
+        if (band.shown || design.motor) // whose strength is that of the whole range
+        {
+            low = design.anyDirect ? low : band.low;
+            high = band.high;
+            design.anyDirect = true;
+        }
+        design.bands.pushBack(band);
+        design.listeners[k].design(band.low, band.high, design.innerRate);
+        if (band.shown)
+            plan.push_back({"bands[" + std::to_string(k) + "].carrier", "the actuator plays the band's own signal"});
+        else
+            plan.push_back({"bands[" + std::to_string(k) + "].direct",
+                            anyWaveform ? "lies outside the actuator's range" : "the actuator has too few voices"});
+    }
+    design.direct.design(low, border, high, design.innerRate);
+    return design;
+}
+
+/// What a set of parameters leaves out beside that. [message]
+[[nodiscard]] inline TranslatorPlan translatorPlan(const TranslatorDesign& design, const TranslatorParams& params)
+{
+    TranslatorPlan plan = design.plan;
+    if (params.rumble.muted)
+        plan.push_back({"rumble", "is muted"});
+    if (params.texture.muted)
+        plan.push_back({"texture", "is muted"});
+    if (params.transients.muted)
+        plan.push_back({"transients", "are muted"});
+    return plan;
+}
+
+} // namespace pacini

@@ -1,0 +1,367 @@
+#pragma once
+
+// The translator at its inner rate: what is heard, and what is to be felt.
+
+#include <pacini/actuator/LimiterGain.h>
+#include <pacini/actuator/MotorDrive.h>
+#include <pacini/realtime/CarrierSection.h>
+#include <pacini/realtime/EventPulses.h>
+#include <pacini/realtime/EventWatch.h>
+#include <pacini/realtime/LiveGate.h>
+#include <pacini/realtime/TranslatorDesign.h>
+#include <pacini/realtime/TranslatorMeters.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace pacini
+{
+
+/// Runs on frames of the inner rate, decides on a fixed grid (see ControlHop.h), so that its output does not depend on
+/// how it is called. Asleep, in silence, it does nothing.
+class TranslatorEngine
+{
+public:
+    /// Takes a design, which must stay where it is until the next one. Silence follows. Only the limits of limiter and
+    /// motor are computed here.
+    void adopt(const TranslatorDesign& wanted) noexcept
+    {
+        design = &wanted;
+        const double fs = wanted.innerRate;
+        meter = wanted.meter;
+        direct = wanted.direct;
+        carriers.adopt(wanted);
+        if (wanted.motor)
+        {
+            motor.prepare({fs, controlHop});
+            motor.setParams(*wanted.motor);
+        }
+        limiter.design(0, static_cast<std::size_t>(0.010 * fs), fs);
+        if (fs != rate)
+        {
+            rate = fs;
+            watch.prepare(fs);
+        }
+        gainShare = hopShare(0.005, fs);
+        levelShare = hopShare(0.030, fs);
+        strengthShare = hopShare(0.010, fs); // a motor follows no faster
+        peakDecay = 1.0 - hopShare(0.020, fs);
+        clearSignal();
+        setParams(params);
+    }
+
+    /// Linear gains and the like of clamped parameters. [audio]
+    void setParams(const TranslatorParams& wanted) noexcept
+    {
+        params = wanted;
+        const auto gain = [](double level)
+        {
+            return Decibels(level).gain();
+        };
+        const auto role = [&](const RoleParams& r)
+        {
+            return r.muted ? 0.0 : gain(r.level);
+        };
+        inputGain = gain(params.inputGain);
+        rumble = role(params.rumble);
+        texture = role(params.texture);
+        transients = role(params.transients);
+        intensity = gain(params.intensity);
+        transposition = std::exp2(params.transposition / 12.0);
+        attackShare = hopShare(0.001 * params.attack, rate);
+        releaseShare = hopShare(0.001 * params.release, rate);
+        threshold = baseThreshold * gain(30.0 * (0.5 - params.transientSensitivity));
+        gate.setParams(gain(params.gateThreshold), 0.001 * params.gateRelease * rate);
+        if (!begun)
+            jumpToParams();
+    }
+
+    void reset() noexcept
+    {
+        clearSignal();
+        watch.reset();
+        gate.reset();
+        limiter.reset();
+        framesIntoHop = 0;
+        frame = 0;
+        begun = false;
+        jumpToParams();
+    }
+
+    /// Whether the output has faded to 0 on request, so that another design may come.
+    [[nodiscard]] bool faded() const noexcept { return fade.end() == 0.0 && fade.silent() && framesIntoHop == 0; }
+    void setFade(bool out) noexcept { fadeTarget = out ? 0.0 : 1.0; }
+
+    /// All spans of one length: band-limited frames and full-band peaks in, drive out. `onEvent(frame, level)` is
+    /// called for every event, with the frame since reset. Stops early, where the design may be changed, if `out` has
+    /// faded; returns the number of frames done.
+    template <typename OnEvent>
+    std::size_t process(std::span<const float> in, std::span<const float> peaks, std::span<float> out,
+                        OnEvent&& onEvent) noexcept
+    {
+        std::size_t done = 0;
+        while (done < in.size())
+        {
+            if (framesIntoHop == 0)
+                beginHop();
+            const std::size_t n = std::min(in.size() - done, controlHop - framesIntoHop);
+            run(in.subspan(done, n), peaks.subspan(done, n), out.subspan(done, n), onEvent);
+            done += n;
+            frame += n;
+            framesIntoHop = (framesIntoHop + n) % controlHop;
+            if (faded() && fadeTarget == 0.0)
+                break;
+        }
+        return done;
+    }
+
+    [[nodiscard]] double bandPower(std::size_t k) const noexcept { return bandPowers[k]; }
+    /// The smallest gain of the limiter since the last call.
+    [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
+
+private:
+    static constexpr double baseThreshold = 1.0;
+    static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
+
+    void clearSignal() noexcept
+    {
+        meter.reset();
+        direct.reset();
+        carriers.reset();
+        pulses.reset();
+        motor.reset();
+        filterStates = {};
+        bandPowers = {};
+        firstStrength = strengthSquared = playedEnergy = playedPeak = heardPeak = 0.0;
+        loudest = 0.0;
+        burstLeft = 0;
+        asleep = false;
+    }
+
+    void jumpToParams() noexcept
+    {
+        if (!design)
+            return;
+        input.jump(inputGain);
+        strength.jump(0.0);
+        drive.jump(intensity);
+        levelGain.jump(1.0);
+        fade.jump(1.0);
+        fadeTarget = 1.0;
+        ratio = transposition;
+        direct.jump(rumble * directShare(), texture * directShare());
+    }
+
+    /// How much of a band's own signal is played where the actuator can show it.
+    [[nodiscard]] double directShare() const noexcept
+    {
+        if (design->motor)
+            return 1.0;
+        return design->anyDirect && params.transposition == 0.0 ? params.direct : 0.0;
+    }
+
+    void beginHop() noexcept
+    {
+        begun = true;
+        input.aim(inputGain, gainShare);
+        drive.aim(intensity, gainShare);
+        // In straight lines of 4 hops, so that the end is 0 and not nearly so.
+        fade.aim(fadeTarget, fadeTarget == fade.end() ? 1.0 : std::min(1.0, 0.25 / std::abs(fadeTarget - fade.end())));
+        ratio += gainShare * (transposition - ratio);
+        if (std::abs(ratio - transposition) < 1e-9)
+            ratio = transposition;
+
+        // A hop without any sign of life: what may be left is 180 dB below full scale.
+        const bool wasAsleep = std::exchange(asleep, frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0);
+        if (asleep && !wasAsleep)
+        {
+            meter.reset();
+            direct.reset();
+            carriers.reset();
+            filterStates = {};
+            bandPowers = {};
+            firstStrength = strengthSquared = 0.0;
+        }
+        loudest = 0.0;
+
+        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
+        std::array<double, maxTranslatorBands> carrierGains{};
+        for (std::size_t k = 0; k < design->bands.size(); ++k)
+        {
+            const TranslatorBand& band = design->bands[k];
+            const double role = band.rumble ? rumble : texture;
+            if (!design->motor)
+                carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
+            const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
+            bandPowers[k] += levelShare * (power - bandPowers[k]);
+            flushTiny(bandPowers[k]);
+        }
+        carriers.aim(carrierGains, ratio, attackShare, releaseShare);
+        if (design->motor)
+        {
+            // Twice smoothed: the drive of a motor sharpens every ripple.
+            const double energy = playedEnergy / static_cast<double>(controlHop);
+            firstStrength += strengthShare * (energy - firstStrength);
+            strengthSquared += strengthShare * (firstStrength - strengthSquared);
+            double level = std::sqrt(2.0 * std::max(strengthSquared, 0.0));
+            if (burstLeft > 0)
+            {
+                --burstLeft;
+                level = std::max(level, burst);
+            }
+            strength.aim(design->levels(level), 1.0);
+        }
+        else if (!design->levels.isIdentity())
+            levelGain.aim(playedPeak > 1e-9 ? design->levels(playedPeak) / playedPeak : 1.0, gainShare);
+        playedEnergy = 0.0;
+        playedPeak *= peakDecay;
+        heardPeak *= peakDecay;
+        for (double* value : {&playedPeak, &heardPeak, &firstStrength, &strengthSquared})
+            flushTiny(*value);
+        meter.flush();
+        direct.flush();
+        carriers.flush();
+        watch.flush();
+        for (StateVariableState& state : filterStates)
+            state.flush();
+    }
+
+    template <typename OnEvent>
+    void run(std::span<const float> in, std::span<const float> peaks, std::span<float> out, OnEvent&& onEvent) noexcept
+    {
+        const std::size_t n = in.size();
+        std::array<double, controlHop> x{}, y{}, gates{};
+        double heard = 0.0;
+        std::size_t eventAt = n;
+        HeardEvent event;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            const double g = input.at(framesIntoHop + i);
+            x[i] = g * static_cast<double>(in[i]);
+            const double peak = g * static_cast<double>(peaks[i]);
+            gates[i] = gate.tick(peak);
+            heard = std::max({heard, std::abs(x[i]), peak});
+            if (watch.tick(peak, threshold, event) && gates[i] > 0.0)
+                eventAt = i; // events are farther apart than a hop
+        }
+        loudest = std::max(loudest, heard);
+        if (asleep && heard == 0.0 && pulses.silent())
+        {
+            std::fill(out.begin(), out.end(), 0.0f);
+            return;
+        }
+        asleep = false;
+        const auto xs = std::span<const double>(x).first(n);
+        const auto ys = std::span<double>(y).first(n);
+        meter.process(xs);
+        if (!direct.silent())
+            direct.process(xs, ys, framesIntoHop);
+        carriers.process(xs, ys, framesIntoHop);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            heardPeak = std::max(heardPeak, std::abs(x[i]));
+            playedPeak = std::max(playedPeak, std::abs(y[i]));
+            playedEnergy += y[i] * y[i];
+            out[i] = static_cast<float>(y[i]);
+            if (i == eventAt)
+            {
+                onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
+                beginPulse(event, i);
+            }
+        }
+        if (!pulses.silent() && !design->motor)
+            pulses.addTo(out);
+        finish(out, gates);
+    }
+
+    /// From the sum of what is played to the drive.
+    void finish(std::span<float> out, std::span<const double> gates) noexcept
+    {
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+            const double wanted = design->motor ? strength.at(framesIntoHop + i)
+                                                : levelGain.at(framesIntoHop + i) * static_cast<double>(out[i]);
+            out[i] = toSample(drive.at(framesIntoHop + i) * gates[i] * wanted);
+        }
+        if (design->motor)
+            motor.process(out, out);
+        const std::size_t sections = design->filter.sections.size();
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+            auto y = static_cast<double>(out[i]);
+            for (std::size_t s = 0; s < sections; ++s)
+                y = filterStates[s].tick(design->filter.sections[s], y);
+            loudest = std::max(loudest, std::abs(y));
+            y *= design->scale * fade.at(framesIntoHop + i);
+            if (!design->protection)
+            {
+                const double g = limiter.tick(y * y);
+                smallestGain = std::min(smallestGain, g);
+                y *= g;
+            }
+            out[i] = toSample(y);
+        }
+    }
+
+    /// The pulse tops what the bands give the event up to what is to be felt of it. Sharp is what the range of touch
+    /// holds little of.
+    void beginPulse(const HeardEvent& event, std::size_t at) noexcept
+    {
+        const double wanted = std::min(1.0, transients * brightShare * event.amplitude);
+        if (design->motor)
+        {
+            if (wanted > 0.0)
+            {
+                burst = wanted;
+                burstLeft = static_cast<std::size_t>(design->motorBurst * rate / static_cast<double>(controlHop)) + 1;
+            }
+            return;
+        }
+        const double missing = wanted - playedPeak;
+        if (!(missing > 0.05 * wanted) || !(wanted > 0.0))
+            return;
+        const double share = std::min(1.0, heardPeak / std::max(event.amplitude, 1e-9));
+        const double sharpness = std::clamp(1.0 - share + params.transientSharpness, 0.0, 1.0);
+        pulses.begin(makePulse(design->pulses, sharpness, event.gap, rate, ratio), missing, at);
+    }
+
+    const TranslatorDesign* design = nullptr;
+    double rate = 0.0;
+    TranslatorParams params;
+    double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, intensity = 1.0, transposition = 1.0;
+    double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
+    double gainShare = 1.0, levelShare = 1.0, strengthShare = 1.0, peakDecay = 0.9;
+
+    LiveGate gate;
+    EventWatch watch;
+    EventPulses pulses;
+    BandMeter meter;
+    DirectPath direct;
+    CarrierSection carriers;
+    MotorDrive motor;
+    LimiterGain limiter;
+    std::array<StateVariableState, maxBiquadSections> filterStates{};
+
+    HopRamp input, strength, drive, levelGain, fade;
+    double fadeTarget = 1.0;
+    double ratio = 1.0;
+    double firstStrength = 0.0, strengthSquared = 0.0;
+    double burst = 0.0;
+    std::size_t burstLeft = 0;                // hops
+    double playedEnergy = 0.0;                // in this hop
+    double playedPeak = 0.0, heardPeak = 0.0; // of late
+    double loudest = 0.0;                     // in this hop, of input and output
+    std::array<double, maxTranslatorBands> bandPowers{};
+    double smallestGain = 1.0;
+    std::size_t framesIntoHop = 0;
+    std::uint64_t frame = 0;
+    bool begun = false;
+    bool asleep = false;
+};
+
+} // namespace pacini

@@ -1,0 +1,64 @@
+#pragma once
+
+// Parameters to begin with, as plain data.
+
+#include <pacini/realtime/TranslatorParams.h>
+
+#include <array>
+#include <string_view>
+
+namespace pacini
+{
+
+struct TranslatorPreset
+{
+    std::string_view name;
+    std::string_view purpose; ///< in plain words
+    TranslatorParams params;
+};
+
+/// The shipped presets; the first one is the default of TranslatorParams.
+[[nodiscard]] inline const std::array<TranslatorPreset, 7>& translatorPresets() noexcept
+{
+    static constexpr std::array<TranslatorPreset, 7> presets{{
+        {"Neutral", "the sound's own range of touch, events topped up", {}},
+        {"Music",
+         "a firm bass under a lighter body; only clear events",
+         {.intensity = 3.0, .rumble = {2.0}, .texture = {-3.0}, .transients = {-3.0}, .transientSensitivity = 0.4}},
+        {"Games and effects",
+         "strong impacts, full body, quick to speak",
+         {.intensity = 6.0,
+          .rumble = {3.0},
+          .transients = {4.0},
+          .transientSensitivity = 0.6,
+          .transientSharpness = 0.2,
+          .gateThreshold = -60.0}},
+        {"Voice",
+         "the rhythm of speech without its hum",
+         {.intensity = 6.0,
+          .rumble = {0.0, true},
+          .transients = {-6.0},
+          .transientSensitivity = 0.4,
+          .gateThreshold = -50.0,
+          .gateRelease = 150.0}},
+        {"Rumble only", "what lies below 100 Hz", {.rumble = {0.0}, .texture = {0.0, true}, .transients = {0.0, true}}},
+        {"Events only",
+         "a pulse for each event, nothing between",
+         {.rumble = {0.0, true}, .texture = {0.0, true}, .transients = {12.0}}},
+        {"Subtle",
+         "in the background, for long wearing",
+         {.intensity = -9.0, .texture = {-3.0}, .transients = {-6.0}, .gateThreshold = -55.0}},
+    }};
+    return presets;
+}
+
+/// The preset of that name, letters compared as they are; null when there is none.
+[[nodiscard]] inline const TranslatorPreset* findTranslatorPreset(std::string_view name) noexcept
+{
+    for (const TranslatorPreset& preset : translatorPresets())
+        if (preset.name == name)
+            return &preset;
+    return nullptr;
+}
+
+} // namespace pacini

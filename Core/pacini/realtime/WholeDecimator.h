@@ -1,0 +1,138 @@
+#pragma once
+
+// Lowers the rate of a sound by a whole factor, without waiting for whole groups of frames.
+
+#include <pacini/foundation/DotProduct.h>
+#include <pacini/foundation/Windows.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// Decimation by a whole factor with a linear-phase windowed sinc (Kaiser 1974; Crochiere and Rabiner, "Multirate
+/// Digital Signal Processing", 1983, ch. 2). What folds onto the range below `pass` is 60 dB down; between `pass` and
+/// the inner Nyquist frequency it may fold, so that the filter can be short: its delay is latencyFrames() input frames,
+/// 0.4 ms at 6 kHz. Beside it stands the peak of all input since the frame before, which also tells of what the filter
+/// removes. Frame k is made when input k * factor arrives: an interpolator that starts there needs no further delay.
+/// Not finite input counts as 0, input is limited to +-100.
+class WholeDecimator
+{
+public:
+    static constexpr float largestInput = 100.0f;
+
+    WholeDecimator() : WholeDecimator(1, 48000.0, 1000.0) {}
+
+    /// From `fs` Hz to fs / factor Hz. Allocates.
+    WholeDecimator(std::size_t factor, double fs, double pass) : ratio(factor)
+    {
+        assert(factor >= 1);
+        coefficients.assign(1, 1.0f);
+        if (ratio > 1)
+            design(fs, pass);
+        line.assign(coefficients.size() - 1 + std::max<std::size_t>(4096, 8 * coefficients.size()), 0.0f);
+        reset();
+    }
+
+    [[nodiscard]] std::size_t factor() const noexcept { return ratio; }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return coefficients.size() / 2; }
+
+    void reset() noexcept
+    {
+        std::fill(line.begin(), line.end(), 0.0f);
+        end = coefficients.size() - 1;
+        untilFrame = 0;
+        peak = 0.0f;
+        quiet = coefficients.size();
+    }
+
+    /// How many frames the next `inputs` frames of input complete.
+    [[nodiscard]] std::size_t framesFor(std::size_t inputs) const noexcept
+    {
+        return inputs > untilFrame ? (inputs - untilFrame - 1) / ratio + 1 : 0;
+    }
+
+    /// Takes all of `in`, at most 1024 frames; `frames` and `peaks` have framesFor(in.size()) elements.
+    void process(std::span<const float> in, std::span<float> frames, std::span<float> peaks) noexcept
+    {
+        const std::size_t taps = coefficients.size();
+        if (end + in.size() > line.size())
+        {
+            std::copy(line.begin() + static_cast<std::ptrdiff_t>(end - (taps - 1)),
+                      line.begin() + static_cast<std::ptrdiff_t>(end), line.begin());
+            end = taps - 1;
+        }
+        float* to = line.data() + end;
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            const float x = std::abs(in[i]) <= std::numeric_limits<float>::max() ? in[i] : 0.0f;
+            to[i] = x > largestInput ? largestInput : (x < -largestInput ? -largestInput : x);
+        }
+        std::size_t done = 0;
+        for (std::size_t k = 0; k < frames.size(); ++k)
+        {
+            const std::size_t until = done + untilFrame + 1;
+            notePeak(to + done, until - done);
+            // When the whole filter lies on zeros its output is one.
+            frames[k] = quiet >= taps ? 0.0f : dotProduct(to + until - taps, coefficients.data(), taps);
+            peaks[k] = peak;
+            peak = 0.0f;
+            done = until;
+            untilFrame = ratio - 1;
+        }
+        notePeak(to + done, in.size() - done);
+        untilFrame -= in.size() - done;
+        end += in.size();
+    }
+
+private:
+    void notePeak(const float* x, std::size_t count) noexcept
+    {
+        float largest = 0.0f;
+        for (std::size_t i = 0; i < count; ++i)
+            largest = std::abs(x[i]) > largest ? std::abs(x[i]) : largest;
+        quiet = largest > 0.0f ? 0 : std::min(quiet + count, coefficients.size());
+        peak = std::max(peak, largest);
+    }
+
+    void design(double fs, double pass)
+    {
+        constexpr double attenuation = 60.0;
+        const double inner = fs / static_cast<double>(ratio);
+        const double width = (inner - 2.0 * pass) / fs; // from the pass band's end to what folds onto it
+        auto taps = static_cast<std::size_t>(std::ceil((attenuation - 7.95) / (14.36 * width))) + 1;
+        taps += 1 - taps % 2; // odd: a whole delay
+        const double cutoff = 0.5 * inner / fs;
+        const KaiserWindow window(kaiserBeta(attenuation));
+        const double middle = 0.5 * static_cast<double>(taps - 1);
+        std::vector<double> row(taps);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < taps; ++i)
+        {
+            const double t = static_cast<double>(i) - middle;
+            const double x = 2.0 * std::numbers::pi * cutoff * t;
+            row[i] = (std::abs(x) < 1e-12 ? 1.0 : std::sin(x) / x) * window.at(t / (middle + 1.0));
+            sum += row[i];
+        }
+        coefficients.resize(taps);
+        for (std::size_t i = 0; i < taps; ++i)
+            coefficients[i] = static_cast<float>(row[i] / sum);
+    }
+
+    std::size_t ratio;
+    std::vector<float> coefficients; // symmetric
+    std::vector<float> line;         // the last taps - 1 inputs and room
+    std::size_t end = 0;             // of the inputs in the line
+    std::size_t untilFrame = 0;      // inputs before the one that completes a frame
+    float peak = 0.0f;
+    std::size_t quiet = 0; // newest inputs that are 0, as far as they matter
+};
+
+} // namespace pacini

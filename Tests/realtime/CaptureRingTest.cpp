@@ -1,0 +1,85 @@
+#include "support/Catch.h"
+#include "support/HeapGuard.h"
+
+#include <pacini/realtime/CaptureRing.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+std::vector<float> counted(std::size_t first, std::size_t frames)
+{
+    std::vector<float> x(frames);
+    for (std::size_t i = 0; i < frames; ++i)
+        x[i] = static_cast<float>((first + i) % 1000003 % 65536);
+    return x;
+}
+} // namespace
+
+TEST_CASE("a capture ring gives back the newest frames in order", "[realtime]")
+{
+    CaptureRing ring;
+    CHECK(ring.newest(10).samples.empty());
+    ring.prepare(100);
+    CHECK(ring.newest(10).samples.empty());
+    std::size_t pushed = 0;
+    for (std::size_t block : {0u, 1u, 7u, 64u, 99u, 100u, 250u, 3u})
+    {
+        ring.push(counted(pushed, block));
+        pushed += block;
+        CHECK(ring.framesPushed() == pushed);
+        for (std::size_t wanted : {0u, 1u, 50u, 100u, 1000u})
+        {
+            const auto capture = ring.newest(wanted);
+            const std::size_t expected = std::min({wanted, pushed, std::size_t(100)});
+            REQUIRE(capture.samples.size() == expected);
+            CHECK(capture.firstFrame == pushed - expected);
+            CHECK(capture.samples == counted(pushed - expected, expected));
+        }
+    }
+}
+
+TEST_CASE("pushing to a capture ring does not touch the heap", "[realtime]")
+{
+    CaptureRing ring;
+    ring.prepare(1000);
+    const auto x = counted(0, 2500);
+    const test::HeapGuard guard;
+    ring.push(x);
+    ring.reset();
+    CHECK(guard.traffic() == 0);
+}
+
+TEST_CASE("copies made while the ring is written hold no torn frame", "[realtime]")
+{
+    CaptureRing ring;
+    ring.prepare(5000);
+    std::atomic<bool> stop{false};
+    std::thread writer(
+        [&]
+        {
+            std::size_t position = 0;
+            while (!stop.load(std::memory_order_relaxed))
+            {
+                ring.push(counted(position, 64));
+                position += 64;
+            }
+        });
+    std::size_t seen = 0;
+    for (int i = 0; i < 300; ++i)
+    {
+        const auto capture = ring.newest(5000);
+        const auto expected = counted(static_cast<std::size_t>(capture.firstFrame), capture.samples.size());
+        REQUIRE(capture.samples == expected);
+        seen += capture.samples.size();
+    }
+    while (seen == 0)
+        seen = ring.newest(5000).samples.size();
+    stop.store(true);
+    writer.join();
+    CHECK(seen > 0);
+}

@@ -1,0 +1,209 @@
+#include "support/BlockContract.h"
+#include "support/Catch.h"
+#include "support/Measure.h"
+#include "support/RandomProfile.h"
+
+#include <pacini/realtime/Translator.h>
+#include <pacini/realtime/TranslatorPresets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+Profile narrowLra()
+{
+    Profile profile;
+    profile.technology = Technology::lra;
+    profile.resonance = {175.0, 10.0};
+    profile.range = {150.0, 190.0, 40.0};
+    profile.polyphony = 1;
+    return profile;
+}
+
+bool has(const TranslatorPlan& plan, const std::string& what)
+{
+    return std::any_of(plan.begin(), plan.end(), [&](const TranslatorSaving& s) { return s.what == what; });
+}
+
+double shareWithin(const std::vector<float>& x, double low, double high, double fs)
+{
+    // Energy by a plain sum over frequencies of a whole number of periods each.
+    const auto part = std::span<const float>(x).last(static_cast<std::size_t>(fs));
+    double inside = 0.0, all = 0.0;
+    for (double f = 5.0; f < 1500.0; f += 1.0)
+    {
+        const double power = std::norm(spectrumAt(part, f, fs));
+        all += power;
+        if (f >= low && f <= high)
+            inside += power;
+    }
+    return inside / all;
+}
+} // namespace
+
+TEST_CASE("an actuator of one voice gets one tone within its range", "[realtime]")
+{
+    const double fs = 8000.0;
+    TranslatorSetup setup;
+    setup.profile = narrowLra();
+    setup.maxBoost = 0.0;
+    TranslatorParams params;
+    params.transients.muted = true;
+    for (double f : {50.0, 90.0, 300.0, 700.0})
+    {
+        CAPTURE(f);
+        Translator translator;
+        translator.setSetup(setup);
+        translator.prepare({fs, 256});
+        translator.setParams(params);
+        const auto out = runInBlocks(translator, sine(24000, f, fs, 0.5), 256);
+        CHECK(shareWithin(out, 145.0, 195.0, fs) > 0.99);
+        CHECK(std::abs(rms(std::span<const float>(out).last(8000)) * std::numbers::sqrt2 / 0.5 - 1.0) < 0.2);
+    }
+}
+
+TEST_CASE("a motor gets a voltage that follows the sound's strength", "[realtime]")
+{
+    const double fs = 8000.0;
+    TranslatorSetup setup;
+    Profile motor;
+    motor.technology = Technology::erm;
+    motor.polyphony = 0;
+    motor.range = {133.0, 200.0, 60.0};
+    motor.response = {0.05, 0.05};
+    motor.drive.overdrive = 1.25;
+    setup.profile = motor;
+    Translator translator;
+    translator.setSetup(setup);
+    translator.prepare({fs, 256});
+    auto in = sine(16000, 120.0, fs, 0.8);
+    std::fill(in.begin() + 8000, in.end(), 0.0f);
+    const auto out = runInBlocks(translator, in, 256);
+    // sqrt(strength) / overdrive while it sounds, braked, then at rest.
+    for (std::size_t n = 4000; n < 8000; ++n)
+        REQUIRE(std::abs(static_cast<double>(out[n]) - std::sqrt(0.8) / 1.25) < 0.12);
+    CHECK(*std::min_element(out.begin() + 8000, out.end()) < 0.0f);
+    for (std::size_t n = 14000; n < 16000; ++n)
+        REQUIRE(out[n] == 0.0f);
+}
+
+TEST_CASE("the plan names what an actuator does not need", "[realtime]")
+{
+    Translator translator;
+    const auto plain = translator.plan({});
+    CHECK(has(plain, "adaptation"));
+    CHECK(has(plain, "protection"));
+    CHECK(has(plain, "bands[0].carrier"));
+    CHECK_FALSE(has(plain, "bands[0].direct"));
+
+    TranslatorSetup setup;
+    setup.profile = narrowLra();
+    translator.setSetup(setup);
+    const auto narrow = translator.plan({});
+    CHECK(has(narrow, "bands[0].direct"));
+    CHECK_FALSE(has(narrow, "adaptation"));
+
+    setup.profile->drive.excursion = 1e-3;
+    setup.profile->drive.maxExcursion = 1e-3;
+    translator.setSetup(setup);
+    CHECK_FALSE(has(translator.plan({}), "protection"));
+
+    TranslatorParams muted;
+    muted.texture.muted = true;
+    CHECK(has(translator.plan(muted), "texture"));
+}
+
+TEST_CASE("another actuator comes without a click, and the latency stays", "[realtime]")
+{
+    const double fs = 48000.0;
+    Translator translator;
+    translator.prepare({fs, 64});
+    TranslatorParams params;
+    params.transients.muted = true;
+    translator.setParams(params);
+    const auto latency = translator.latencyFrames();
+    const auto in = sine(96000, 170.0, fs, 0.4);
+    std::vector<float> out(in.size());
+    TranslatorSetup lra;
+    lra.profile = narrowLra();
+    lra.maxBoost = 0.0;
+    for (std::size_t i = 0; i < in.size(); i += 64)
+    {
+        if (i / 64 % 200 == 100)
+            translator.setSetup(i / 64 % 400 == 100 ? lra : TranslatorSetup{});
+        translator.process(std::span(in).subspan(i, 64), std::span(out).subspan(i, 64));
+        REQUIRE(translator.latencyFrames() == latency);
+    }
+    double largest = 0.0;
+    for (std::size_t n = 4800; n + 1 < out.size(); ++n)
+        largest = std::max(largest, std::abs(static_cast<double>(out[n + 1]) - static_cast<double>(out[n])));
+    CHECK(largest < 2.0 * 0.4 * 2.0 * std::numbers::pi * 190.0 / fs);
+    CHECK(rms(std::span<const float>(out).last(4800)) > 0.2);
+}
+
+TEST_CASE("on any actuator the drive is finite and within full scale", "[realtime]")
+{
+    Random random(17);
+    for (int i = 0; i < 40; ++i)
+    {
+        CAPTURE(i);
+        TranslatorSetup setup;
+        setup.profile = randomProfile(static_cast<std::uint64_t>(i));
+        setup.bands.bands = 1 + random.next() % 12;
+        Translator translator;
+        translator.setSetup(setup);
+        translator.prepare({8000.0, 256});
+        TranslatorParams params;
+        params.inputGain = 20.0;
+        params.transposition = random.uniform(-12.0, 12.0);
+        translator.setParams(params);
+        const auto in = noise(8000, 5);
+        const auto out = runInBlocks(translator, in, 256);
+        REQUIRE(allFinite(out));
+        for (float v : out)
+            REQUIRE(std::abs(v) <= 1.0f);
+    }
+}
+
+TEST_CASE("meters show each band, the peak and the distance from the threshold of touch", "[realtime]")
+{
+    const double fs = 48000.0;
+    Translator translator;
+    translator.prepare({fs, 256});
+    (void)runInBlocks(translator, sine(48000, 120.0, fs, 0.5), 256);
+    const auto reading = translator.meters().read();
+    REQUIRE(reading.bands == 6);
+    const auto loudest = std::max_element(reading.bandLevels.begin(), reading.bandLevels.begin() + 6);
+    CHECK(loudest - reading.bandLevels.begin() == 2);
+    CHECK(std::abs(*loudest + 6.0) < 3.0);
+    CHECK(std::abs(reading.outputPeak - 0.5) < 0.08);
+    CHECK(std::abs(reading.overThreshold - 54.0) < 1.5);
+    CHECK(reading.gainReduction == 0.0);
+    TranslatorParams loud;
+    loud.intensity = 12.0;
+    translator.setParams(loud);
+    (void)runInBlocks(translator, sine(48000, 120.0, fs, 0.9), 256);
+    CHECK(translator.meters().read().gainReduction > 6.0);
+}
+
+TEST_CASE("every preset is within its ranges and has a name of its own", "[realtime]")
+{
+    std::set<std::string_view> names;
+    for (const TranslatorPreset& preset : translatorPresets())
+    {
+        CAPTURE(preset.name);
+        CHECK(clamped(preset.params) == preset.params);
+        CHECK(names.insert(preset.name).second);
+        CHECK(findTranslatorPreset(preset.name) == &preset);
+    }
+    CHECK(translatorPresets().front().params == TranslatorParams{});
+    CHECK(findTranslatorPreset("none of them") == nullptr);
+}
