@@ -53,6 +53,19 @@ public:
 
     void integer(const char* name, int value, const char* = nullptr) { number(name, value, Need::required); }
 
+    void truth(const char* name, bool value)
+    {
+        key(name);
+        output += value ? "true" : "false";
+    }
+
+    /// A value that is JSON already.
+    void json(const char* name, std::string_view value)
+    {
+        key(name);
+        output += value;
+    }
+
     void optionalNumber(const char* name, const std::optional<double>& value)
     {
         if (value)
@@ -142,8 +155,8 @@ private:
 
     void string(std::string_view value)
     {
-        using nlohmann::json;
-        output += json(value).dump(-1, ' ', false, json::error_handler_t::replace);
+        using Json = nlohmann::json;
+        output += Json(value).dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 
     template <typename Fields>

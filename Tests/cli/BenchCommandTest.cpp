@@ -62,7 +62,7 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 12);
+    CHECK(printed["benches"].size() == 13);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
