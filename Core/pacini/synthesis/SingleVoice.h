@@ -102,6 +102,16 @@ inline void closeSteps(Curve& curve)
             curve[i].time = curve[i + 1].time;
 }
 
+/// What of an event its voice does not reach by itself. An envelope is a mean over 10 ms: the signal peaks at up to
+/// twice its value, soon after the event begins.
+inline double beyondEnvelope(const Transient& event, const Curve& envelope)
+{
+    double reached = 0.0;
+    for (const double after : {0.0, 0.005, 0.010}) // s
+        reached = std::max(reached, 2.0 * valueAt(envelope, event.time + after));
+    return std::sqrt(std::max(event.amplitude * event.amplitude - reached * reached, 0.0));
+}
+
 /// Reads a band's amplitude and frequency at times that only move forward.
 class BandReader
 {
@@ -139,7 +149,8 @@ private:
 /// - its frequency is the mean of the bands' frequencies in octaves, weighted by power, so that it is that of whichever
 ///   sounds, and moves only as fast as power moves; where nothing sounds, the one before holds. A clip without bands
 ///   has that of its centroid;
-/// - its events are the clip's.
+/// - its events are the clip's, as strong as what the envelope around them does not reach by itself, which may be
+///   nothing: they are played on top of it.
 ///
 /// A clip that is one voice already keeps its points. Chosen over the strongest band alone, whose frequency jumps where
 /// two bands are about as strong, and over merging bands in pairs (mergeVoices()), whose result is the same mean in
@@ -159,6 +170,9 @@ private:
         return voice;
     }
 
+    if (!clip.envelope.empty())
+        for (Transient& event : voice.events)
+            event.amplitude = detail::beyondEnvelope(event, clip.envelope);
     std::vector<detail::BandReader> bands(clip.bands.begin(), clip.bands.end());
     std::vector<CurveReader> noise;
     for (const NoiseBand& band : clip.noise)

@@ -154,7 +154,7 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(clip, params, {.range = questRange});
+    ExportVoice voice = exportVoice(clip, params, {.range = questRange, .events = questEmphasis});
     addTimeLoss(voice, voice.losses);
     addCrowding(voice.events, voice.losses);
     std::vector<Point> amplitude = rounded(voice.level);

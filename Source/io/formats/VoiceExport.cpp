@@ -182,17 +182,19 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     voice.amplitude = whole(std::move(voice.amplitude), 0.0);
     const Curve level = format.scale == LevelScale::root ? rootOf(voice.amplitude) : voice.amplitude;
     const Curve frequency = whole(normalised(voice, range, result.losses), 0.5);
+    const bool keepsPoints = isSingleVoice(clip);
     result.events = std::move(voice.events);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
     {
         event.time = std::clamp(event.time, 0.0, result.duration);
+        if (!keepsPoints)
+            event.sharpness = format.events.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
         if (format.scale == LevelScale::root)
             event.amplitude = std::sqrt(event.amplitude);
         eventTimes.push_back(event.time);
     }
 
-    const bool keepsPoints = isSingleVoice(clip);
     if (keepsPoints && !params.amplitudePoints)
         result.level = detail::withAnchors(level, eventTimes).curve;
     else
