@@ -272,10 +272,10 @@ TEST_CASE("Recordings that cannot be analysed are refused with a place and a rea
     CHECK(failure({std::vector<float>(good[0].begin(), good[0].begin() + half)}).code == ErrorCode::truncated);
     CHECK(failure({std::vector<float>(good[0].begin() + half, good[0].end())}).where == "sweeps[0]");
 
-    SweepParams twice = sweep;
-    twice.repeats = 2;
+    SweepParams often = sweep;
+    often.repeats = 6;
     const auto once = recordOnRig(makeSweepSignal(sweep).value(), rig);
-    const auto cut = analyseSweeps(once, 48000.0, twice, calibratedFor(rig));
+    const auto cut = analyseSweeps(once, 48000.0, often, calibratedFor(rig));
     CHECK(cut.error().where == "channels");
     CHECK(cut.error().code == ErrorCode::truncated);
 
