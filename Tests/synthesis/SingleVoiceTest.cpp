@@ -6,7 +6,6 @@
 #include <cmath>
 
 using namespace pacini;
-using Catch::Approx;
 
 namespace
 {
