@@ -1,0 +1,34 @@
+#pragma once
+
+// The interchange format of MPEG haptics (ISO/IEC 23090-31), .hjif.
+
+#include "io/formats/ForeignFormat.h"
+
+#include <string_view>
+
+namespace pacini
+{
+
+/// Reads all vibrotactile channels as bands of one clip; several channels sound together at 1 / n of their amplitude.
+/// VectorialWave bands become bands, Curve bands too (half a period between extrema), Transient bands events. Errors
+/// have a place such as `perceptions[0].channels[0].bands[2].effects[1].position`: what must be there for a signal is
+/// missing or of the wrong kind, the version is none, nothing is left to play. Warnings: what is out of range is
+/// clamped; WaveletWave bands, composite effects, spatial and non-vibrating perceptions are left out.
+[[nodiscard]] Result<ImportedClip> readHjif(std::string_view bytes);
+
+/// Each band becomes a VectorialWave band whose keyframes carry the amplitude as it is played (see playedClip()) and
+/// the pitch; events become a Transient band, their sharpness its frequencies. Up to 7 bands make the Simple Parametric
+/// profile at level 1, up to 63 the Main profile at level 2. `amplitudePoints` and `frequencyPoints` limit the
+/// keyframes of each band. Time is in ms, frequency in Hz without fraction.
+[[nodiscard]] Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params);
+
+[[nodiscard]] bool isHjif(std::string_view bytes);
+
+inline constexpr ForeignFormat hjifFormat{
+    "hjif", "MPEG haptics interchange (ISO/IEC 23090-31)", ".hjif", isHjif, readHjif, writeHjif};
+
+/// Frequencies of the dullest and the sharpest event in a Transient band, Hz; linear between.
+inline constexpr double hjifDullFrequency = 65.0;
+inline constexpr double hjifSharpFrequency = 300.0;
+
+} // namespace pacini

@@ -1,0 +1,49 @@
+#pragma once
+
+// A clip reduced to what other programs' formats are made of.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <optional>
+#include <vector>
+
+namespace pacini
+{
+
+/// The clip with everything that its decoder works out put into its curves: bands carry the gain that levels their sum
+/// to the envelope, sampled every millisecond, and the pitch that they are played at; transients the level that their
+/// pulse has beside the bands (masked ones go). Envelope and centroid are empty, so decoders play it as it is. Pitches
+/// and their times are rounded to a format's steps in Hz and s (0: not) before the gain is worked out: it has to undo
+/// the beats of the waves that are really played.
+[[nodiscard]] Clip playedClip(const Clip& clip, double pitchStep = 0.0, double timeStep = 0.0);
+
+/// A clip on one sinusoid.
+struct OneVoice
+{
+    Curve amplitude;
+    Curve frequency;               ///< Hz; never empty
+    std::vector<Transient> events; ///< amplitudes are those of pulses beside the sinusoid
+};
+
+/// The clip on one sinusoid: its amplitude is the total envelope or, where there is none, the root of the bands' summed
+/// power, its frequency the mean of theirs weighted by power. A clip without bands stands at `frequency` Hz.
+[[nodiscard]] OneVoice oneVoice(const Clip& clip, double frequency = 150.0);
+
+/// A clip of one band that says the same as `voice`.
+[[nodiscard]] Clip clipOfVoice(OneVoice voice, double duration);
+
+/// Strength alone, for motors: the amplitude, topped by a burst of `burst` s for every event (shorter when the next is
+/// near), sampled in the middle of each `step` s until `duration`.
+[[nodiscard]] std::vector<double> strengthOf(const OneVoice& voice, double duration, double step, double burst);
+
+/// `curve` with at most `pointsPerSecond`, where it has more; values keep their least squared error.
+[[nodiscard]] Curve thinned(const Curve& curve, double pointsPerSecond, double duration);
+
+/// The drive signal of the clip at `sampleRate` Hz (2000 to 192000), made for `profile` when there is one. Errors:
+/// those of compilePlan().
+[[nodiscard]] Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate,
+                                                     const std::optional<Profile>& profile);
+
+} // namespace pacini
