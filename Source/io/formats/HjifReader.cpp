@@ -229,7 +229,7 @@ private:
                 return;
             if (band.type == "Transient")
                 addEvents(*basis, effect.position, place);
-            else
+            else if (band.type == "Curve" || !addPulse(*basis, effect.position))
                 effects.emplace_back(basis, effect.position);
         }
         std::stable_sort(effects.begin(), effects.end(),
@@ -319,9 +319,49 @@ private:
             const double frequency = keyframe.frequency.value_or(0.5 * (hjifDullFrequency + hjifSharpFrequency));
             const double sharpness = (frequency - hjifDullFrequency) / (hjifSharpFrequency - hjifDullFrequency);
             const double time = (position + keyframe.position) / ticks;
-            clip.transients.push_back({time, std::abs(*keyframe.amplitude) * scale, std::clamp(sharpness, 0.0, 1.0)});
+            clip.transients.push_back(
+                {time, std::abs(*keyframe.amplitude) * scale / hjifTransientLevel, std::clamp(sharpness, 0.0, 1.0)});
             latestEvent = std::max(latestEvent, time + pulseLength);
         }
+    }
+
+    /// A short wave of one frequency that rises from 0 and falls back to it is an event; returns whether this is one.
+    /// Its sharpness is the one that the decoder plays with this frequency: pulses in fast trains have more periods.
+    bool addPulse(const Effect& effect, double position)
+    {
+        constexpr double longest = 0.030; // s
+        const auto& keyframes = effect.keyframes;
+        if (keyframes.size() < 3 || effect.baseSignal != "Sine" || !keyframes.front().frequency)
+            return false;
+        const double length = (keyframes.back().position - keyframes.front().position) / ticks;
+        bool falls = false;
+        double peak = 0.0, before = 0.0;
+        for (std::size_t i = 0; i < keyframes.size(); ++i)
+        {
+            if (!keyframes[i].amplitude || (i > 0 && keyframes[i].frequency))
+                return false;
+            const double value = *keyframes[i].amplitude;
+            const bool isEnd = i == 0 || i + 1 == keyframes.size();
+            falls = falls || value < before;
+            if (isEnd != (value == 0.0) || (falls && value > before))
+                return false;
+            peak = std::max(peak, value);
+            before = value;
+        }
+        // Between two ticks lies the peak of a window of an odd number of them.
+        const std::size_t steps = keyframes.size() - 1;
+        if (steps % 2 == 1 && std::lround(length * ticks) == static_cast<long>(steps))
+            peak /= hannAt(static_cast<double>(steps / 2) / static_cast<double>(steps));
+        const double frequency = *keyframes.front().frequency;
+        if (!(length > 0.0 && length <= longest && frequency >= 1.0))
+            return false;
+        const bool alone = frequency * length < 2.5; // periods
+        const double sharpness = alone ? std::log(frequency / 100.0) / std::log(2.8)
+                                       : std::log(frequency / 150.0) / std::log(2500.0 / 150.0);
+        const double time = (position + keyframes.front().position) / ticks;
+        clip.transients.push_back({time, peak * scale, std::clamp(sharpness, 0.0, 1.0)});
+        latestEvent = std::max(latestEvent, time + length);
+        return true;
     }
 
     void addWave(const Effect& effect, double position, const ForeignBand& band, Band& lane, const std::string& where)
@@ -426,9 +466,12 @@ private:
 
     void finish()
     {
-        clip.duration = std::max({duration, latestEvent, wantedDuration});
-        if (wantedDuration > 0.0 && wantedDuration >= duration - 1e-9)
-            clip.duration = std::max(wantedDuration, clip.transients.empty() ? 0.0 : latestEvent - 0.022);
+        double lastEvent = 0.0;
+        for (const Transient& event : clip.transients)
+            lastEvent = std::max(lastEvent, event.time);
+        // A stated length may cut the pulse of the last event, but nothing else.
+        clip.duration =
+            wantedDuration > 0.0 ? std::max({wantedDuration, duration, lastEvent}) : std::max(duration, latestEvent);
         for (Band& band : clip.bands)
             if (band.amplitude.back().value > 0.0 && band.amplitude.back().time < clip.duration - 1e-9)
                 band.amplitude.push_back({band.amplitude.back().time, 0.0});

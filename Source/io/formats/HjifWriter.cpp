@@ -1,9 +1,9 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/FormatLosses.h"
 #include "io/formats/HjifFormat.h"
+#include "io/formats/LossList.h"
 #include "io/formats/PlayedClip.h"
 
-#include <pacini/simplify/Simplify.h>
+#include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -59,16 +60,53 @@ double putOnTicks(const Curve& curve, Put put)
     return moved;
 }
 
-/// No more points than are asked for, else as few as keep the curve within `error`.
-Curve simplified(const Curve& curve, std::optional<double> pointsPerSecond, double error, double duration)
+/// As few points as a walk along the curve finds that keep every point within `share` of its value, or within
+/// `floor`: a limit that follows the level keeps the rise of an event out of silence. The cone of slopes from the last
+/// kept point to all points since is that of J. O'Rourke, "An on-line algorithm for fitting straight lines between data
+/// ranges" (1981), with the line starting at a point.
+Curve withinShare(const Curve& curve, double share, double floor)
 {
-    if (pointsPerSecond)
-        return thinned(curve, *pointsPerSecond, duration);
-    SimplifyParams params;
-    params.method = SimplifyMethod::douglasPeucker;
-    params.maxError = error;
-    const auto simple = simplify(curve, params);
-    return simple ? *simple : curve;
+    if (curve.size() < 3)
+        return curve;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    Curve kept{curve.front()};
+    double least = -any, most = any;
+    for (std::size_t i = 1; i < curve.size(); ++i)
+    {
+        const Breakpoint& from = kept.back();
+        const auto slopeTo = [&](double value, const Breakpoint& point)
+        {
+            return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
+        };
+        const double slope = slopeTo(curve[i].value, curve[i]);
+        if (curve[i].time <= from.time || slope < least || slope > most)
+        {
+            if (!(kept.back() == curve[i - 1]))
+                kept.push_back(curve[i - 1]);
+            least = -any;
+            most = any;
+            if (curve[i].time <= kept.back().time)
+            {
+                kept.push_back(curve[i]);
+                continue;
+            }
+        }
+        const double tolerance = std::max(floor, share * curve[i].value);
+        least = std::max(least, slopeTo(curve[i].value - tolerance, curve[i]));
+        most = std::min(most, slopeTo(curve[i].value + tolerance, curve[i]));
+    }
+    if (!(kept.back() == curve.back()))
+        kept.push_back(curve.back());
+    return kept;
+}
+
+double highestAmplitude(const Clip& clip)
+{
+    double highest = 0.0;
+    for (const Band& band : clip.bands)
+        for (const Breakpoint& point : band.amplitude)
+            highest = std::max(highest, point.value);
+    return highest;
 }
 
 double highestSum(const Clip& clip)
@@ -89,9 +127,7 @@ double highestSum(const Clip& clip)
             sum += reader.at(time);
         highest = std::max(highest, sum);
     }
-    for (const Band& band : clip.bands) // on a step the earlier value may be the larger one
-        for (const Breakpoint& point : band.amplitude)
-            highest = std::max(highest, point.value);
+    highest = std::max(highest, highestAmplitude(clip)); // on a step the earlier value may be the larger one
     for (const Transient& event : clip.transients)
         highest = std::max(highest, event.amplitude);
     return highest;
@@ -104,6 +140,7 @@ public:
         : clip(clipToWrite),
           params(wanted),
           baked(bandsAreBaked),
+          loudest(highestAmplitude(clip)),
           gain(std::max(1.0, std::ceil(highestSum(clip) * 1000.0) / 1000.0))
     {
     }
@@ -114,8 +151,7 @@ public:
         for (const Band& band : clip.bands)
             if (std::any_of(band.amplitude.begin(), band.amplitude.end(), [](const auto& p) { return p.value > 0.0; }))
                 bands.push_back(vectorialBand(band));
-        if (!clip.transients.empty())
-            bands.push_back(transientBand());
+        addEvents(bands);
         if (bands.empty())
             losses.addEmpty(clip.duration);
         if (movedTime > 1e-9)
@@ -162,17 +198,17 @@ public:
                            bands.empty() ? "" : "\n          ");
     }
 
-    FormatLosses losses;
+    LossList losses;
 
 private:
     static constexpr int outputRate = 8000; // Hz, of players that ask the file
 
     std::string vectorialBand(const Band& band)
     {
-        static const double inaudible = getenv("TOL") ? atof(getenv("TOL")) : 0.002;
-        const Curve amplitude = baked || params.amplitudePoints
-                                    ? simplified(band.amplitude, params.amplitudePoints, inaudible, clip.duration)
-                                    : band.amplitude;
+        // A quarter of a dB, and -74 dB below the loudest.
+        const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
+                                : baked                ? withinShare(band.amplitude, 0.06, 5e-4 * loudest)
+                                                       : band.amplitude;
         reportPoints(band.amplitude, amplitude);
         Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
         if (pitch.empty())
@@ -251,15 +287,15 @@ private:
         const char* separator = "";
         for (const auto& [tick, keyframe] : keyframes)
         {
-            text += fmt::format("{}\n                {{\"relative_position\": {}", separator, tick - start);
+            text += fmt::format("{}{{\"relative_position\": {}", separator, tick - start);
             if (keyframe.amplitude)
                 text += fmt::format(", \"amplitude_modulation\": {}", decimal(*keyframe.amplitude, 5));
             if (keyframe.frequency)
                 text += fmt::format(", \"frequency_modulation\": {}", *keyframe.frequency);
             text += '}';
-            separator = ",";
+            separator = ", ";
         }
-        return text + "\n              ]}";
+        return text + "]}";
     }
 
     /// Fraction of a cycle at `time` of a wave that starts at phase 0.
@@ -275,25 +311,84 @@ private:
         return cycles - std::floor(cycles);
     }
 
-    std::string transientBand()
+    /// A place in the file as text, and the frequencies in it.
+    struct EventBand
     {
-        std::string text = fmt::format(R"(
-            {{"band_type": "Transient", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [)",
-                                       hjifDullFrequency, hjifSharpFrequency);
-        const char* separator = "";
-        for (const Transient& event : clip.transients)
+        std::string effects;
+        double lowest = limits::frequency, highest = 0.0;
+
+        void add(const std::string& effect, double low, double high)
         {
+            effects += (effects.empty() ? "" : ",") + effect;
+            lowest = std::min(lowest, low);
+            highest = std::max(highest, high);
+        }
+        [[nodiscard]] std::string band(std::string_view type) const
+        {
+            return fmt::format(R"(
+            {{"band_type": "{}", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [{}
+            ]}})",
+                               type, std::floor(lowest), std::ceil(highest), effects);
+        }
+    };
+
+    void addEvents(std::vector<std::string>& bands)
+    {
+        EventBand transients, waves;
+        for (std::size_t i = 0; i < clip.transients.size(); ++i)
+        {
+            const Transient& event = clip.transients[i];
+            if (event.amplitude <= 0.0)
+                continue;
+            double gap = limits::duration;
+            if (i > 0)
+                gap = event.time - clip.transients[i - 1].time;
+            if (i + 1 < clip.transients.size())
+                gap = std::min(gap, clip.transients[i + 1].time - event.time);
+            constexpr double fine = 1e6; // Hz: the pulse as if continuous
+            const Pulse pulse = makePulse({}, event.sharpness, gap, fine, 1.0);
+            const double frequency = pulse.cyclesPerFrame * fine;
+            const double length = static_cast<double>(pulse.frames) / fine;
             const std::int64_t tick = tickOf(event.time);
             movedTime = std::max(movedTime, std::abs(static_cast<double>(tick) / ticksPerSecond - event.time));
-            const double frequency = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
-            text += fmt::format("{}\n              {{\"effect_type\": \"Basis\", \"position\": {}, \"keyframes\": [",
-                                separator, tick);
-            text +=
-                fmt::format(R"({{"relative_position": 0, "amplitude_modulation": {}, "frequency_modulation": {}}}]}})",
-                            decimal(event.amplitude / gain * (getenv("TF")?std::sqrt((0.375*2/(100*std::pow(2.8,event.sharpness)))/0.022):1), 5), std::llround(frequency));
-            separator = ",";
+            if (hjifIsTransient(event.sharpness, gap))
+            {
+                const double told = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
+                transients.add(transient(tick, event.amplitude, told), hjifDullFrequency, hjifSharpFrequency);
+                continue;
+            }
+            losses.add(LossKind::event, event.time, length, 0.0,
+                       "a transient is always dull and 22 ms long here: other events are written as short waves");
+            waves.add(wavePulse(tick, length, event.amplitude, std::round(frequency)), frequency, frequency);
         }
-        return text + "\n            ]}";
+        if (!transients.effects.empty())
+            bands.push_back(transients.band("Transient"));
+        if (!waves.effects.empty())
+            bands.push_back(waves.band("VectorialWave"));
+    }
+
+    [[nodiscard]] std::string transient(std::int64_t tick, double amplitude, double frequency) const
+    {
+        return fmt::format(R"(
+              {{"effect_type": "Basis", "position": {}, "keyframes": [{{"relative_position": 0, )"
+                           R"("amplitude_modulation": {}, "frequency_modulation": {}}}]}})",
+                           tick, decimal(hjifTransientLevel * amplitude / gain, 5), std::llround(frequency));
+    }
+
+    /// A few periods under a Hann window, as the decoder plays an event: a keyframe on every tick.
+    [[nodiscard]] std::string wavePulse(std::int64_t tick, double length, double amplitude, double frequency) const
+    {
+        const auto ticks = std::max<std::int64_t>(2, std::llround(length * ticksPerSecond));
+        std::string text = fmt::format(
+            R"(
+              {{"effect_type": "Basis", "position": {}, "phase": 0, "base_signal": "Sine", "keyframes": [)",
+            tick);
+        for (std::int64_t n = 0; n <= ticks; ++n)
+            text +=
+                fmt::format(R"({}{{"relative_position": {}, "amplitude_modulation": {}{}}})", n == 0 ? "" : ", ", n,
+                            decimal(hannAt(static_cast<double>(n) / static_cast<double>(ticks)) * amplitude / gain, 5),
+                            n == 0 ? fmt::format(", \"frequency_modulation\": {}", frequency) : "");
+        return text + "]}";
     }
 
     void reportPoints(const Curve& before, const Curve& after)
@@ -310,7 +405,8 @@ private:
     const Clip& clip;
     const ExportParams& params;
     bool baked;
-    double gain; ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
+    double loudest; ///< amplitude of any band
+    double gain;    ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
     double movedTime = 0.0, bentPitch = 0.0;
 };
 } // namespace
@@ -318,9 +414,9 @@ private:
 Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     Clip played = playedClip(clip, 1.0, 1.0 / ticksPerSecond);
-    FormatLosses losses;
+    LossList losses;
     losses.addNoiseAndText(clip, true);
-    const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 1);
+    const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
     if (played.bands.size() > room)
     {
         losses.addBands(clip, fmt::format("{} bands share {}", played.bands.size(), room));

@@ -146,7 +146,6 @@ Clip playedClip(const Clip& clip, double pitchStep, double timeStep)
                 band.amplitude = scaledBy(band.amplitude, gains, clip.duration);
         for (Transient& event : played.transients)
             event.amplitude = pulseLevel(clip.envelope, event);
-        std::erase_if(played.transients, [](const Transient& event) { return event.amplitude <= 0.0; });
     }
     played.envelope.clear();
     played.centroid.clear();

@@ -11,7 +11,7 @@ namespace pacini
 {
 
 /// Collects losses in any order.
-class FormatLosses
+class LossList
 {
 public:
     /// One loss over `duration` from `time`.

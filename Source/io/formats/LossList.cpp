@@ -1,4 +1,4 @@
-#include "io/formats/FormatLosses.h"
+#include "io/formats/LossList.h"
 
 #include "io/formats/ForeignText.h"
 
@@ -10,12 +10,12 @@
 namespace pacini
 {
 
-void FormatLosses::add(LossKind kind, double time, double duration, double error, std::string message)
+void LossList::add(LossKind kind, double time, double duration, double error, std::string message)
 {
     losses.push_back({kind, time, duration, error, std::move(message)});
 }
 
-void FormatLosses::addNoiseAndText(const Clip& clip, bool keepsName)
+void LossList::addNoiseAndText(const Clip& clip, bool keepsName)
 {
     for (const NoiseBand& band : clip.noise)
     {
@@ -36,13 +36,13 @@ void FormatLosses::addNoiseAndText(const Clip& clip, bool keepsName)
                       : "the source and the encoder's parameters are left out");
 }
 
-void FormatLosses::addBands(const Clip& clip, std::string message)
+void LossList::addBands(const Clip& clip, std::string message)
 {
     if (clip.bands.size() > 1)
         add(LossKind::bands, 0.0, clip.duration, 0.0, std::move(message));
 }
 
-void FormatLosses::addAbove(const Curve& curve, double most)
+void LossList::addAbove(const Curve& curve, double most)
 {
     for (std::size_t i = 0; i < curve.size(); ++i)
     {
@@ -54,7 +54,7 @@ void FormatLosses::addAbove(const Curve& curve, double most)
     }
 }
 
-void FormatLosses::addCrowding(const std::vector<Transient>& events, double gap)
+void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
     for (std::size_t i = 1; i < events.size(); ++i)
         if (events[i].time - events[i - 1].time < gap)
@@ -62,12 +62,12 @@ void FormatLosses::addCrowding(const std::vector<Transient>& events, double gap)
                 fmt::format("events less than {} ms apart run into each other", decimal(1000.0 * gap, 1)));
 }
 
-void FormatLosses::addEmpty(double duration)
+void LossList::addEmpty(double duration)
 {
     add(LossKind::empty, 0.0, duration, 0.0, "nothing sounds");
 }
 
-std::vector<FormatLoss> FormatLosses::sorted() &&
+std::vector<FormatLoss> LossList::sorted() &&
 {
     constexpr double touching = 1e-6;
     std::stable_sort(losses.begin(), losses.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
