@@ -83,12 +83,21 @@ struct ForeignFormat
     bool (*recognises)(std::string_view bytes); ///< whether a file's content is of this format; null: extension only
     Result<ImportedClip> (*read)(std::string_view bytes);                        ///< null: cannot be read
     Result<ExportedClip> (*write)(const Clip& clip, const ExportParams& params); ///< null: cannot be written
+    std::string_view companion = {}; ///< suffix of a second file whose events belong to the clip, if there can be one
 };
 
 /// All formats, in the order in which they are listed.
 [[nodiscard]] std::span<const ForeignFormat> foreignFormats();
 
+/// The format of a file with this extension (with dot, lower case) and content; null when it is none of these. Of
+/// several that recognise the content the one with the extension counts; what is recognised by extension only comes
+/// last.
+[[nodiscard]] const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes);
+
 /// The format of this name; null when there is none.
 [[nodiscard]] const ForeignFormat* foreignFormatNamed(std::string_view name);
+
+/// A kind of loss in one word, such as `points`.
+[[nodiscard]] std::string_view lossName(LossKind kind);
 
 } // namespace pacini
