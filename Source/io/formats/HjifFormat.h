@@ -27,8 +27,7 @@ namespace pacini
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
 
-inline constexpr ForeignFormat hjifFormat{
-    "hjif", "MPEG haptics interchange (ISO/IEC 23090-31)", ".hjif", isHjif, readHjif, writeHjif};
+[[nodiscard]] const ForeignFormat& hjifFormat();
 
 /// Frequencies of the dullest and the sharpest event in a Transient band, Hz; linear between.
 inline constexpr double hjifDullFrequency = 65.0;

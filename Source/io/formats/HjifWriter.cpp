@@ -153,7 +153,7 @@ public:
                 bands.push_back(vectorialBand(band));
         addEvents(bands);
         if (bands.empty())
-            losses.addEmpty(clip.duration);
+            losses.add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
         if (movedTime > 1e-9)
             losses.add(LossKind::timeStep, 0.0, clip.duration, movedTime, "times are rounded to milliseconds");
         if (bentPitch > 1e-9)
@@ -415,11 +415,13 @@ Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     Clip played = playedClip(clip, 1.0, 1.0 / ticksPerSecond);
     LossList losses;
-    losses.addNoiseAndText(clip, true);
+    losses.addNoise(clip);
+    losses.addText(clip, true);
     const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
     if (played.bands.size() > room)
     {
-        losses.addBands(clip, fmt::format("{} bands share {}", played.bands.size(), room));
+        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
+                   fmt::format("{} bands share {}", played.bands.size(), room));
         mergeVoices(played, room);
     }
     Writer writer(played, params, !clip.envelope.empty());

@@ -1,6 +1,7 @@
 #include "io/formats/LossList.h"
 
 #include "io/formats/ForeignText.h"
+#include "io/formats/FormatLosses.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ void LossList::add(LossKind kind, double time, double duration, double error, st
     losses.push_back({kind, time, duration, error, std::move(message)});
 }
 
-void LossList::addNoiseAndText(const Clip& clip, bool keepsName)
+void LossList::addNoise(const Clip& clip)
 {
     for (const NoiseBand& band : clip.noise)
     {
@@ -27,6 +28,10 @@ void LossList::addNoiseAndText(const Clip& clip, bool keepsName)
                 fmt::format("noise from {} to {} Hz is left out", decimal(band.lowFrequency, 0),
                             decimal(band.highFrequency, 0)));
     }
+}
+
+void LossList::addText(const Clip& clip, bool keepsName)
+{
     for (const Marker& marker : clip.markers)
         add(LossKind::text, marker.time, 0.0, 0.0, "markers are left out");
     const bool losesName = !keepsName && !clip.name.empty();
@@ -36,10 +41,41 @@ void LossList::addNoiseAndText(const Clip& clip, bool keepsName)
                       : "the source and the encoder's parameters are left out");
 }
 
-void LossList::addBands(const Clip& clip, std::string message)
+void LossList::addVoice(const Clip& clip, const SingleVoice& voice, bool keepsName)
 {
-    if (clip.bands.size() > 1)
-        add(LossKind::bands, 0.0, clip.duration, 0.0, std::move(message));
+    double noise = 0.0;
+    for (const NoiseBand& band : clip.noise)
+        for (const Breakpoint& point : band.amplitude)
+            noise = std::max(noise, point.value);
+    if (noise > 0.0)
+        add(LossKind::noise, 0.0, clip.duration, noise, "residual noise becomes part of the voice");
+    addText(clip, keepsName);
+    const auto silent = [](const Breakpoint& point)
+    {
+        return point.value <= 0.0;
+    };
+    if (voice.events.empty() && std::all_of(voice.amplitude.begin(), voice.amplitude.end(), silent))
+        add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
+}
+
+void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice, bool keepsName)
+{
+    LossTrack bands(LossKind::bands, fmt::format("{} bands share one voice", clip.bands.size()));
+    for (const Breakpoint& point : voice.displaced)
+        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
+    bands.appendTo(losses);
+    addVoice(clip, voice, keepsName);
+}
+
+void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool keepsName)
+{
+    if (!clip.bands.empty())
+        add(LossKind::bands, 0.0, clip.duration, 0.0,
+            fmt::format("{} become a strength without frequency",
+                        clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
+    for (std::size_t i = 0; i < voice.events.size(); ++i)
+        add(LossKind::event, voice.events[i].time, 0.0, 0.0, "events become bursts without sharpness");
+    addVoice(clip, voice, keepsName);
 }
 
 void LossList::addAbove(const Curve& curve, double most)
@@ -62,11 +98,6 @@ void LossList::addCrowding(const std::vector<Transient>& events, double gap)
                 fmt::format("events less than {} ms apart run into each other", decimal(1000.0 * gap, 1)));
 }
 
-void LossList::addEmpty(double duration)
-{
-    add(LossKind::empty, 0.0, duration, 0.0, "nothing sounds");
-}
-
 std::vector<FormatLoss> LossList::sorted() &&
 {
     constexpr double touching = 1e-6;
@@ -79,7 +110,7 @@ std::vector<FormatLoss> LossList::sorted() &&
                                          {
                                              return earlier.kind == loss.kind && earlier.message == loss.message &&
                                                     (earlier.time + earlier.duration >= loss.time - touching ||
-                                                     loss.kind == LossKind::text);
+                                                     loss.kind == LossKind::text || loss.kind == LossKind::event);
                                          });
         if (before == merged.rend())
         {

@@ -4,6 +4,8 @@
 
 #include "io/formats/ForeignFormat.h"
 
+#include <pacini/synthesis/SingleVoice.h>
+
 #include <string>
 #include <vector>
 
@@ -17,12 +19,17 @@ public:
     /// One loss over `duration` from `time`.
     void add(LossKind kind, double time, double duration, double error, std::string message);
 
-    /// Residual noise (where it sounds) and words that a format without either loses; `keepsName` when it has a place
-    /// for the clip's name.
-    void addNoiseAndText(const Clip& clip, bool keepsName);
+    /// Residual noise, which is left out.
+    void addNoise(const Clip& clip);
 
-    /// That `clip`'s bands share one voice or none: `message` says which. Nothing for a clip of one band.
-    void addBands(const Clip& clip, std::string message);
+    /// Words that have no place; `keepsName`: the clip's name has one.
+    void addText(const Clip& clip, bool keepsName);
+
+    /// What a clip loses on one voice: frequencies of others than the strongest band, noise, words.
+    void addOneVoice(const Clip& clip, const SingleVoice& voice, bool keepsName);
+
+    /// What a clip loses as a strength without frequency and sharpness.
+    void addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool keepsName);
 
     /// Amplitudes of `curve` above `most`, where they are cut.
     void addAbove(const Curve& curve, double most);
@@ -30,13 +37,12 @@ public:
     /// Events that follow one another faster than `gap` s.
     void addCrowding(const std::vector<Transient>& events, double gap);
 
-    /// A clip of which nothing is left.
-    void addEmpty(double duration);
-
     /// All of them by time; those of one kind and message that touch are one.
     [[nodiscard]] std::vector<FormatLoss> sorted() &&;
 
 private:
+    void addVoice(const Clip& clip, const SingleVoice& voice, bool keepsName);
+
     std::vector<FormatLoss> losses;
 };
 

@@ -2,12 +2,12 @@
 
 #include <pacini/simplify/Simplify.h>
 #include <pacini/synthesis/CarrierBank.h>
+#include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/PulseLevel.h>
 #include <pacini/synthesis/ScenePlayer.h>
-#include <pacini/synthesis/VoiceMerge.h>
 
 #include <algorithm>
 #include <array>
@@ -152,40 +152,29 @@ Clip playedClip(const Clip& clip, double pitchStep, double timeStep)
     return played;
 }
 
-OneVoice oneVoice(const Clip& clip, double frequency)
+SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, double otherwise)
 {
-    const DecoderParams params = decoderParamsFor(clip, {}, {}, 67.0);
-    Clip merged = clip;
-    resolvePitch(merged, params.carriers);
-    mergeVoices(merged, 1);
-    OneVoice voice;
-    if (!merged.bands.empty())
-    {
-        const Band& band = merged.bands.front();
-        voice.amplitude = band.amplitude;
-        voice.frequency = band.pitch;
-        if (voice.frequency.empty())
-            voice.frequency = {{0.0, std::max(band.centreFrequency, 1.0)}};
-    }
-    else
-        voice.frequency = {{0.0, frequency}};
-    voice.events = clip.transients;
-    if (params.followEnvelope && !clip.envelope.empty())
-    {
-        voice.amplitude = clip.bands.empty() ? Curve{} : clip.envelope;
-        for (Transient& event : voice.events)
-            event.amplitude = pulseLevel(clip.envelope, event);
-        std::erase_if(voice.events, [](const Transient& event) { return event.amplitude <= 0.0; });
-    }
+    AdaptationParams onlyFrequencies;
+    onlyFrequencies.voices = false;
+    onlyFrequencies.dynamicRange = false;
+    onlyFrequencies.maxBoost = 0.0;
+    SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
+    if (voice.frequency.empty())
+        voice.frequency = {{0.0, otherwise}};
+    if (voice.amplitude.empty())
+        voice.amplitude = {{0.0, 0.0}, {clip.duration, 0.0}};
+    std::erase_if(voice.events, [](const Transient& event) { return event.amplitude <= 0.0; });
     return voice;
 }
 
-Clip clipOfVoice(OneVoice voice, double duration)
+Clip clipOfVoice(SingleVoice voice)
 {
     Clip clip;
-    clip.duration = duration;
+    clip.duration = voice.duration;
     clip.transients = std::move(voice.events);
-    if (voice.amplitude.empty())
+    const bool silent = std::all_of(voice.amplitude.begin(), voice.amplitude.end(),
+                                    [](const Breakpoint& point) { return point.value == 0.0; });
+    if (silent)
         return clip;
     Band band;
     band.amplitude = std::move(voice.amplitude);
@@ -203,17 +192,22 @@ Clip clipOfVoice(OneVoice voice, double duration)
     return clip;
 }
 
-std::vector<double> strengthOf(const OneVoice& voice, double duration, double step, double burst)
+double burstLength(const std::vector<Transient>& events, std::size_t i, double burst)
 {
-    std::vector<double> strength(static_cast<std::size_t>(std::ceil(duration / step - 1e-9)));
+    const double gap = i + 1 < events.size() ? events[i + 1].time - events[i].time : burst;
+    return gap < burst ? 0.6 * gap : burst;
+}
+
+std::vector<double> strengthOf(const SingleVoice& voice, double step, double burst)
+{
+    std::vector<double> strength(static_cast<std::size_t>(std::ceil(voice.duration / step - 1e-9)));
     CurveReader amplitude(voice.amplitude);
     for (std::size_t n = 0; n < strength.size(); ++n)
         strength[n] = amplitude.at((static_cast<double>(n) + 0.5) * step);
     for (std::size_t i = 0; i < voice.events.size(); ++i)
     {
         const Transient& event = voice.events[i];
-        const double gap = i + 1 < voice.events.size() ? voice.events[i + 1].time - event.time : burst;
-        const double length = gap < burst ? 0.6 * gap : burst;
+        const double length = burstLength(voice.events, i, burst);
         const auto first = static_cast<std::size_t>(event.time / step);
         const auto last = std::max(first + 1, static_cast<std::size_t>(std::lround((event.time + length) / step)));
         for (std::size_t n = first; n < std::min(last, strength.size()); ++n)

@@ -5,6 +5,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/synthesis/SingleVoice.h>
 
 #include <optional>
 #include <vector>
@@ -19,24 +20,20 @@ namespace pacini
 /// to undo the beats of the waves that are really played.
 [[nodiscard]] Clip playedClip(const Clip& clip, double pitchStep = 0.0, double timeStep = 0.0);
 
-/// A clip on one sinusoid.
-struct OneVoice
-{
-    Curve amplitude;
-    Curve frequency;               ///< Hz; never empty
-    std::vector<Transient> events; ///< amplitudes are those of pulses beside the sinusoid
-};
-
-/// The clip on one sinusoid: its amplitude is the total envelope or, where there is none, the root of the bands' summed
-/// power, its frequency the mean of theirs weighted by power. A clip without bands stands at `frequency` Hz.
-[[nodiscard]] OneVoice oneVoice(const Clip& clip, double frequency = 150.0);
+/// The clip on one sinusoid (see singleVoiceOf) within the range of `profile`: its frequency is never empty
+/// (`otherwise` Hz where the clip says nothing), events that the amplitude covers are gone.
+[[nodiscard]] SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile = {},
+                                   double otherwise = 150.0);
 
 /// A clip of one band that says the same as `voice`.
-[[nodiscard]] Clip clipOfVoice(OneVoice voice, double duration);
+[[nodiscard]] Clip clipOfVoice(SingleVoice voice);
+
+/// How long event `i` lasts as a burst: `burst` s, or most of the time until the next.
+[[nodiscard]] double burstLength(const std::vector<Transient>& events, std::size_t i, double burst);
 
 /// Strength alone, for motors: the amplitude, topped by a burst of `burst` s for every event (shorter when the next is
-/// near), sampled in the middle of each `step` s until `duration`.
-[[nodiscard]] std::vector<double> strengthOf(const OneVoice& voice, double duration, double step, double burst);
+/// near), sampled in the middle of each `step` s until the duration.
+[[nodiscard]] std::vector<double> strengthOf(const SingleVoice& voice, double step, double burst);
 
 /// `curve` with at most `pointsPerSecond`, where it has more; values keep their least squared error.
 [[nodiscard]] Curve thinned(const Curve& curve, double pointsPerSecond, double duration);
