@@ -277,7 +277,8 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
     const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
     const double rate = params.amplitudePoints.value_or(usualPoints);
     const auto end = std::max<std::int64_t>(1, tickOf(voice.duration));
-    const auto step = std::max(shortestStep, std::llround(ticksPerSecond / (params.amplitudePoints.value_or(50.0))));
+    const auto step =
+        std::max<std::int64_t>(shortestStep, std::llround(ticksPerSecond / params.amplitudePoints.value_or(50.0)));
     result.effects.waveform = waveformOf(voice, end, step, keepsPoints);
     addStepLoss(losses, voice, result.effects.waveform);
     if (const double moved = largestRounding(voice); moved > 1e-9)
@@ -289,12 +290,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         const Curve before = voice.amplitude;
         voice.amplitude = thinned(voice.amplitude, rate, voice.duration);
         voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(5.0), voice.duration);
-        double worst = 0.0;
-        for (const Breakpoint& point : before)
-            worst = std::max(worst, std::abs(valueAt(voice.amplitude, point.time) - point.value));
-        if (worst > leastAmplitude)
-            losses.add(LossKind::points, 0.0, voice.duration, worst,
-                       fmt::format("envelopes: {} points per second do not say all", decimal(rate, 1)));
+        losses.addThinned(before, voice.amplitude, voice.duration);
     }
     const Curve amplitude = withPeaks(voice);
     const auto targets = targetsOf(amplitude, voice.frequency, keepsPoints);

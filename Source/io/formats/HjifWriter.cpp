@@ -209,7 +209,7 @@ private:
         const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
                                 : baked                ? withinShare(band.amplitude, 0.06, 5e-4 * loudest)
                                                        : band.amplitude;
-        reportPoints(band.amplitude, amplitude);
+        losses.addThinned(band.amplitude, amplitude, clip.duration);
         Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
         if (pitch.empty())
             pitch = {{0.0, std::max(band.centreFrequency, 1.0)}};
@@ -389,17 +389,6 @@ private:
                             decimal(hannAt(static_cast<double>(n) / static_cast<double>(ticks)) * amplitude / gain, 5),
                             n == 0 ? fmt::format(", \"frequency_modulation\": {}", frequency) : "");
         return text + "]}";
-    }
-
-    void reportPoints(const Curve& before, const Curve& after)
-    {
-        if (after.size() >= before.size())
-            return;
-        double worst = 0.0;
-        CurveReader reader(after);
-        for (const Breakpoint& point : before)
-            worst = std::max(worst, std::abs(reader.at(point.time) - point.value));
-        losses.add(LossKind::points, 0.0, clip.duration, worst, "amplitudes have fewer points than are played");
     }
 
     const Clip& clip;

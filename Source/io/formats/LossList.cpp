@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pacini
@@ -76,6 +77,16 @@ void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool 
     for (std::size_t i = 0; i < voice.events.size(); ++i)
         add(LossKind::event, voice.events[i].time, 0.0, 0.0, "events become bursts without sharpness");
     addVoice(clip, voice, keepsName);
+}
+
+void LossList::addThinned(const Curve& before, const Curve& after, double duration)
+{
+    double worst = 0.0;
+    CurveReader reader(after);
+    for (const Breakpoint& point : before)
+        worst = std::max(worst, std::abs(reader.at(point.time) - point.value));
+    if (worst > leastAmplitude)
+        add(LossKind::points, 0.0, duration, worst, "amplitudes have fewer points than are played");
 }
 
 void LossList::addAbove(const Curve& curve, double most)

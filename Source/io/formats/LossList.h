@@ -31,6 +31,9 @@ public:
     /// What a clip loses as a strength without frequency and sharpness.
     void addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool keepsName);
 
+    /// That a curve was left with fewer points, if it shows.
+    void addThinned(const Curve& before, const Curve& after, double duration);
+
     /// Amplitudes of `curve` above `most`, where they are cut.
     void addAbove(const Curve& curve, double most);
 
