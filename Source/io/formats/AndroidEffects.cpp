@@ -21,16 +21,16 @@ namespace pacini
 namespace
 {
 constexpr double ticksPerSecond = 1000.0;
-constexpr double steepest = 0.020;        // s: a segment that every device plays
-constexpr double usualPoints = 60.0;      // per second
-constexpr double usualSteps = 100.0;      // per second
+constexpr double steepest = 0.020;   // s: a segment that every device plays
+constexpr double usualPoints = 60.0; // per second
+constexpr double usualSteps = 100.0; // per second
 // An event is a peak around the pulse that it stands for. Peaks of the 20 ms that every device plays to each side lost
 // up to 16 points of HTS in fast trains, these none.
 constexpr double peakLead = 0.002, peakTop = 0.008, peakEnd = 0.016; // s from the event
-constexpr std::int64_t longest = 1000;    // ms: likewise
-constexpr std::int64_t shortestStep = 10; // ms beside bursts
-constexpr std::int64_t motorStop = 50;    // ms: in less a motor does not stop and start again
-constexpr double burst = 0.020;           // s
+constexpr std::int64_t longest = 1000;                               // ms: likewise
+constexpr std::int64_t shortestStep = 10;                            // ms beside bursts
+constexpr std::int64_t motorStop = 50; // ms: in less a motor does not stop and start again
+constexpr double burst = 0.020;        // s
 
 std::int64_t tickOf(double time)
 {
@@ -156,7 +156,7 @@ Curve withPeaks(const SingleVoice& voice)
         const double from = std::max({0.0, event.time - peakLead, 0.5 * (event.time + last)});
         const double to = std::min({event.time + peakEnd, 0.5 * (event.time + next), voice.duration});
         const double top = std::min(event.time + peakTop, 0.5 * (from + to));
-        const double level = std::hypot(valueAt(voice.amplitude, top), event.amplitude);
+        const double level = std::min(std::hypot(valueAt(voice.amplitude, top), event.amplitude), 1.0);
         const Breakpoint before{from, valueAt(curve, from)}, after{to, valueAt(voice.amplitude, to)};
         std::erase_if(curve, [&](const Breakpoint& point) { return point.time >= from && point.time <= to; });
         const auto place = std::upper_bound(curve.begin(), curve.end(), from,
@@ -281,8 +281,8 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
     const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
     const double rate = params.amplitudePoints.value_or(usualPoints);
     const auto end = std::max<std::int64_t>(1, tickOf(voice.duration));
-    const auto step =
-        std::max<std::int64_t>(shortestStep, std::llround(ticksPerSecond / params.amplitudePoints.value_or(usualSteps)));
+    const auto step = std::max<std::int64_t>(
+        shortestStep, std::llround(ticksPerSecond / params.amplitudePoints.value_or(usualSteps)));
     result.effects.waveform = waveformOf(voice, end, step, keepsPoints);
     addStepLoss(losses, voice, result.effects.waveform);
     if (const double moved = largestRounding(voice); moved > 1e-9)

@@ -452,13 +452,21 @@ private:
             lane.lowFrequency = std::min(lane.lowFrequency, point.value);
             lane.highFrequency = std::max(lane.highFrequency, point.value);
         }
-        const bool standing = std::all_of(lane.pitch.begin(), lane.pitch.end(),
-                                          [&](const Breakpoint& p) { return p.value == lane.pitch.front().value; });
-        double centre = std::sqrt(std::max(lane.lowFrequency, 1.0) * lane.highFrequency);
-        if (standing && !lane.pitch.empty())
+        double centre = std::sqrt(std::max(band.low, 1.0) * std::max(band.high, 1.0));
+        if (!lane.pitch.empty())
         {
-            centre = lane.pitch.front().value;
-            lane.pitch.clear();
+            double octaves = 0.0;
+            for (const Breakpoint& point : lane.pitch)
+                octaves += std::log2(point.value) / static_cast<double>(lane.pitch.size());
+            centre = std::exp2(octaves);
+            const bool stands =
+                std::all_of(lane.pitch.begin(), lane.pitch.end(),
+                            [&](const Breakpoint& point) { return std::abs(point.value - centre) < 1e-6 * centre; });
+            if (stands)
+            {
+                centre = lane.pitch.front().value;
+                lane.pitch.clear();
+            }
         }
         lane.centreFrequency = std::clamp(centre, lane.lowFrequency, lane.highFrequency);
         clip.bands.push_back(std::move(lane));
