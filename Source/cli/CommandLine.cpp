@@ -4,6 +4,7 @@
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
+#include "cli/LintCommand.h"
 #include "cli/PlotCommand.h"
 #include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
@@ -28,6 +29,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<LintCommand>());
     commands.push_back(std::make_unique<ProfilesCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<MeasureCommand>());

@@ -189,7 +189,11 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     {
         event.time = std::clamp(event.time, 0.0, result.duration);
         if (!keepsPoints)
+        {
+            // An event that the voice reaches by itself still is one: players must not show it weaker than the voice.
+            event.amplitude = std::max(event.amplitude, valueAt(voice.amplitude, event.time));
             event.sharpness = format.events.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
+        }
         if (format.scale == LevelScale::root)
             event.amplitude = std::sqrt(event.amplitude);
         eventTimes.push_back(event.time);
