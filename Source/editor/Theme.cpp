@@ -180,7 +180,7 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label)
 {
-    label.setBounds(4, 1, box.getWidth() - 28, box.getHeight() - 2);
+    label.setBounds(grid, 1, box.getWidth() - 4 * grid, box.getHeight() - 2);
     label.setFont(getComboBoxFont(box));
 }
 
