@@ -18,6 +18,7 @@ constexpr int usualHeight = 648;
 constexpr int leastWidth = 936;
 constexpr int leastHeight = 608;
 constexpr int rowHeight = 3 * grid + 2;
+constexpr int topCard = 28 * grid;
 constexpr int framesPerSecond = 30;
 
 juce::String nameOf(ParameterId parameter)
@@ -308,7 +309,7 @@ void PluginWindow::resized()
         return taken;
     };
 
-    auto sound = card(left.removeFromTop(25 * grid), "Sound");
+    auto sound = card(left.removeFromTop(topCard), "Sound");
     left.removeFromTop(grid);
     sourceChoice->setBounds(row(sound));
     sourceMix->setBounds(row(sound));
@@ -318,7 +319,7 @@ void PluginWindow::resized()
     lamp.setBounds(left.withHeight(4 * grid).withTrimmedRight(2 * grid).removeFromRight(3 * grid));
     placeKnobs(card(left, "Events"), {sensitivity.get(), sharpness.get()});
 
-    auto touch = card(right.removeFromTop(28 * grid), "Touch");
+    auto touch = card(right.removeFromTop(topCard), "Touch");
     right.removeFromTop(grid);
     outputMode->setBounds(row(touch));
     outputChannel->setBounds(row(touch));

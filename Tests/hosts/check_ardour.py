@@ -77,7 +77,7 @@ def main():
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for _ in run("ardour_make.lua", environment):
             shutil.rmtree(folder / "session", ignore_errors=True)
-        sounds = folder / "session" / "interchange" / "pacini" / "audiofiles"
+        sounds = folder / "session" / "interchange" / "session" / "audiofiles"
         for pattern, frequency in (("Music*L.wav", 80), ("Music*R.wav", 240), ("SC*.wav", 150)):
             for path in sounds.glob(pattern):
                 info = soundfile.info(str(path))
@@ -90,14 +90,14 @@ def main():
 
         # The LV2's settings are no control ports, which is all that the script can set.
         for kind, name, source in (("LV2", "https://pacini.example/plugins/translator", ""), ("VST3", "Pacini", "0.5")):
-            session = folder / kind
+            session = folder / kind / "session"  # of the same name, which its folders bear
             here = dict(environment, SESSION_DIR=str(session), PLUGIN_ID=name, PLUGIN_KIND=kind, SOURCE=source)
             for _ in run("ardour_play.lua", here):
                 shutil.rmtree(session, ignore_errors=True)
                 shutil.copytree(folder / "session", session)
 
             def recorded(pattern):
-                found = sorted((session / "interchange" / "pacini" / "audiofiles").glob(pattern))
+                found = sorted((session / "interchange" / "session" / "audiofiles").glob(pattern))
                 return soundfile.read(str(found[-1]))[0] if found else np.zeros(1)
 
             felt, heard = recorded("HapticRec*.wav"), recorded("MainRec*.wav")
