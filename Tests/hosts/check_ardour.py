@@ -103,7 +103,7 @@ def main():
                 return soundfile.read(str(found[-1]))[0] if found else np.zeros(1)
 
             felt, heard = recorded("*HapticRec*.wav"), recorded("*MainRec*.wav")
-            levels = {f: round(tone(felt, f), 3) for f in (80, 240, 150)}
+            levels = {f: round(float(tone(felt, f)), 3) for f in (80, 240, 150)}
             if source:
                 check(f"{kind}: the sidechain's tone is felt, and only that", levels[150] > 0.1
                       and max(levels[80], levels[240]) < 0.01, str(levels))
