@@ -4,13 +4,14 @@
 #include "cli/ConvertCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
+#include "cli/LintCommand.h"
 #include "cli/PlotCommand.h"
 #include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
+#include "cli/measure/MeasureCommand.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -27,8 +28,10 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<RenderCommand>());
     commands.push_back(std::make_unique<InfoCommand>());
     commands.push_back(std::make_unique<ConvertCommand>());
+    commands.push_back(std::make_unique<LintCommand>());
     commands.push_back(std::make_unique<ProfilesCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
+    commands.push_back(std::make_unique<MeasureCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
     commands.push_back(std::make_unique<BenchCommand>());
     return commands;
@@ -36,26 +39,40 @@ std::vector<std::unique_ptr<Command>> allCommands()
 
 namespace
 {
-/// One line that says what is wrong with the command line and where to read on.
-std::string usageText(const CLI::ParseError& error, const CLI::App& app, const std::vector<CLI::App*>& commands)
+/// The names of the subcommands, each after a blank.
+std::string namesOf(const CLI::App& app)
 {
-    const auto chosen =
-        std::find_if(commands.begin(), commands.end(), [](const CLI::App* command) { return command->parsed(); });
-    std::string what = error.what();
-    const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
-    if (chosen != commands.end())
-        return fmt::format("{}: {}; try 'pacini {} --help'", (*chosen)->get_name(),
-                           missing ? "a file to work on is missing" : what, (*chosen)->get_name());
-    if (missing)
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+        names += " " + command->get_name();
+    return names;
+}
+
+/// One line that says what is wrong with the command line and where to read on.
+std::string usageText(const CLI::ParseError& error, const CLI::App& app)
+{
+    const CLI::App* chosen = &app;
+    std::string called = "pacini";
+    std::string path;
+    while (!chosen->get_subcommands().empty())
     {
-        std::string names;
-        for (const CLI::App* command : commands)
-            names += " " + command->get_name();
-        const auto rest = app.remaining();
-        what =
-            (rest.empty() ? "a command is missing" : "'" + rest.front() + "' is not a command") + "; there are" + names;
+        chosen = chosen->get_subcommands().front();
+        path += (path.empty() ? "" : " ") + chosen->get_name();
+        called += " " + chosen->get_name();
     }
-    return what + "; try 'pacini --help'";
+    std::string what = error.what();
+    const bool namesAnOption = what.starts_with("--");
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !namesAnOption)
+    {
+        const std::string kind = chosen != &app ? "step" : "command";
+        const auto rest = app.remaining(true);
+        if (chosen->get_subcommands(nullptr).empty())
+            what = "a file to work on is missing";
+        else
+            what = (rest.empty() ? "a " + kind + " is missing" : "'" + rest.front() + "' is not a " + kind) +
+                   "; there are" + namesOf(*chosen);
+    }
+    return (path.empty() ? "" : path + ": ") + what + "; try '" + called + " --help'";
 }
 
 /// `exit`, unless something could not be printed.
@@ -98,6 +115,8 @@ int runCommandLine(int argc, const char* const* argv)
     {
         declared.push_back(command->declare(app));
         addQuiet(*declared.back());
+        for (CLI::App* step : declared.back()->get_subcommands(nullptr))
+            addQuiet(*step);
     }
     try
     {
@@ -114,7 +133,7 @@ int runCommandLine(int argc, const char* const* argv)
     }
     catch (const CLI::ParseError& error)
     {
-        console.error("", {ErrorCode::invalidArgument, "", usageText(error, app, declared)});
+        console.error("", {ErrorCode::invalidArgument, "", usageText(error, app)});
         return static_cast<int>(Exit::usage);
     }
     if (quiet)

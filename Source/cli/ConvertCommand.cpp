@@ -1,51 +1,161 @@
 #include "cli/ConvertCommand.h"
 
-#include "cli/InputFiles.h"
+#include "cli/Task.h"
+#include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
-#include "io/ClipFile.h"
+#include "io/AnyClip.h"
+#include "io/AtomicFile.h"
 #include "io/ProfileFile.h"
-
-#include <pacini/clip/PackedClip.h>
+#include "io/Sha256.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 namespace pacini::cli
 {
 
+namespace
+{
+using ConvertTask = Task<ConvertResult>;
+
+constexpr const char* manifestName = "pacini.manifest.json";
+
+nlohmann::ordered_json toJson(const ConvertTask& task)
+{
+    const ConvertResult& result = *task.result;
+    auto outputs = nlohmann::ordered_json::array(), losses = nlohmann::ordered_json::array();
+    std::size_t bytes = 0;
+    for (const ManifestOutput& output : result.entry.outputs)
+    {
+        outputs.push_back({{"file", output.file}, {"bytes", output.bytes}, {"sha256", output.sha256}});
+        bytes += output.bytes;
+    }
+    for (const FormatLoss& loss : result.entry.losses)
+        losses.push_back(cli::toJson(loss));
+    return {{"input", task.input.string()},
+            {"output", task.output.string()},
+            {"bytes", bytes},
+            {"duration", result.entry.duration},
+            {"outputs", outputs},
+            {"warnings", result.entry.warnings},
+            {"losses", losses},
+            {"upToDate", result.upToDate}};
+}
+
+/// "door.haptic: 8.2 kB; loses bands (0.31), text"
+std::string line(const ConvertTask& task)
+{
+    double bytes = 0.0;
+    for (const ManifestOutput& output : task.result->entry.outputs)
+        bytes += static_cast<double>(output.bytes);
+    std::string text = fmt::format("{}: {}", printable(task.output.string()), bytesText(bytes));
+    const char* separator = "; loses ";
+    for (const FormatLoss& loss : task.result->entry.losses)
+    {
+        text += separator + std::string(lossName(loss.kind));
+        if (loss.error > 0.0)
+            text += fmt::format(" ({:.2g})", loss.error);
+        separator = ", ";
+    }
+    return text;
+}
+
+std::string summary(const std::vector<ConvertTask>& tasks)
+{
+    std::size_t done = 0, fresh = 0, failed = 0;
+    double bytes = 0.0;
+    for (const ConvertTask& task : tasks)
+    {
+        failed += task.error ? 1u : 0u;
+        if (!task.result)
+            continue;
+        (task.result->upToDate ? fresh : done) += 1u;
+        for (const ManifestOutput& output : task.result->entry.outputs)
+            bytes += static_cast<double>(output.bytes);
+    }
+    std::string text = fmt::format("{} converted", done);
+    if (fresh > 0)
+        text += fmt::format(", {} up to date", fresh);
+    if (failed > 0)
+        text += fmt::format(", {} failed", failed);
+    return text + fmt::format(": {}", bytesText(bytes));
+}
+
+ConvertManifest manifestOf(const std::vector<ConvertTask>& tasks, const std::vector<std::string>& keys)
+{
+    ConvertManifest manifest;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+    {
+        ManifestEntry entry;
+        if (tasks[i].result)
+            entry = tasks[i].result->entry;
+        else
+            entry.error = tasks[i].error->text();
+        manifest.insert_or_assign(keys[i], std::move(entry));
+    }
+    return manifest;
+}
+} // namespace
+
 CLI::App* ConvertCommand::declare(CLI::App& app)
 {
-    auto* command =
-        app.add_subcommand("convert", "Convert a clip between JSON and packed, or a profile between JSON and ACF");
-    command->add_option("input", input, "Clip or profile to read; its content tells the format, but of .acf")
+    auto* command = app.add_subcommand(
+        "convert", "Convert clips between formats, Pacini's own and others', or a profile between JSON and ACF");
+    command->add_option("inputs", inputs, "Clips or folders of them, or a profile, then what to write unless -o does")
         ->required()
-        ->type_name("IN");
-    command->add_option("output", output, "What to write: .json or .pacb for a clip, .json or .acf for a profile")
-        ->required()
-        ->type_name("OUT");
-    command->add_option("--format", format, "json or packed [by the extension of OUT]")
-        ->check(CLI::IsMember({"json", "packed"}));
+        ->type_name("IN... OUT");
+    command->add_option("-o,--output", output, "File, or folder for several inputs")->type_name("OUT|DIR");
+    std::vector<std::string> names;
+    for (const ClipTarget& target : clipTargets())
+        names.emplace_back(target.name);
+    command->add_option("--format", format, "What to write; 'pacini lint --targets' explains [by the extension of OUT]")
+        ->check(CLI::IsMember(names));
     command
         ->add_option("--quantise", quantise,
                      "Bits of each value of a packed clip, 4 to 16 [those the clip was encoded with, else 12]")
         ->check(CLI::Range(4, 16));
+    options.declare(*command);
+    command->add_option(
+        "--manifest", manifest,
+        fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName));
+    command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
+    command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
+        ->check(CLI::Range(1u, 256u))
+        ->type_name("N");
     command->add_flag("--json", json, "Print a report as one JSON object");
+    command->footer("Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
+                    "  pacini convert door.pacb door.haptic           for Lofelt's and Meta's players\n"
+                    "  pacini convert door.haptic door.ahap --split   from one to another, through a clip\n"
+                    "  pacini convert clips/ ios/ --format ahap -j 8  a folder; a second time only what changed");
     return command;
 }
 
 Exit ConvertCommand::run(Console& console)
 {
-    return hasAcfExtension(input) || isProfile(input) ? convertProfile(console) : convertClip(console);
+    if (output.empty())
+    {
+        if (inputs.size() < 2)
+        {
+            console.error("", {ErrorCode::invalidArgument, "convert",
+                               "a file to work on is missing; try 'pacini convert --help'"});
+            return Exit::usage;
+        }
+        output = std::move(inputs.back());
+        inputs.pop_back();
+    }
+    const bool profile = inputs.size() == 1 && (hasAcfExtension(inputs.front()) || isProfile(inputs.front()));
+    return profile ? convertProfile(console) : convertClips(console);
 }
 
 bool ConvertCommand::overwritesInput(Console& console) const
 {
     std::error_code unknown;
-    if (!std::filesystem::equivalent(input, output, unknown))
+    if (!std::filesystem::equivalent(inputs.front(), output, unknown))
         return false;
     console.error(output, {ErrorCode::invalidArgument, "", "is input and output; name another output"});
     return true;
@@ -53,10 +163,12 @@ bool ConvertCommand::overwritesInput(Console& console) const
 
 Exit ConvertCommand::convertProfile(Console& console)
 {
+    const std::string& input = inputs.front();
     const bool toAcf = hasAcfExtension(output);
-    if (!format.empty() || quantise > 0)
+    if (!format.empty() || quantise > 0 || options.given())
     {
-        console.error(input, {ErrorCode::invalidArgument, "", "is a profile; --format and --quantise are for clips"});
+        console.error(
+            input, {ErrorCode::invalidArgument, "", "is a profile; --format, --quantise and the others are for clips"});
         return Exit::usage;
     }
     if (!toAcf && lowerExtension(output) != ".json")
@@ -109,41 +221,116 @@ Exit ConvertCommand::convertProfile(Console& console)
     return Exit::ok;
 }
 
-Exit ConvertCommand::convertClip(Console& console)
+std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, bool several) const
 {
-    ClipFormat target = ClipFormat::json;
-    const std::string extension = lowerExtension(output);
-    if (format == "packed" || (format.empty() && extension == ".pacb"))
-        target = ClipFormat::packed;
-    else if (format.empty() && extension != ".json")
+    const auto wrongUsage = [&](const std::string& where, const std::string& message)
     {
-        console.error(output, {ErrorCode::invalidArgument, "",
-                               "has neither the extension .json nor .pacb; say --format json or --format packed"});
+        console.error(where, {ErrorCode::invalidArgument, "", message});
+        return std::nullopt;
+    };
+    const ClipTarget* target = clipTargetNamed(format);
+    if (target == nullptr && several)
+        return wrongUsage(output, "is a folder for clips of one format; say which with --format");
+    if (target == nullptr)
+        target = clipTargetOf(lowerExtension(output));
+    if (target == nullptr)
+        return wrongUsage(output,
+                          "has neither the extension .json nor .pacb nor that of another format; say which with "
+                          "--format");
+    if (target->foreign == nullptr && options.given())
+        return wrongUsage(output, "holds all of a clip; --points, --split, --sample-rate and --profile are for other "
+                                  "formats");
+    if (target->foreign != nullptr && quantise > 0)
+        return wrongUsage(output, "is no packed clip; --quantise is for those");
+    const auto params = options.params(console);
+    if (!params)
+        return std::nullopt;
+    ConvertSettings settings;
+    settings.target = *target;
+    settings.params = *params;
+    settings.quantise = quantise;
+    settings.force = force;
+    settings.record =
+        fmt::format("Pacini {}: {}, quantise {}, {}", PACINI_VERSION, target->name, quantise, options.record());
+    if (params->profile)
+        settings.record += ", " + sha256(profileJson(*params->profile));
+    settings.folder = several ? std::filesystem::path(output) : std::filesystem::path(output).parent_path();
+    return settings;
+}
+
+InputFiles ConvertCommand::findClips() const
+{
+    InputFiles found = findInputs(inputs, anyClipExtensions());
+    std::erase_if(found.files,
+                  [&](const InputFile& file)
+                  {
+                      const bool named = std::find(inputs.begin(), inputs.end(), file.path.string()) != inputs.end();
+                      return !named && (file.path.filename() == manifestName || !companionOf(file.path).empty());
+                  });
+    return found;
+}
+
+Exit ConvertCommand::convertClips(Console& console)
+{
+    const InputFiles found = findClips();
+    std::error_code ignored;
+    const bool several = found.several || output.ends_with('/') || std::filesystem::is_directory(output, ignored);
+    auto settings = settingsFor(console, several);
+    if (!settings)
         return Exit::usage;
-    }
-    auto clip = readClip(input);
-    if (!clip)
+    if (!several && overwritesInput(console))
+        return Exit::failed;
+
+    auto tasks =
+        makeTasks<ConvertResult>(found, several ? output + "/" : output, std::string(settings->target.extension));
+    std::vector<std::string> keys(tasks.size());
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+        keys[i] = i < found.failures.size() ? found.failures[i].path.generic_string()
+                                            : found.files[i - found.failures.size()].relative.generic_string();
+    const std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
+                                         : several         ? std::filesystem::path(output) / manifestName
+                                                           : std::filesystem::path();
+    const ConvertManifest before = record.empty() ? ConvertManifest() : readManifest(record);
+    const auto nameOf = [&](std::size_t i)
     {
-        console.error(input, clip.error());
-        return Exit::failed;
-    }
-    if (overwritesInput(console))
-        return Exit::failed;
-    if (quantise > 0)
-        setQuantise(*clip, quantise);
-    const auto written = writeClip(output, *clip, target);
-    if (!written)
-    {
-        console.error(output, written.error());
-        return Exit::failed;
-    }
-    if (json)
-        console.print(nlohmann::ordered_json{
-            {"input", input}, {"output", output}, {"bytes", *written}, {"duration", clip->duration}}
-                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-        console.note(fmt::format("{}: {}", printable(output), bytesText(static_cast<double>(*written))));
-    return Exit::ok;
+        return tasks[i].input.filename().string();
+    };
+    runTasks(console, tasks.size(), jobs, nameOf,
+             [&]
+             {
+                 return [&](std::size_t i, const std::function<void(double)>&)
+                 {
+                     ConvertTask& task = tasks[i];
+                     const auto entry = before.find(keys[i]);
+                     attempt(task,
+                             [&] {
+                                 return convertClip(task.input, task.output, *settings,
+                                                    entry == before.end() ? nullptr : &entry->second);
+                             });
+                     if (task.error)
+                         console.error(task.input.string(), *task.error);
+                     else
+                         for (const std::string& warning : task.result->entry.warnings)
+                             console.warning(task.input.string(), warning);
+                 };
+             });
+    bool failed = anyFailed(tasks);
+    if (!record.empty() && std::filesystem::is_directory(settings->folder, ignored))
+        if (const auto written = writeFileAtomically(record, manifestText(manifestOf(tasks, keys))); !written)
+        {
+            console.error(record.string(), written.error());
+            failed = true;
+        }
+
+    if (json && several)
+        console.print(jsonReport(tasks, [](const ConvertTask& task) { return toJson(task); }));
+    else if (json && !failed)
+        console.print(toJson(tasks.front()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else if (!json && several)
+        console.note(summary(tasks));
+    else if (!failed)
+        console.note(line(tasks.front()));
+    return failed ? Exit::failed : Exit::ok;
 }
 
 } // namespace pacini::cli

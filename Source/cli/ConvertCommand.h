@@ -1,13 +1,18 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/ConvertJob.h"
+#include "cli/ExportOptions.h"
+#include "cli/InputFiles.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace pacini::cli
 {
 
-/// `pacini convert`: one format of clips, or of profiles, becomes another.
+/// `pacini convert`: clips, or profiles, of one format become another.
 class ConvertCommand : public Command
 {
 public:
@@ -15,15 +20,26 @@ public:
     Exit run(Console& console) override;
 
 private:
-    Exit convertClip(Console& console);
     Exit convertProfile(Console& console);
-    /// Whether output would overwrite input, which is said.
+    Exit convertClips(Console& console);
+
+    /// Whether output would overwrite the only input, which is said.
     bool overwritesInput(Console& console) const;
 
-    std::string input;
+    /// What to convert to; nothing when the options do not say, and the console has said why.
+    [[nodiscard]] std::optional<ConvertSettings> settingsFor(Console& console, bool several) const;
+
+    /// The clips to convert, without results of conversions before and second files of a clip.
+    [[nodiscard]] InputFiles findClips() const;
+
+    std::vector<std::string> inputs;
     std::string output;
     std::string format;
+    ExportOptions options;
+    std::string manifest;
     int quantise = 0;
+    unsigned jobs = 0;
+    bool force = false;
     bool json = false;
 };
 

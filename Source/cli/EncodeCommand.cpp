@@ -120,10 +120,15 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->check(CLI::IsMember(names))
         ->type_name("NAME");
     command->add_flag("--list-methods", listMethods, "Say what the methods are and do nothing else");
+    std::vector<std::string> formats;
+    for (const ClipTarget& target : clipTargets())
+        formats.emplace_back(target.name);
     command
         ->add_option("--format", format,
-                     "json (to read and edit) or packed (small) [by the extension of OUT, else json]")
-        ->check(CLI::IsMember({"json", "packed"}));
+                     "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
+                     "[by the extension of OUT, else json]")
+        ->check(CLI::IsMember(formats));
+    exporting.declare(*command);
     command->add_option("--bands", params.bands, "Number of frequency bands, 1 to 32")
         ->capture_default_str()
         ->check(CLI::Range(1, 32));
@@ -161,6 +166,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
+                    "  pacini encode door.wav -o door.haptic        for the players of Lofelt and Meta\n"
                     "  pacini encode door.wav --method thesis --bands 8\n"
                     "  pacini encode door.wav --method lowpass      writes door.lowpass.wav");
     return command;
@@ -233,9 +239,22 @@ Exit EncodeCommand::run(Console& console)
     settings.choices = choices();
     settings.reading = {allowTruncated, allowNan};
     settings.force = force;
-    const bool packedName = lowerExtension(output) == ".pacb";
-    settings.format = format == "packed" || (format.empty() && packedName) ? ClipFormat::packed : ClipFormat::json;
-    std::string extension = settings.format == ClipFormat::packed ? ".pacb" : ".json";
+    const ClipTarget* target = clipTargetNamed(format);
+    if (target == nullptr)
+        target = clipTargetOf(lowerExtension(output));
+    if (target != nullptr)
+        settings.target = *target;
+    if (settings.target.foreign == nullptr && exporting.given())
+    {
+        console.error("", wrongUsage("--format", "must be a format of other programs for --points, --split, "
+                                                 "--sample-rate and --profile"));
+        return Exit::usage;
+    }
+    const auto exportParams = exporting.params(console);
+    if (!exportParams)
+        return Exit::failed;
+    settings.exporting = *exportParams;
+    std::string extension(settings.target.extension);
     if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
         extension = output.empty() ? fmt::format(".{}.wav", method.name) : ".wav";
 
@@ -263,7 +282,7 @@ Exit EncodeCommand::run(Console& console)
              });
 
     if (json)
-        console.print(jsonReport(tasks, toJson));
+        console.print(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
     else
         console.note(summary(tasks));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/ExportOptions.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/methods/Method.h>
@@ -29,6 +30,7 @@ private:
     bool listMethods = false;
     std::string output;
     std::string format;
+    ExportOptions exporting;
     EncoderParams params;
     std::string spacing = "log";
     bool keepLevel = false;

@@ -3,10 +3,12 @@
 #include "cli/Task.h"
 #include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
+#include "io/ClipFile.h"
 
 #include <pacini/analysis/MonoMix.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -106,9 +108,22 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    auto written = settings.format == ClipFormat::packed ? writeFileAtomically(output, packed)
-                                                         : writeClip(output, clip, settings.format);
-    return written ? written : atOutput(output, written.error());
+    if (settings.target.name == "packed")
+    {
+        auto written = writeFileAtomically(output, packed);
+        return written ? written : atOutput(output, written.error());
+    }
+    std::optional<Result<ExportedClip>> exported;
+    work.run([&] { exported = exportClip(clip, settings.target, settings.exporting); });
+    if (!*exported)
+        return exported->error();
+    const auto written = writeExport(output, **exported);
+    if (!written)
+        return atOutput(output, written.error());
+    std::size_t bytes = 0;
+    for (const WrittenFile& file : *written)
+        bytes += file.bytes;
+    return bytes;
 }
 
 Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& output, const Progress& progress,
@@ -178,7 +193,8 @@ bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, Encode
     const auto made = fs::last_write_time(output, error);
     if (error || fs::last_write_time(input, error) > made || error)
         return false;
-    if (clipFormatOf(output) != settings.format)
+    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
+    if (settings.target.foreign != nullptr || clipFormatOf(output) != format)
         return false;
     const auto clip = readClip(output);
     if (!clip || clip->source.file != input.filename().string())

@@ -4,7 +4,7 @@
 
 #include "cli/Stopwatch.h"
 #include "io/AudioReader.h"
-#include "io/ClipFile.h"
+#include "io/ClipExport.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/methods/Method.h>
@@ -24,15 +24,17 @@ struct EncodeSettings
     Method method = Method::a2vt;
     EncoderParams params;  ///< of a2vt
     MethodChoices choices; ///< of the other methods
-    ClipFormat format = ClipFormat::json;
+    ClipTarget target = *clipTargetNamed("json");
+    ExportParams exporting; ///< for formats of others
     AudioReadOptions reading;
-    bool force = false; ///< encode even what is up to date; signals, which have no record of their method, always are
+    bool force = false; ///< encode even what is up to date; signals and formats of others, which have no record of the
+                        ///< method, always are
 };
 
 /// What came of one file.
 struct EncodeResult
 {
-    std::size_t bytes = 0; ///< size of the output file
+    std::size_t bytes = 0; ///< size of the output file, or files
     double duration = 0.0; ///< s of sound
     double seconds = 0.0;  ///< s of work, without access to files
     std::size_t breakpoints = 0;

@@ -2,6 +2,7 @@
 
 #include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
+#include "io/AnyClip.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
@@ -22,13 +23,15 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-Json describe(const Clip& clip)
+Json describe(const AnyClip& read)
 {
+    const Clip& clip = read.clip;
     Json encoder = Json::object();
     for (const EncoderParameter& parameter : clip.encoder)
         std::visit([&](const auto& value) { encoder[parameter.name] = value; }, parameter.value);
     const auto packed = packClip(clip, packParamsFor(clip)).size();
     return {{"kind", "clip"},
+            {"format", read.format},
             {"name", clip.name},
             {"duration", clip.duration},
             {"source",
@@ -58,11 +61,19 @@ std::string encoderText(const std::vector<EncoderParameter>& encoder)
     return line;
 }
 
-std::string text(const std::string& file, const Clip& clip)
+/// Of a clip of another program, the program.
+std::string titleOf(const AnyClip& read)
 {
-    const Json j = describe(clip);
-    std::string lines =
-        fmt::format("{}: haptic clip \"{}\", {}\n", printable(file), printable(clip.name), durationText(clip.duration));
+    const ForeignFormat* format = foreignFormatNamed(read.format);
+    return format == nullptr ? "" : fmt::format(" ({})", format->title);
+}
+
+std::string text(const std::string& file, const AnyClip& read)
+{
+    const Clip& clip = read.clip;
+    const Json j = describe(read);
+    std::string lines = fmt::format("{}: haptic clip \"{}\"{}, {}\n", printable(file), printable(clip.name),
+                                    titleOf(read), durationText(clip.duration));
     if (!clip.source.file.empty())
         lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", printable(clip.source.file),
                              clip.source.sampleRate, clip.source.channels, clip.source.channels == 1 ? "" : "s");
@@ -109,7 +120,7 @@ Result<Json> describeAudio(const std::string& file)
 
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("info", "Say what a clip, a sound or an actuator profile holds");
+    auto* command = app.add_subcommand("info", "Say what a clip of any format, a sound or an actuator profile holds");
     command->add_option("inputs", inputs, "Clips, audio files, profiles or names of shipped profiles")
         ->required()
         ->type_name("FILE");
@@ -136,9 +147,11 @@ Exit InfoCommand::run(Console& console)
                 console.print(profileText(file, **profile));
             continue;
         }
-        const auto clip = readClip(file);
+        const auto clip = readAnyClip(file);
         if (clip)
         {
+            for (const std::string& warning : clip->warnings)
+                console.warning(file, warning);
             if (json)
                 reports.push_back(describe(*clip));
             else

@@ -89,7 +89,7 @@ void addEqualizer(Lines& lines, const EqualizerSections& sections)
     {
         const EqualizerSection& section = sections[i];
         lines.start(i == 0 ? "equalizer" : "");
-        const auto kind = profileFields::nameOf(section.type, profileFields::equalizerTypes);
+        const auto kind = nameOf(section.type, profileFields::equalizerTypes);
         lines.add(
             fmt::format("equalizer[{}]", i),
             section.type == EqualizerType::highpass
@@ -111,6 +111,25 @@ void addBody(Lines& lines, const BodyParams& body)
     lines.add("body.skinMass", fmt::format("skin {:.3g} g", body.skinMass / gram));
     lines.add("body.skinStiffness", fmt::format("{:.3g} N/m", body.skinStiffness));
     lines.add("body.skinDamping", fmt::format("{:.3g} N s/m", body.skinDamping));
+}
+
+void addMeasurement(Lines& lines, const ProfileMeasurement& measurement)
+{
+    lines.start("measured");
+    lines.add("measurement", fmt::format("{} fitting{}", measurement.fittings, measurement.fittings == 1 ? "" : "s"));
+    lines.add("measurement", fmt::format("{:.3g} dB below full drive", -measurement.drive));
+    if (measurement.distortionDrive)
+        lines.add("measurement", fmt::format("10 % distortion at {:.3g} dB", *measurement.distortionDrive));
+    if (!measurement.linearity)
+        return;
+    const Linearity& linearity = *measurement.linearity;
+    lines.start("");
+    lines.add("measurement", fmt::format("{} within \u00b1{:.3g} dB from {:.0f} to {:.0f} Hz",
+                                         linearity.passed() ? "flat" : "not flat", linearity.tolerance,
+                                         linearity.lowFrequency, linearity.highFrequency));
+    lines.add("measurement", fmt::format("mean deviation {:.2f} dB", linearity.meanDeviation));
+    lines.add("measurement",
+              fmt::format("worst {:+.2f} dB at {:.0f} Hz", linearity.worstDeviation, linearity.worstFrequency));
 }
 } // namespace
 
@@ -182,18 +201,19 @@ std::string profileText(const std::string& file, const Profile& profile)
     lines.start("voices");
     lines.add("polyphony", voicesText(profile.polyphony));
     lines.add("frequencyMapping",
-              fmt::format("other frequencies: {}",
-                          profileFields::nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
+              fmt::format("other frequencies: {}", nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
     addDrive(lines, profile.drive);
     addEqualizer(lines, profile.equalizer);
     lines.start("events");
-    const auto shape = profileFields::nameOf(profile.transient.shape, profileFields::transientShapes);
+    const auto shape = nameOf(profile.transient.shape, profileFields::transientShapes);
     lines.add("transient", profile.transient.shape == TransientShape::adaptive
                                ? std::string(shape)
                                : fmt::format("{:.3g} {} cycles at {:.4g} Hz", profile.transient.cycles, shape,
                                              profile.transient.frequency));
     if (profile.body)
         addBody(lines, *profile.body);
+    if (profile.measurement)
+        addMeasurement(lines, *profile.measurement);
     lines.end();
     return lines.text;
 }

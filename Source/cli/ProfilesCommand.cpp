@@ -48,7 +48,7 @@ Exit ProfilesCommand::run(Console& console)
         }
         list.push_back({{"name", entry.name},
                         {"title", profile->name},
-                        {"technology", profileFields::nameOf(profile->technology, profileFields::technologies)},
+                        {"technology", nameOf(profile->technology, profileFields::technologies)},
                         {"resonance", profile->resonance.frequency},
                         {"lowFrequency", profile->range.lowFrequency},
                         {"highFrequency", profile->range.highFrequency},

@@ -12,8 +12,10 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -64,17 +66,20 @@ struct ErrorMeter
     }
 };
 
-/// What each decoder of a plan plays. They are made one after the other, not to fill the memory.
-std::vector<PlayReport> describe(const RenderPlan& plan, const Scene& scene)
+/// What each play is called: by itself or by its clip.
+std::vector<std::string> playNames(const Scene& scene)
+{
+    std::vector<std::string> names;
+    for (const ScenePlay& play : scene.plays)
+        names.push_back(play.name.empty() ? scene.clips[play.clip].name : play.name);
+    return names;
+}
+
+std::vector<PlayReport> describe(const std::vector<DecodedPlay>& plays, const std::vector<std::string>& names)
 {
     std::vector<PlayReport> reports;
-    for (const PlannedPlay& planned : plan.plays)
-    {
-        const Decoder decoder(planned.clip, planned.decoder, planned.timeline.changes);
-        const ScenePlay& play = scene.plays[planned.play];
-        reports.push_back({planned.play, play.name.empty() ? scene.clips[play.clip].name : play.name, planned.start,
-                           static_cast<double>(decoder.totalFrames()) / planned.decoder.sampleRate, decoder.report()});
-    }
+    for (const DecodedPlay& decoded : plays)
+        reports.push_back({decoded.play, names[decoded.play], decoded.start, decoded.duration, decoded.decoder});
     return reports;
 }
 } // namespace
@@ -160,8 +165,9 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.predictedError = plan.predictedError;
     result.leftOut = std::move(plan.leftOut);
     result.adaptations = std::move(plan.adaptations);
+    std::vector<std::string> names;
     if (settings.describe)
-        result.plays = describe(plan, scene);
+        names = playNames(scene);
 
     ScenePlayerParams playing;
     playing.sampleRate = fs;
@@ -217,6 +223,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     if (whole)
         result.measured = error.decibels();
     result.mostSounding = player->mostSounding();
+    if (settings.describe)
+        result.plays = describe(player->decodedPlays(), names);
     const auto report = writer->finish();
     if (!report)
         return atOutput(output, report.error());

@@ -7,7 +7,7 @@
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/Scene.h>
 
 #include <cstdint>

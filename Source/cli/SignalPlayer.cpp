@@ -1,6 +1,7 @@
 #include "cli/SignalPlayer.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace pacini::cli
@@ -37,6 +38,12 @@ SignalPlayer::SignalPlayer(RenderPlan plan, ScenePlayerParams params, const std:
     driveScale = felt->drive;
     feltScale = 1.0 / felt->fullScale;
     late = model.latencyFrames();
+}
+
+const std::vector<DecodedPlay>& SignalPlayer::decodedPlays()
+{
+    player.build(std::numeric_limits<double>::infinity());
+    return player.decodedPlays();
 }
 
 void SignalPlayer::process(std::span<const std::span<float>> out)

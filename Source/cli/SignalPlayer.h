@@ -24,6 +24,9 @@ public:
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return player.totalFrames(); }
     [[nodiscard]] std::size_t mostSounding() const noexcept { return player.mostSounding(); }
 
+    /// What the decoder of every play plays, in order of start. Those that have not sounded yet are made for it.
+    [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays();
+
     /// Writes the next frames: one span for each actuator, all of the same length.
     void process(std::span<const std::span<float>> out);
 

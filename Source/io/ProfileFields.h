@@ -2,21 +2,14 @@
 
 // The entries of a profile file: one table that the reader and the writer both follow.
 
+#include "io/Fields.h"
+
 #include <pacini/actuator/Profile.h>
 
 #include <array>
-#include <string_view>
 
 namespace pacini::profileFields
 {
-
-/// A name in the file for one value of an enumeration.
-template <typename E>
-struct Choice
-{
-    std::string_view name;
-    E value;
-};
 
 inline constexpr std::array<Choice<Technology>, 6> technologies{{{"erm", Technology::erm},
                                                                  {"lra", Technology::lra},
@@ -32,24 +25,6 @@ inline constexpr std::array<Choice<EqualizerType>, 4> equalizerTypes{{{"peak", E
                                                                       {"lowShelf", EqualizerType::lowShelf},
                                                                       {"highShelf", EqualizerType::highShelf},
                                                                       {"highpass", EqualizerType::highpass}}};
-
-/// The name of `value` in a file.
-template <typename E, std::size_t Count>
-[[nodiscard]] constexpr std::string_view nameOf(E value, const std::array<Choice<E>, Count>& choices) noexcept
-{
-    for (const auto& choice : choices)
-        if (choice.value == value)
-            return choice.name;
-    return {};
-}
-
-/// Whether an entry must be in the file; others keep the default of their struct when they are missing.
-enum class Need
-{
-    required,
-    usual,   ///< may be missing, but is always written
-    optional ///< an object that is not written when it equals its default
-};
 
 /// The entries of a measurement, see visitFields().
 template <typename AnyMeasurement, typename Visitor>
@@ -70,7 +45,8 @@ void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
                                visitor.number("standardDeviation", linearity.standardDeviation, required);
                                visitor.number("worstDeviation", linearity.worstDeviation, required);
                                visitor.number("worstFrequency", linearity.worstFrequency, required);
-                               visitor.list("outliers", linearity.outliers, "outliers",
+                               visitor.list("outliers", linearity.outliers, ProfileMeasurement::mostOutliers,
+                                            "outliers",
                                             [&](auto& outlier)
                                             {
                                                 visitor.number("lowFrequency", outlier.lowFrequency, required);
@@ -78,7 +54,7 @@ void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
                                                 visitor.number("deviation", outlier.deviation, required);
                                             });
                            });
-    visitor.list("points", measurement.points, "points",
+    visitor.list("points", measurement.points, ProfileMeasurement::mostPoints, "points",
                  [&](auto& point)
                  {
                      visitor.number("frequency", point.frequency, required);
@@ -87,9 +63,8 @@ void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
                  });
 }
 
-/// Shows `visitor` all entries of `profile` (a Profile, const for a writer) in the order of the file. The visitor has
-/// text, number, optionalNumber, integer and choice for single entries, object and optionalObject for entries in
-/// braces, list for lists of these and sources for the sources.
+/// Shows `visitor` (FieldsReader or FieldsWriter) all entries of `profile` (a Profile, const for a writer) in the order
+/// of the file.
 template <typename AnyProfile, typename Visitor>
 void visitFields(AnyProfile& profile, Visitor& visitor)
 {
@@ -128,7 +103,7 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
                        visitor.optionalNumber("excursion", drive.excursion);
                        visitor.number("overdrive", drive.overdrive, usual);
                    });
-    visitor.list("equalizer", profile.equalizer, "sections",
+    visitor.list("equalizer", profile.equalizer, profile.equalizer.capacity(), "sections",
                  [&](auto& section)
                  {
                      visitor.choice("type", section.type, equalizerTypes, required);
@@ -158,7 +133,7 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
                            });
     visitor.optionalObject("measurement", profile.measurement,
                            [&](auto& measurement) { visitMeasurement(measurement, visitor); });
-    visitor.sources("sources", profile.sources);
+    visitor.texts("sources", profile.sources);
 }
 
 } // namespace pacini::profileFields

@@ -11,7 +11,7 @@ using namespace pacini::test;
 
 namespace
 {
-constexpr std::array allPoints = {BodyPoint::movingMass, BodyPoint::device, BodyPoint::skin, BodyPoint::excursion};
+constexpr std::array bodyPoints = {BodyPoint::movingMass, BodyPoint::device, BodyPoint::skin, BodyPoint::excursion};
 
 double spectralRadius(const BodyModelCoefficients& filter)
 {
@@ -63,7 +63,7 @@ double holdError(const BodyChain& chain, double fs, std::size_t frames = 120)
         force[n] = random.uniform(-1.0, 1.0);
     const ReferenceBody reference(chain, fs);
     double worst = 0.0;
-    for (const BodyPoint point : allPoints)
+    for (const BodyPoint point : bodyPoints)
     {
         const auto wanted = reference.run(force, point);
         const auto found = run(designBodyModel(chain, point, fs, BodyHold::linear), force);
@@ -150,7 +150,7 @@ TEST_CASE("The body is stable for every joint, and for every profile that is val
         const auto chain = makeBodyChain(body, {between(1.0, 20000.0), between(0.01, 100.0)});
         for (const double fs : {2000.0, 48000.0, 768000.0})
         {
-            const auto filter = designBodyModel(chain, allPoints[random.next() % 4], fs);
+            const auto filter = designBodyModel(chain, bodyPoints[random.next() % 4], fs);
             REQUIRE(spectralRadius(filter) <= 1.0 + 1e-12);
             for (const double tap : filter.tap)
                 REQUIRE(std::isfinite(tap));
@@ -178,7 +178,7 @@ TEST_CASE("The filter follows the continuous response", "[actuator][body]")
 {
     for (const Limit& limit : limits)
     {
-        for (const BodyPoint point : allPoints)
+        for (const BodyPoint point : bodyPoints)
             CHECK(responseError(makeBodyChain({}, {65.93, 3.969}), point, limit.fs) <= 0.01 * limit.error);
         BodyDraws draws;
         double largest = 0.0;
@@ -186,7 +186,7 @@ TEST_CASE("The filter follows the continuous response", "[actuator][body]")
         {
             const auto drawn = draws.next();
             const auto chain = makeBodyChain(drawn.body, drawn.resonance);
-            largest = std::max(largest, responseError(chain, allPoints[std::size_t(i) % 4], limit.fs));
+            largest = std::max(largest, responseError(chain, bodyPoints[std::size_t(i) % 4], limit.fs));
             largest = std::max(largest, responseError(chain, BodyPoint::skin, limit.fs));
         }
         CAPTURE(limit.fs, largest);
@@ -260,7 +260,7 @@ TEST_CASE("Constant drive gives no acceleration and the static excursion", "[act
         const auto drawn = draws.next();
         const auto chain = makeBodyChain(drawn.body, drawn.resonance);
         for (const Limit& limit : limits)
-            for (const BodyPoint point : allPoints)
+            for (const BodyPoint point : bodyPoints)
             {
                 const double still = std::abs(chain.response(point, 0_Hz));
                 const double usual = std::abs(chain.response(point, 100_Hz));
@@ -300,7 +300,7 @@ TEST_CASE("Where two modes of the chain coincide nothing blows up", "[actuator][
         CAPTURE(closest, error);
         CHECK(error <= 2e-6);
         for (const Limit& limit : limits)
-            for (const BodyPoint point : allPoints)
+            for (const BodyPoint point : bodyPoints)
                 CHECK(responseError(chain, point, limit.fs) <= 0.01 * limit.error);
     }
 }

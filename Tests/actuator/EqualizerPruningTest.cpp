@@ -15,7 +15,7 @@ using namespace pacini;
 namespace
 {
 
-constexpr double fs = 8000.0;
+constexpr double pruningRate = 8000.0;
 
 /// The largest difference in dB of two equalisers between low and high, measured on their impulse responses.
 double measuredError(const EqualizerSections& a, const EqualizerSections& b, double low, double high)
@@ -25,7 +25,7 @@ double measuredError(const EqualizerSections& a, const EqualizerSections& b, dou
     {
         Equalizer filter;
         filter.setParams(sections);
-        filter.prepare({fs, frames});
+        filter.prepare({pruningRate, frames});
         auto x = test::impulse(frames);
         filter.process(x, x);
         std::vector<std::complex<double>> bins(frames / 2 + 1);
@@ -36,7 +36,7 @@ double measuredError(const EqualizerSections& a, const EqualizerSections& b, dou
     const auto hb = response(b);
     double largest = 0.0;
     for (std::size_t k = 0; k < ha.size(); ++k)
-        if (const double f = static_cast<double>(k) * fs / frames; f >= low && f <= high)
+        if (const double f = static_cast<double>(k) * pruningRate / frames; f >= low && f <= high)
             largest = std::max(largest, std::abs(20.0 * std::log10(std::abs(ha[k]) / std::abs(hb[k]))));
     return largest;
 }
@@ -50,7 +50,7 @@ TEST_CASE("Sections that do nothing in the range are left out, with the error th
         {EqualizerType::highpass, 2.0, 0.0, 1.0, 2},  {EqualizerType::peak, 3000.0, 6.0, 30.0, 2},
         {EqualizerType::lowShelf, 40.0, 1.0, 0.7, 2}, {EqualizerType::peak, 3950.0, 12.0, 1.0, 2},
     };
-    const auto pruned = pruneEqualizer(equalizer, {}, fs);
+    const auto pruned = pruneEqualizer(equalizer, {}, pruningRate);
     REQUIRE(pruned.dropped.size() == 4);
     CHECK(pruned.dropped[0].index == 1);
     CHECK(pruned.dropped[0].deviation == Approx(0.05));
@@ -107,7 +107,7 @@ TEST_CASE("The predicted error of pruning bounds the measured one", "[actuator]"
                  random.uniform(-1.0, 1.0), random.uniform(0.3, 4.0), 1 + static_cast<int>(random.next() % 4)});
         }
         const double tolerance = random.uniform(0.02, 1.0);
-        const auto pruned = pruneEqualizer(equalizer, {60.0_Hz, 800.0_Hz, Decibels(tolerance)}, fs);
+        const auto pruned = pruneEqualizer(equalizer, {60.0_Hz, 800.0_Hz, Decibels(tolerance)}, pruningRate);
         REQUIRE(pruned.kept.size() + pruned.dropped.size() == equalizer.size());
         for (const auto& section : pruned.dropped)
             CHECK(section.deviation <= tolerance);

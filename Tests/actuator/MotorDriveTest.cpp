@@ -15,7 +15,7 @@ namespace
 /// A motor: its speed follows the voltage; at rest it needs startVoltage, turning it stops below the stall voltage.
 /// Returns its strength, the square of its speed, for every sample.
 std::vector<double> simulatedMotor(const std::vector<float>& voltage, double rise, double fall, double start,
-                                   double stall, double fs)
+                                   double stall, double motorRate)
 {
     std::vector<double> strength;
     double speed = 0.0;
@@ -26,7 +26,7 @@ std::vector<double> simulatedMotor(const std::vector<float>& voltage, double ris
         {
             if (speed == 0.0 && std::abs(v) < start)
                 continue;
-            speed += (v - speed) / (fs * 50.0 * (v > speed ? rise : fall));
+            speed += (v - speed) / (motorRate * 50.0 * (v > speed ? rise : fall));
             if (std::abs(speed) < 0.5 * stall && std::abs(v) < stall)
                 speed = 0.0;
         }
@@ -35,20 +35,20 @@ std::vector<double> simulatedMotor(const std::vector<float>& voltage, double ris
     return strength;
 }
 
-std::vector<float> constant(double strength, double seconds, double fs)
+std::vector<float> constant(double strength, double seconds, double motorRate)
 {
-    return std::vector<float>(static_cast<std::size_t>(seconds * fs), static_cast<float>(strength));
+    return std::vector<float>(static_cast<std::size_t>(seconds * motorRate), static_cast<float>(strength));
 }
 
-std::vector<float> driven(const MotorDriveParams& params, const std::vector<float>& strength, double fs)
+std::vector<float> driven(const MotorDriveParams& params, const std::vector<float>& strength, double motorRate)
 {
     MotorDrive motor;
     motor.setParams(params);
-    motor.prepare({fs, 512});
+    motor.prepare({motorRate, 512});
     return test::runInBlocks(motor, strength, 512);
 }
 
-constexpr double fs = 8000.0;
+constexpr double motorRate = 8000.0;
 
 } // namespace
 
@@ -74,9 +74,10 @@ TEST_CASE("A motor reaches every strength that it can hold", "[actuator]")
     for (const double strength : {1.0, 0.5, 0.2, 0.05, 0.02})
     {
         CAPTURE(strength);
-        const auto voltage = driven(params, constant(strength, 1.0, fs), fs);
+        const auto voltage = driven(params, constant(strength, 1.0, motorRate), motorRate);
         CHECK(static_cast<double>(voltage.back()) == Approx(std::sqrt(strength)));
-        const auto reached = simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, fs);
+        const auto reached =
+            simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, motorRate);
         CHECK(reached.back() == Approx(strength).epsilon(0.01));
         CHECK(*std::max_element(reached.begin(), reached.end()) < 1.05 * strength);
     }
@@ -88,16 +89,16 @@ TEST_CASE("Weak strengths start the motor only with a kick", "[actuator]")
     profile.response = {0.08, 0.1};
     const auto params = motorDriveParams(profile);
     const double weak = 0.03; // a voltage of 0.17
-    const auto kicked = driven(params, constant(weak, 0.5, fs), fs);
+    const auto kicked = driven(params, constant(weak, 0.5, motorRate), motorRate);
     const auto& tau = params.speedTimes;
-    CHECK(simulatedMotor(kicked, tau.rise, tau.fall, 0.25, 0.125, fs).back() == Approx(weak).epsilon(0.01));
+    CHECK(simulatedMotor(kicked, tau.rise, tau.fall, 0.25, 0.125, motorRate).back() == Approx(weak).epsilon(0.01));
     // a drive of the bare square root does nothing
-    const auto bare = constant(std::sqrt(weak), 0.5, fs);
-    CHECK(simulatedMotor(bare, tau.rise, tau.fall, 0.25, 0.125, fs).back() == 0.0);
+    const auto bare = constant(std::sqrt(weak), 0.5, motorRate);
+    CHECK(simulatedMotor(bare, tau.rise, tau.fall, 0.25, 0.125, motorRate).back() == 0.0);
 
     // not knowing the spin-up time the kick lasts 20 ms
-    const auto unknown = driven({}, constant(weak, 0.5, fs), fs);
-    const auto long25 = static_cast<double>(std::count(unknown.begin(), unknown.end(), 0.25f)) / fs;
+    const auto unknown = driven({}, constant(weak, 0.5, motorRate), motorRate);
+    const auto long25 = static_cast<double>(std::count(unknown.begin(), unknown.end(), 0.25f)) / motorRate;
     CHECK(long25 == Approx(0.020).margin(0.001));
     CHECK(static_cast<double>(unknown.back()) == Approx(std::sqrt(weak)));
 }
@@ -106,9 +107,9 @@ TEST_CASE("Strengths below what a motor can hold are raised to it or dropped", "
 {
     const MotorDriveParams params{{0.03, 0.05}};
     const double weakest = params.stallVoltage * params.stallVoltage;
-    CHECK(static_cast<double>(driven(params, constant(0.5 * weakest, 0.5, fs), fs).back()) ==
+    CHECK(static_cast<double>(driven(params, constant(0.5 * weakest, 0.5, motorRate), motorRate).back()) ==
           Approx(params.stallVoltage));
-    for (const float v : driven(params, constant(0.2 * weakest, 0.5, fs), fs))
+    for (const float v : driven(params, constant(0.2 * weakest, 0.5, motorRate), motorRate))
         REQUIRE(v == 0.0f);
 }
 
@@ -118,28 +119,28 @@ TEST_CASE("Overdrive and braking make a motor at least twice as quick", "[actuat
     profile.response = {0.08, 0.1};
     profile.drive.overdrive = 2.0;
     const auto params = motorDriveParams(profile);
-    auto wanted = constant(1.0, 0.4, fs);
+    auto wanted = constant(1.0, 0.4, motorRate);
     wanted.resize(wanted.size() * 2, 0.0f);
     const auto run = [&](const std::vector<float>& voltage)
     {
-        return simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, fs);
+        return simulatedMotor(voltage, params.speedTimes.rise, params.speedTimes.fall, 0.25, 0.125, motorRate);
     };
     const auto rise = [](const std::vector<double>& s)
     {
         return static_cast<double>(std::find_if(s.begin(), s.end(), [](double v) { return v >= 0.9; }) - s.begin()) /
-               fs;
+               motorRate;
     };
     const auto fall = [&](const std::vector<double>& s)
     {
         auto last = s.end() - 1;
         while (*last < 0.1)
             --last;
-        return static_cast<double>(last - s.begin()) / fs - 0.4;
+        return static_cast<double>(last - s.begin()) / motorRate - 0.4;
     };
     const auto plain = run(wanted); // the square root of 0 and 1
     CHECK(rise(plain) == Approx(0.08).epsilon(0.01));
     CHECK(fall(plain) == Approx(0.1).epsilon(0.01));
-    const auto quick = run(driven(params, wanted, fs));
+    const auto quick = run(driven(params, wanted, motorRate));
     CHECK(rise(quick) < 0.5 * rise(plain));
     CHECK(fall(quick) < 0.5 * fall(plain));
     CHECK(*std::max_element(quick.begin(), quick.end()) < 1.02);
@@ -147,6 +148,6 @@ TEST_CASE("Overdrive and braking make a motor at least twice as quick", "[actuat
 
     auto unbraked = params;
     unbraked.braking = false;
-    for (const float v : driven(unbraked, wanted, fs))
+    for (const float v : driven(unbraked, wanted, motorRate))
         REQUIRE(v >= 0.0f);
 }

@@ -10,7 +10,7 @@ using namespace pacini::test;
 namespace
 {
 
-constexpr double fs = analysisRate;
+constexpr double bandRate = analysisRate;
 
 BandAnalysisParams sixBands()
 {
@@ -59,7 +59,7 @@ TEST_CASE("A steady tone is constant in its band, at its frequency, across all b
     for (std::size_t k = 0; k < bands.size(); ++k)
     {
         const double f = bands[k].centre;
-        const auto result = analysed(sine(24000, f, fs, 0.4)); // 6 s: several blocks
+        const auto result = analysed(sine(24000, f, bandRate, 0.4)); // 6 s: several blocks
         CAPTURE(f);
         REQUIRE(result.tracks.size() == 6);
         for (std::size_t i = 25; i < 275; ++i) // 0.5 s from the ends
@@ -89,7 +89,7 @@ TEST_CASE("Two tones of one band beat, and its frequency is their mean weighted 
         }
         return sum / weights;
     }();
-    const auto result = analysed(plus(sine(20000, 130.0, fs, 0.3), sine(20000, 134.0, fs, 0.1)));
+    const auto result = analysed(plus(sine(20000, 130.0, bandRate, 0.3), sine(20000, 134.0, bandRate, 0.1)));
     const auto& track = result.tracks[2]; // 97-173 Hz
     double meanFrequency = 0.0;
     double power = 0.0;
@@ -107,9 +107,10 @@ TEST_CASE("Two tones of one band beat, and its frequency is their mean weighted 
 
 TEST_CASE("The envelope of a modulated tone is its modulation", "[analysis]")
 {
-    auto x = sine(16000, 250.0, fs, 0.5);
+    auto x = sine(16000, 250.0, bandRate, 0.5);
     for (std::size_t n = 0; n < x.size(); ++n)
-        x[n] *= static_cast<float>(1.0 + 0.6 * std::sin(2.0 * std::numbers::pi * 5.0 * static_cast<double>(n) / fs));
+        x[n] *=
+            static_cast<float>(1.0 + 0.6 * std::sin(2.0 * std::numbers::pi * 5.0 * static_cast<double>(n) / bandRate));
     const auto result = analysed(x);
     for (std::size_t i = 100; i < 700; ++i)
     {
@@ -124,7 +125,7 @@ TEST_CASE("Bands add up: power of noise is that of all bands and their overlaps"
 {
     // Two bands that fade into each other share a tone in proportion of their weights at its frequency.
     const auto bands = sixBands().bands;
-    const auto result = analysed(sine(16000, bands[2].high, fs, 0.4));
+    const auto result = analysed(sine(16000, bands[2].high, bandRate, 0.4));
     for (std::size_t i = 50; i < 150; ++i)
     {
         REQUIRE(result.tracks[2].amplitude[i] == Approx(0.2).epsilon(5e-3));
@@ -166,7 +167,7 @@ TEST_CASE("Frames cover the sound whatever its length", "[analysis]")
 
 TEST_CASE("Channels in antiphase are analysed as if they were in phase", "[analysis]")
 {
-    const auto x = plus(sine(12000, 75.0, fs, 0.3), sine(12000, 420.0, fs, 0.2));
+    const auto x = plus(sine(12000, 75.0, bandRate, 0.3), sine(12000, 420.0, bandRate, 0.2));
     auto minus = x;
     for (float& v : minus)
         v = -v;

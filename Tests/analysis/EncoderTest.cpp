@@ -23,7 +23,7 @@ Clip encode(std::span<const float> interleaved, int fs, int channels = 1, const 
     return encoder.finish();
 }
 
-std::vector<float> noise(std::size_t frames, double amplitude, std::uint64_t seed)
+std::vector<float> scaledNoise(std::size_t frames, double amplitude, std::uint64_t seed)
 {
     Random random(seed);
     std::vector<float> x(frames);
@@ -75,7 +75,7 @@ TEST_CASE("No curve goes on after the sound, however it ends", "[analysis]")
     for (std::size_t frames = 20000; frames < 22000; frames += 97)
     {
         CAPTURE(frames);
-        auto x = noise(frames, 0.05, frames);
+        auto x = scaledNoise(frames, 0.05, frames);
         for (std::size_t n = frames - 700; n < frames; ++n)
             x[n] *= 1.0f + 0.02f * static_cast<float>(n % 700); // loud to the last frame
         REQUIRE(validate(encode(x, 44100)).ok());
@@ -100,7 +100,7 @@ TEST_CASE("Normalising raises the loudest moment to full drive", "[analysis][enc
 
 TEST_CASE("Clips do not depend on how the sound is cut into calls", "[analysis][encoder]")
 {
-    auto x = noise(2 * 50000, 0.1, 3);
+    auto x = scaledNoise(2 * 50000, 0.1, 3);
     for (std::size_t at : {20000u, 60000u})
         addKick(x, at, 44100.0, 0.8);
     const Clip whole = encode(x, 44100, 2);
@@ -117,7 +117,7 @@ TEST_CASE("An encoder forgets the sound before", "[analysis][encoder]")
     encoder.push(tone);
     const Clip first = encoder.finish();
     encoder.start(96000, 3);
-    encoder.push(noise(90000, 1.0, 5));
+    encoder.push(scaledNoise(90000, 1.0, 5));
     (void)encoder.finish();
     encoder.start(44100, 1);
     encoder.push(tone);
@@ -172,8 +172,8 @@ TEST_CASE("Silence, one sample, DC and extreme rates give valid clips", "[analys
 
 TEST_CASE("64 channels and full-scale garbage give valid clips", "[analysis][encoder]")
 {
-    CHECK(validate(encode(noise(64 * 4000, 1.0, 9), 48000, 64)).ok());
-    auto x = noise(44100, 3.0e38, 10);
+    CHECK(validate(encode(scaledNoise(64 * 4000, 1.0, 9), 48000, 64)).ok());
+    auto x = scaledNoise(44100, 3.0e38, 10);
     CHECK(validate(encode(x, 44100)).ok());
     for (float& v : x)
         v = v > 0.0f ? 1.0f : -1.0f;
@@ -183,7 +183,7 @@ TEST_CASE("64 channels and full-scale garbage give valid clips", "[analysis][enc
 TEST_CASE("Every number of bands and both spacings give valid clips within the cap of breakpoints",
           "[analysis][encoder]")
 {
-    auto x = noise(3 * 44100, 0.3, 21);
+    auto x = scaledNoise(3 * 44100, 0.3, 21);
     for (std::size_t n = 0; n < x.size(); ++n)
         x[n] *= static_cast<float>(1.0 + std::sin(0.002 * static_cast<double>(n)));
     for (const BandSpacing spacing : {BandSpacing::logarithmic, BandSpacing::linear})
@@ -206,7 +206,7 @@ TEST_CASE("Every number of bands and both spacings give valid clips within the c
 
 TEST_CASE("More breakpoints describe a sound better", "[analysis][encoder]")
 {
-    auto x = noise(2 * 44100, 0.3, 4);
+    auto x = scaledNoise(2 * 44100, 0.3, 4);
     std::size_t before = 0;
     for (const double breakpoints : {2.0, 8.0, 20.0, 60.0})
     {

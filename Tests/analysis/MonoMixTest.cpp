@@ -1,5 +1,6 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
+#include "support/Interleave.h"
 #include "support/Measure.h"
 
 #include <pacini/analysis/MonoMix.h>
@@ -9,15 +10,6 @@ using namespace pacini::test;
 
 namespace
 {
-
-std::vector<float> interleave(const std::vector<std::vector<float>>& channels)
-{
-    std::vector<float> x;
-    for (std::size_t i = 0; i < channels.front().size(); ++i)
-        for (const auto& channel : channels)
-            x.push_back(channel[i]);
-    return x;
-}
 
 std::vector<float> times(std::vector<float> x, float gain)
 {

@@ -1,6 +1,7 @@
 #include "OnsetSignals.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
+#include "support/Interleave.h"
 #include "support/Measure.h"
 
 #include <pacini/analysis/OnsetFeatures.h>
@@ -22,15 +23,6 @@ std::vector<OnsetFrame> framesOf(std::span<const float> interleaved, double fs, 
     features.finish();
     const auto frames = features.frames();
     return {frames.begin(), frames.end()};
-}
-
-std::vector<float> interleave(const std::vector<std::vector<float>>& channels)
-{
-    std::vector<float> x;
-    for (std::size_t i = 0; i < channels.front().size(); ++i)
-        for (const auto& channel : channels)
-            x.push_back(channel[i]);
-    return x;
 }
 
 double decibels(double ratio)

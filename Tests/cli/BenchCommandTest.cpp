@@ -62,12 +62,12 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 12);
+    CHECK(printed["benches"].size() == 13);
     for (const auto& file : printed["files"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
     for (const std::string name : {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",
-                                   "actuators", "live", "body", "stages", "methods"})
+                                   "actuators", "equalizers", "live", "body", "stages", "methods"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -81,10 +81,26 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
         for (const auto& [key, value] : json["rows"][0].items())
             CHECK(lines[0].find(key) != std::string::npos);
     }
-    for (const std::string chart :
-         {"simplify-count", "simplify-tolerance", "decimate", "analysis", "analysis-bands", "synthesis", "filters-48",
-          "filters-768", "oscillators-steady", "oscillators-gliding", "scenes", "actuators", "live", "body-8",
-          "body-16", "body-48", "methods", "methods-rate"})
+    for (const std::string chart : {"simplify-count",
+                                    "simplify-tolerance",
+                                    "decimate",
+                                    "analysis",
+                                    "analysis-bands",
+                                    "synthesis",
+                                    "filters-48",
+                                    "filters-768",
+                                    "oscillators-steady",
+                                    "oscillators-gliding",
+                                    "scenes",
+                                    "actuators",
+                                    "equalizers-48",
+                                    "equalizers-8",
+                                    "live",
+                                    "body-8",
+                                    "body-16",
+                                    "body-48",
+                                    "methods",
+                                    "methods-rate"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);

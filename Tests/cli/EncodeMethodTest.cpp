@@ -17,25 +17,25 @@ using namespace pacini::test;
 namespace
 {
 
-struct Outcome
+struct MethodOutcome
 {
     int status = 0;
     std::string out; ///< stdout, then stderr
 };
 
 /// Runs `pacini encode` in `folder`. Arguments must not need quoting.
-Outcome encode(const TempFolder& folder, const std::string& arguments)
+MethodOutcome encode(const TempFolder& folder, const std::string& arguments)
 {
     const auto log = folder / "log";
     const std::string command =
         "cd \"" + folder.path().string() + "\" && \"" PACINI_COMMAND "\" encode " + arguments + " > log 2>&1";
     const int status = std::system(command.c_str());
-    Outcome outcome{status > 255 ? status >> 8 : status, bytesOf(log)};
+    MethodOutcome outcome{status > 255 ? status >> 8 : status, bytesOf(log)};
     std::filesystem::remove(log);
     return outcome;
 }
 
-bool has(const Outcome& outcome, const std::string& text)
+bool has(const MethodOutcome& outcome, const std::string& text)
 {
     return outcome.out.find(text) != std::string::npos;
 }

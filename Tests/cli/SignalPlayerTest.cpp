@@ -3,6 +3,7 @@
 #include "cli/SignalPlayer.h"
 
 #include "support/Catch.h"
+#include "support/Render.h"
 
 #include <pacini/synthesis/CompilePlan.h>
 
@@ -26,16 +27,7 @@ std::vector<std::vector<float>> felt(const Scene& scene, const Profile& profile,
     const auto model = feltModelParams(profile);
     REQUIRE(model);
     SignalPlayer player(std::move(*plan), {}, FeltSettings{*model, 0, profile.drive.overdrive, 100.0});
-    const auto total = static_cast<std::size_t>(player.totalFrames());
-    std::vector<std::vector<float>> channels(2, std::vector<float>(total));
-    for (std::size_t done = 0; done < total; done += blockFrames)
-    {
-        std::vector<std::span<float>> block;
-        for (auto& channel : channels)
-            block.push_back(std::span(channel).subspan(done, std::min(blockFrames, total - done)));
-        player.process(block);
-    }
-    return channels;
+    return test::renderChannels(player, 2, blockFrames);
 }
 } // namespace
 

@@ -17,7 +17,7 @@ using namespace pacini;
 
 namespace
 {
-std::vector<double> noise(std::size_t n)
+std::vector<double> doubleNoise(std::size_t n)
 {
     Random random(n);
     std::vector<double> x(n);
@@ -53,7 +53,7 @@ TEST_CASE("Zero-phase band-pass: half amplitude at the edges, one at the geometr
 TEST_CASE("A band sampled at a lower rate has exactly the samples of the full rate", "[evaluate]")
 {
     const std::size_t size = 1920;
-    const auto spectrum = spectrumOf(noise(size));
+    const auto spectrum = spectrumOf(doubleNoise(size));
     InverseTransforms transforms;
     SplitArray<float> scratch(size), full(size), coarse(size);
     for (const std::size_t spacing : {2u, 4u, 8u, 20u})

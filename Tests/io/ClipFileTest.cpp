@@ -14,7 +14,7 @@ using namespace pacini::test;
 TEST_CASE("A clip file is recognised by its content, not by its name", "[io]")
 {
     const TempFolder folder;
-    const auto clip = randomClip(3);
+    const auto clip = randomFullClip(3);
     const auto size = writeClip(folder / "clip.wav", clip, ClipFormat::json);
     REQUIRE(size.ok());
     CHECK(*size == std::filesystem::file_size(folder / "clip.wav"));
@@ -51,13 +51,13 @@ TEST_CASE("A clip that breaks a rule is not written", "[io]")
 {
     const TempFolder folder;
     put(folder / "clip.json", "old");
-    auto clip = randomClip(4);
+    auto clip = randomFullClip(4);
     clip.envelope = {{0.0, std::numeric_limits<double>::quiet_NaN()}};
     const auto notFinite = writeClip(folder / "clip.json", clip, ClipFormat::json);
     REQUIRE_FALSE(notFinite.ok());
     CHECK(notFinite.error().where == "envelope[0].amplitude");
 
-    clip = randomClip(4);
+    clip = randomFullClip(4);
     clip.encoder = {{"bands", 6.0}, {"bands", 7.0}};
     CHECK(writeClip(folder / "clip.json", clip, ClipFormat::json).error().where == "encoder");
     clip.encoder = {{"bands", std::numeric_limits<double>::infinity()}};

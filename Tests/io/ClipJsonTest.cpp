@@ -55,7 +55,7 @@ TEST_CASE("Reading what was written gives the same clip to the last bit", "[io][
     for (std::uint64_t seed = 0; seed < 300; ++seed)
     {
         CAPTURE(seed);
-        const auto clip = randomClip(seed);
+        const auto clip = randomFullClip(seed);
         REQUIRE(validate(clip).ok());
         const auto text = writeClipJson(clip);
         const auto back = readClipJson(text);
@@ -153,7 +153,7 @@ TEST_CASE("Every entry is named, in the order of the schema", "[io][json]")
 
 TEST_CASE("An edit of one point changes one line", "[io][json]")
 {
-    auto clip = randomClip(5, 400);
+    auto clip = randomFullClip(5, 400);
     clip.envelope.clear();
     for (int i = 0; i < 400; ++i)
         clip.envelope.push_back({clip.duration * i / 400.0, 0.5});
@@ -184,7 +184,7 @@ TEST_CASE("An edit of one point changes one line", "[io][json]")
 
 TEST_CASE("Another parser sees the same values", "[io][json]")
 {
-    const auto clip = randomClip(77);
+    const auto clip = randomFullClip(77);
     const auto json = nlohmann::json::parse(writeClipJson(clip));
     CHECK(json["format"] == "pacini.clip");
     CHECK(json["version"] == 1);
@@ -336,7 +336,7 @@ TEST_CASE("Text that is not UTF-8 is written with replacement characters", "[io]
 
 TEST_CASE("A decimal comma of the locale changes nothing", "[io][json]")
 {
-    const auto clip = randomClip(9);
+    const auto clip = randomFullClip(9);
     const auto text = writeClipJson(clip);
     const std::string before = std::setlocale(LC_ALL, nullptr);
     for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"})

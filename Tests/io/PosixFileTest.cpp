@@ -46,7 +46,7 @@ void limitFileSize(rlim_t bytes)
     setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-enum Outcome
+enum ChildOutcome
 {
     failedCleanly = 10,
     succeeded = 11,

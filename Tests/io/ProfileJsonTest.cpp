@@ -18,7 +18,7 @@ nlohmann::json smallest()
 }
 
 /// "where: message" of the error that the change to the smallest profile brings; "" when it is accepted.
-std::string errorAfter(const std::function<void(nlohmann::json&)>& change)
+std::string profileErrorAfter(const std::function<void(nlohmann::json&)>& change)
 {
     auto document = smallest();
     change(document);
@@ -91,61 +91,65 @@ TEST_CASE("A missing entry is named", "[io]")
 {
     using Json = nlohmann::json;
     for (const char* name : {"format", "version", "name", "technology", "resonance"})
-        CHECK(errorAfter([&](Json& j) { j.erase(name); }) == std::string(name) + ": is missing");
-    CHECK(errorAfter([](Json& j) { j["resonance"].erase("frequency"); }) == "resonance.frequency: is missing");
+        CHECK(profileErrorAfter([&](Json& j) { j.erase(name); }) == std::string(name) + ": is missing");
+    CHECK(profileErrorAfter([](Json& j) { j["resonance"].erase("frequency"); }) == "resonance.frequency: is missing");
     for (const char* name : {"type", "frequency", "gain"})
-        CHECK(errorAfter(
+        CHECK(profileErrorAfter(
                   [&](Json& j)
                   {
                       j["equalizer"] = {{{"type", "peak"}, {"frequency", 50}, {"gain", 1}}};
                       j["equalizer"][0].erase(name);
                   }) == "equalizer[0]." + std::string(name) + ": is missing");
-    CHECK(errorAfter([](Json& j) { j["equalizer"] = {{{"type", "highpass"}, {"frequency", 50}}}; }) == "");
+    CHECK(profileErrorAfter([](Json& j) { j["equalizer"] = {{{"type", "highpass"}, {"frequency", 50}}}; }) == "");
 }
 
 TEST_CASE("A wrong entry of a profile fails at its place and says what is right", "[io]")
 {
     using Json = nlohmann::json;
-    CHECK(errorAfter([](Json& j) { j["technology"] = "motor"; }) ==
+    CHECK(profileErrorAfter([](Json& j) { j["technology"] = "motor"; }) ==
           "technology: must be erm, lra, piezo, eap, vca or pcm, not 'motor'");
-    CHECK(errorAfter([](Json& j) { j["technology"] = 3; }) == "technology: must be erm, lra, piezo, eap, vca or pcm");
-    CHECK(errorAfter([](Json& j) { j["frequencyMapping"] = "octave"; }) ==
+    CHECK(profileErrorAfter([](Json& j) { j["technology"] = 3; }) ==
+          "technology: must be erm, lra, piezo, eap, vca or pcm");
+    CHECK(profileErrorAfter([](Json& j) { j["frequencyMapping"] = "octave"; }) ==
           "frequencyMapping: must be clamp, rescale or fold, not 'octave'");
-    CHECK(errorAfter([](Json& j) { j["transient"]["shape"] = ""; }) ==
+    CHECK(profileErrorAfter([](Json& j) { j["transient"]["shape"] = ""; }) ==
           "transient.shape: must be adaptive, square or sine, not ''");
-    CHECK(errorAfter([](Json& j) { j["resonance"]["q"] = 0; }) == "resonance.q: must be 0.01 to 100");
-    CHECK(errorAfter([](Json& j) { j["resonance"]["q"] = "10"; }) == "resonance.q: must be a number");
-    CHECK(errorAfter([](Json& j) { j["resonance"]["q"] = nullptr; }) == "resonance.q: must be a number");
-    CHECK(errorAfter(
+    CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = 0; }) == "resonance.q: must be 0.01 to 100");
+    CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = "10"; }) == "resonance.q: must be a number");
+    CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = nullptr; }) == "resonance.q: must be a number");
+    CHECK(profileErrorAfter(
               [](Json& j) {
                   j["range"] = {{"lowFrequency", 200}, {"highFrequency", 100}};
               }) == "range.highFrequency: must be above lowFrequency");
-    CHECK(errorAfter([](Json& j) { j["range"] = 5; }) == "range: must be an object in braces");
-    CHECK(errorAfter([](Json& j) { j["polyphony"] = 1.5; }) == "polyphony: must be a whole number of voices, 0 to 64");
-    CHECK(errorAfter([](Json& j) { j["polyphony"] = 1e99; }) == "polyphony: must be a whole number of voices, 0 to 64");
-    CHECK(errorAfter([](Json& j) { j["polyphony"] = 65; }) == "polyphony: must be 0 to 64 voices");
-    CHECK(errorAfter([](Json& j) { j["drive"]["impedance"] = false; }) == "drive.impedance: must be a number");
-    CHECK(errorAfter([](Json& j) { j["drive"]["maxPower"] = 1; }) ==
+    CHECK(profileErrorAfter([](Json& j) { j["range"] = 5; }) == "range: must be an object in braces");
+    CHECK(profileErrorAfter([](Json& j) { j["polyphony"] = 1.5; }) ==
+          "polyphony: must be a whole number of voices, 0 to 64");
+    CHECK(profileErrorAfter([](Json& j) { j["polyphony"] = 1e99; }) ==
+          "polyphony: must be a whole number of voices, 0 to 64");
+    CHECK(profileErrorAfter([](Json& j) { j["polyphony"] = 65; }) == "polyphony: must be 0 to 64 voices");
+    CHECK(profileErrorAfter([](Json& j) { j["drive"]["impedance"] = false; }) == "drive.impedance: must be a number");
+    CHECK(profileErrorAfter([](Json& j) { j["drive"]["maxPower"] = 1; }) ==
           "drive.maxPower: needs drive.impedance and drive.maxVoltageRms beside it");
-    CHECK(errorAfter([](Json& j) { j["body"]["movingMass"] = -1; }) == "body.movingMass: must be 0.0000001 to 10 kg");
-    CHECK(errorAfter([](Json& j) { j["body"] = nullptr; }) == "body: must be an object in braces");
-    CHECK(errorAfter([](Json& j) { j["sources"]["drive"] = 1; }) == "sources.drive: must be a text in quotes");
-    CHECK(errorAfter([](Json& j) { j["sources"]["drive"] = ""; }) == "sources.drive: must say something");
-    CHECK(errorAfter([](Json& j) { j["sources"]["a\nb"] = ""; }) == "sources.a?b: must say something");
-    CHECK(errorAfter([](Json& j) { j["sources"][""] = "x"; }) == "sources: has an entry without a path");
-    CHECK(errorAfter(
+    CHECK(profileErrorAfter([](Json& j) { j["body"]["movingMass"] = -1; }) ==
+          "body.movingMass: must be 0.0000001 to 10 kg");
+    CHECK(profileErrorAfter([](Json& j) { j["body"] = nullptr; }) == "body: must be an object in braces");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"]["drive"] = 1; }) == "sources.drive: must be a text in quotes");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"]["drive"] = ""; }) == "sources.drive: must say something");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"]["a\nb"] = ""; }) == "sources.a?b: must say something");
+    CHECK(profileErrorAfter([](Json& j) { j["sources"][""] = "x"; }) == "sources: has an entry without a path");
+    CHECK(profileErrorAfter(
               [](Json& j)
               {
                   for (int i = 0; i < 257; ++i)
                       j["sources"]["path" + std::to_string(i)] = "x";
               }) == "sources: has more than 256 entries");
-    CHECK(errorAfter(
+    CHECK(profileErrorAfter(
               [](Json& j)
               {
                   for (int i = 0; i < 1000; ++i)
                       j["equalizer"].push_back({{"type", "peak"}, {"frequency", 50}, {"gain", 1}});
               }) == "equalizer: has more than 16 sections");
-    CHECK(errorAfter([](Json& j) { j["version"] = 2; }) ==
+    CHECK(profileErrorAfter([](Json& j) { j["version"] = 2; }) ==
           "version: was written by a newer version (2) of the format; this program reads version 1");
     // JSON has no NaN, so it fails as text.
     CHECK(readProfileJson(R"({"format":NaN})").error().where == "line 1, column 11");

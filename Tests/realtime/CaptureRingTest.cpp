@@ -3,6 +3,7 @@
 
 #include <pacini/realtime/CaptureRing.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>

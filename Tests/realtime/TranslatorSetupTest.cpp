@@ -7,10 +7,12 @@
 #include <pacini/realtime/TranslatorPresets.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace pacini;
@@ -33,6 +35,37 @@ bool has(const TranslatorPlan& plan, const std::string& what)
     return std::any_of(plan.begin(), plan.end(), [&](const TranslatorSaving& s) { return s.what == what; });
 }
 
+/// A translator for an actuator with a resonance to flatten and limits to keep.
+struct GuardedTranslator : Translator
+{
+    GuardedTranslator()
+    {
+        TranslatorSetup wanted;
+        Profile profile;
+        profile.technology = Technology::vca;
+        profile.resonance = {67.0, 4.0};
+        profile.range = {40.0, 400.0, 50.0};
+        profile.drive.impedance = 8.0;
+        profile.drive.maxVoltageRms = 1.0;
+        profile.drive.maxPower = 0.05;
+        profile.drive.excursion = 0.0006;
+        profile.drive.maxExcursion = 0.001;
+        wanted.profile = profile;
+        setSetup(wanted);
+    }
+};
+
+/// One voice for all.
+struct NarrowTranslator : Translator
+{
+    NarrowTranslator()
+    {
+        TranslatorSetup wanted;
+        wanted.profile = narrowLra();
+        setSetup(wanted);
+    }
+};
+
 double shareWithin(const std::vector<float>& x, double low, double high, double fs)
 {
     // Energy by a plain sum over frequencies of a whole number of periods each.
@@ -48,6 +81,12 @@ double shareWithin(const std::vector<float>& x, double low, double high, double 
     return inside / all;
 }
 } // namespace
+
+TEST_CASE("the translator keeps the contract of blocks with a profile, limits and all", "[realtime]")
+{
+    checkBlockContract<GuardedTranslator>(TranslatorParams{}, {.bound = 1.0});
+    checkBlockContract<NarrowTranslator>(TranslatorParams{}, {.bound = 1.0});
+}
 
 TEST_CASE("an actuator of one voice gets one tone within its range", "[realtime]")
 {
@@ -147,6 +186,43 @@ TEST_CASE("another actuator comes without a click, and the latency stays", "[rea
         largest = std::max(largest, std::abs(static_cast<double>(out[n + 1]) - static_cast<double>(out[n])));
     CHECK(largest < 2.0 * 0.4 * 2.0 * std::numbers::pi * 190.0 / fs);
     CHECK(rms(std::span<const float>(out).last(4800)) > 0.2);
+}
+
+TEST_CASE("set-ups, meters and sound may come from three threads", "[realtime]")
+{
+    Translator translator;
+    translator.prepare({48000.0, 64});
+    std::atomic<bool> stop{false};
+    std::thread audio(
+        [&]
+        {
+            const auto in = noise(64, 8);
+            std::vector<float> out(64);
+            TranslatorParams params;
+            while (!stop.load())
+            {
+                params.intensity = params.intensity > -1.0 ? params.intensity - 0.01 : 0.0;
+                translator.setParams(params);
+                translator.process(in, out);
+            }
+        });
+    std::thread display(
+        [&]
+        {
+            while (!stop.load())
+                if (translator.meters().read().bands > maxTranslatorBands)
+                    stop = true;
+        });
+    for (std::size_t i = 0; i < 200; ++i)
+    {
+        TranslatorSetup setup;
+        setup.bands.bands = 1 + i % 12;
+        translator.setSetup(setup);
+        (void)translator.plan({});
+    }
+    CHECK_FALSE(stop.exchange(true));
+    audio.join();
+    display.join();
 }
 
 TEST_CASE("on any actuator the drive is finite and within full scale", "[realtime]")

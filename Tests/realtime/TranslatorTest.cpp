@@ -284,6 +284,34 @@ TEST_CASE("events alone are felt when all else is muted", "[realtime]")
     CHECK(peakOf(translated({}, params, fs, in)) == 0.0);
 }
 
+TEST_CASE("every event of a fast train is noticed, and a tone has only its beginning", "[realtime]")
+{
+    const double fs = 48000.0;
+    for (double rate : {5.0, 20.0, 50.0})
+    {
+        CAPTURE(rate);
+        std::vector<float> in(48000, 0.0f);
+        unsigned events = 0;
+        for (double at = 0.05; at < 0.95; at += 1.0 / rate, ++events)
+            for (std::size_t n = 0; n < 480; ++n)
+                in[static_cast<std::size_t>(at * fs) + n] =
+                    static_cast<float>(0.8 * std::exp(-static_cast<double>(n) / (0.004 * fs)) *
+                                       std::sin(2.0 * std::numbers::pi * 300.0 * static_cast<double>(n) / fs));
+        Translator translator;
+        translator.prepare({fs, 256});
+        (void)runInBlocks(translator, in, 256);
+        CHECK(translator.meters().read().events == events);
+    }
+    for (double f : {30.0, 60.0, 200.0})
+    {
+        CAPTURE(f);
+        Translator translator;
+        translator.prepare({fs, 256});
+        (void)runInBlocks(translator, sine(96000, f, fs, 0.8), 256);
+        CHECK(translator.meters().read().events <= 1);
+    }
+}
+
 TEST_CASE("silence ends in exact silence soon after a sound", "[realtime]")
 {
     for (double direct : {0.0, 1.0})

@@ -10,8 +10,9 @@ using namespace pacini;
 
 namespace
 {
-constexpr SimplifyMethod methods[] = {SimplifyMethod::visvalingam, SimplifyMethod::douglasPeucker,
-                                      SimplifyMethod::optimal, SimplifyMethod::streaming, SimplifyMethod::lagrangian};
+constexpr SimplifyMethod everyMethod[] = {SimplifyMethod::visvalingam, SimplifyMethod::douglasPeucker,
+                                          SimplifyMethod::optimal, SimplifyMethod::streaming,
+                                          SimplifyMethod::lagrangian};
 
 SimplifyParams toCount(SimplifyMethod method, std::size_t count)
 {
@@ -40,7 +41,7 @@ double rangeOf(const Curve& curve)
 TEST_CASE("Every method keeps the count, the end points and the input's own points, and is idempotent", "[simplify]")
 {
     for (const auto& [name, dense] : test::testCurves(400))
-        for (SimplifyMethod method : methods)
+        for (SimplifyMethod method : everyMethod)
             for (std::size_t count : {0u, 2u, 3u, 5u, 17u, 60u, 399u})
             {
                 CAPTURE(name, static_cast<int>(method), count);
@@ -79,7 +80,7 @@ TEST_CASE("Methods that can spend the whole count do, where the curve has use fo
 TEST_CASE("Every method keeps its error bound and the end points", "[simplify]")
 {
     for (const auto& [name, dense] : test::testCurves(500))
-        for (SimplifyMethod method : methods)
+        for (SimplifyMethod method : everyMethod)
             for (double relative : {0.0, 1e-4, 0.02, 0.2, 2.0})
             {
                 const double bound = relative * std::max(rangeOf(dense), 0.01);
@@ -106,7 +107,7 @@ TEST_CASE("A second pass of splitting within a bound changes nothing", "[simplif
 TEST_CASE("With a bound and a count, the bound is held where the count allows it", "[simplify]")
 {
     const Curve dense = test::curveOfValues(test::strikes(1000, 6));
-    for (SimplifyMethod method : methods)
+    for (SimplifyMethod method : everyMethod)
     {
         CAPTURE(static_cast<int>(method));
         auto params = toBound(method, 0.05);
@@ -120,7 +121,7 @@ TEST_CASE("With a bound and a count, the bound is held where the count allows it
 
 TEST_CASE("Curves of no, one and two points come back as they are", "[simplify]")
 {
-    for (SimplifyMethod method : methods)
+    for (SimplifyMethod method : everyMethod)
         for (const auto& params : {toCount(method, 5), toCount(method, 0), toBound(method, 0.1)})
         {
             CHECK(simplify({}, params).value().empty());
@@ -133,7 +134,7 @@ TEST_CASE("Curves of no, one and two points come back as they are", "[simplify]"
 
 TEST_CASE("Straight lines and constants become two points", "[simplify]")
 {
-    for (SimplifyMethod method : methods)
+    for (SimplifyMethod method : everyMethod)
     {
         CAPTURE(static_cast<int>(method));
         Curve line;
@@ -156,7 +157,7 @@ TEST_CASE("Steps survive every method that has the points for them", "[simplify]
     for (int i = 100; i <= 200; ++i)
         dense.push_back({0.01 * i, 0.9});
     const Curve step{{0.0, 0.2}, {1.0, 0.2}, {1.0, 0.9}, {2.0, 0.9}};
-    for (SimplifyMethod method : methods)
+    for (SimplifyMethod method : everyMethod)
     {
         CAPTURE(static_cast<int>(method));
         CHECK(simplify(dense, toBound(method, 1e-6)).value() == step);
@@ -168,7 +169,7 @@ TEST_CASE("Steps survive every method that has the points for them", "[simplify]
 TEST_CASE("Refit lowers the RMS error, keeps the times, and respects bound and floor", "[simplify]")
 {
     const Curve dense = test::curveOfValues(test::strikes(2000, 16));
-    for (SimplifyMethod method : methods)
+    for (SimplifyMethod method : everyMethod)
     {
         CAPTURE(static_cast<int>(method));
         for (auto params : {toCount(method, 40), toBound(method, 0.04)})
@@ -194,7 +195,7 @@ TEST_CASE("The choice of points does not depend on the units of value and time",
 {
     // Powers of two scale without rounding.
     for (const auto& [name, dense] : test::testCurves(600))
-        for (SimplifyMethod method : methods)
+        for (SimplifyMethod method : everyMethod)
             for (double scale : {0x1.0p-40, 0x1.0p+30})
             {
                 CAPTURE(name, static_cast<int>(method), scale);
@@ -220,7 +221,7 @@ TEST_CASE("Least squares by dynamic programming has the lowest RMS error of all 
         {
             const double best =
                 curveError(dense, simplify(dense, toCount(SimplifyMethod::lagrangian, count)).value()).rms;
-            for (SimplifyMethod method : methods)
+            for (SimplifyMethod method : everyMethod)
             {
                 CAPTURE(seed, count, static_cast<int>(method));
                 CHECK(best <= 1.03 * curveError(dense, simplify(dense, toCount(method, count)).value()).rms);

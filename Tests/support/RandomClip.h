@@ -14,7 +14,7 @@ namespace pacini::test
 {
 
 /// A valid clip that uses every member; numbers have all their digits, times repeat now and then (steps).
-inline Clip randomClip(std::uint64_t seed, std::size_t pointsPerCurve = 20)
+inline Clip randomFullClip(std::uint64_t seed, std::size_t pointsPerCurve = 20)
 {
     Random random(seed);
     Clip clip;

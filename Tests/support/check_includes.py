@@ -28,10 +28,11 @@ ALL = set(CORE)
 SOURCE = {
     "io": (ALL, {"io"}, False),
     "cli": (ALL, {"io", "cli"}, False),
+    "document": (ALL, {"io", "document"}, False),
     "devices": (ALL, {"devices"}, False),
     "plugin": (ALL, {"io", "devices", "editor", "plugin"}, True),
-    "editor": (ALL, {"io", "devices", "editor"}, True),
-    "app": (ALL, {"io", "devices", "editor", "plugin", "app"}, True),
+    "editor": (ALL, {"io", "document", "devices", "editor"}, True),
+    "app": (ALL, {"io", "document", "devices", "editor", "plugin", "app"}, True),
 }
 
 # What Core must never touch: files, threads, clocks, JSON, hosts, and process-wide state.

@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 #include "support/Measure.h"
+#include "support/Render.h"
 
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -14,6 +15,7 @@
 #include <string>
 
 using namespace pacini;
+using test::drive;
 
 namespace
 {
@@ -27,21 +29,6 @@ Profile shipped(const std::string& name)
 Band band(double hertz, double level, int priority = 0)
 {
     return {hertz / 1.2, hertz, hertz * 1.2, priority, {{0.0, level}, {1.0, level}}, {{0.0, hertz}, {1.0, hertz}}};
-}
-
-std::vector<float> drive(const Clip& clip, const Profile& profile, const CompileParams& params = {},
-                         const ScenePlayerParams& playing = {})
-{
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.resize(1);
-    const auto plan = compilePlan(scene, &profile, params);
-    REQUIRE(plan.ok());
-    ScenePlayer player(*plan, playing);
-    std::vector<float> y(static_cast<std::size_t>(player.totalFrames()));
-    const std::span<float> all(y);
-    player.process(std::span(&all, 1));
-    return y;
 }
 
 /// Frames in which the magnitude rises from 10 to 90 % of its largest value in the first half.

@@ -2,6 +2,8 @@
 #include "support/ClipSamples.h"
 #include "support/Golden.h"
 #include "support/HeapGuard.h"
+#include "support/Measure.h"
+#include "support/Render.h"
 
 #include <pacini/synthesis/Decoder.h>
 
@@ -9,21 +11,14 @@
 #include <numbers>
 
 using namespace pacini;
+using test::render;
 
 namespace
 {
-std::vector<float> render(Decoder& decoder, std::size_t block)
-{
-    std::vector<float> out(static_cast<std::size_t>(decoder.totalFrames()));
-    for (std::size_t i = 0; i < out.size(); i += block)
-        decoder.process(std::span(out).subspan(i, std::min(block, out.size() - i)));
-    return out;
-}
-
 std::vector<float> render(const Clip& clip, const DecoderParams& params)
 {
     Decoder decoder(clip, params);
-    return render(decoder, 4096);
+    return test::render(decoder, 4096);
 }
 
 Clip toneClip(double frequency, double amplitude, double duration)
@@ -34,13 +29,6 @@ Clip toneClip(double frequency, double amplitude, double duration)
     return clip;
 }
 
-double rms(std::span<const float> x)
-{
-    double sum = 0.0;
-    for (float v : x)
-        sum += static_cast<double>(v) * static_cast<double>(v);
-    return std::sqrt(sum / static_cast<double>(x.size()));
-}
 } // namespace
 
 TEST_CASE("The thesis readings of the decoder give the golden signals", "[synthesis][golden]")
@@ -137,7 +125,7 @@ TEST_CASE("A band sounds at its frequency and amplitude at every output rate", "
         const double scale = 2.0 / static_cast<double>(to - from);
         CHECK(im * scale == Approx(0.8).epsilon(1e-3)); // a sine, in phase with the clip's start
         CHECK(std::abs(re * scale) < 2e-3);
-        CHECK(rms(std::span(y).subspan(from, to - from)) == Approx(0.8 / std::sqrt(2.0)).epsilon(1e-3));
+        CHECK(test::rms(std::span(y).subspan(from, to - from)) == Approx(0.8 / std::sqrt(2.0)).epsilon(1e-3));
     }
 }
 
@@ -152,13 +140,13 @@ TEST_CASE("Transposition moves pitch, stretch moves time, delay shifts, gain sca
     params.gain = 0.5;
     const auto y = render(clip, params);
     REQUIRE(y.size() == 108000);
-    CHECK(rms(std::span(y).first(12000)) == 0.0);
+    CHECK(test::rms(std::span(y).first(12000)) == 0.0);
     int crossings = 0;
     for (std::size_t n = 36001; n < 60000; ++n)
         crossings += (y[n] >= 0.0f) != (y[n - 1] >= 0.0f) ? 1 : 0;
     CHECK(std::abs(crossings - 200) <= 1); // 200 Hz for half a second
     CHECK(*std::max_element(y.begin(), y.end()) == Approx(0.25).epsilon(0.01));
-    CHECK(rms(std::span(y).subspan(60100, 40000)) < 1e-4);
+    CHECK(test::rms(std::span(y).subspan(60100, 40000)) < 1e-4);
 }
 
 TEST_CASE("What transposition pushes out of the range does not fold back", "[synthesis]")
@@ -181,7 +169,7 @@ TEST_CASE("The sum of bands follows the envelope where there is one", "[synthesi
     {
         std::vector<double> e;
         for (std::size_t i = 0; i + 960 <= y.size(); i += 480)
-            e.push_back(std::sqrt(2.0) * rms(std::span(y).subspan(i, 960)));
+            e.push_back(std::sqrt(2.0) * test::rms(std::span(y).subspan(i, 960)));
         return e;
     };
     const auto levelled = smoothed(render(clip, params));
@@ -208,7 +196,7 @@ TEST_CASE("An event tops the bands up to its amplitude and costs nothing where t
     CHECK(*std::max_element(alone.begin(), alone.end()) == Approx(0.6).epsilon(0.15));
     clip.envelope = {{0.0, 0.7}, {0.4, 0.7}};
     const auto masked = render(clip, {});
-    CHECK(rms(masked) == 0.0);
+    CHECK(test::rms(masked) == 0.0);
 }
 
 TEST_CASE("Fast events keep apart: adaptive pulses end before the next begins", "[synthesis]")

@@ -2,13 +2,12 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 #include "support/Catch.h"
+#include "support/Render.h"
 
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/analysis/Encoder.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
-#include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
 
 #include <filesystem>
 #include <map>
@@ -21,17 +20,9 @@ namespace
 {
 std::vector<float> felt(const Clip& clip, const Profile& profile, bool adapt)
 {
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.resize(1);
     CompileParams params;
     params.adapt = adapt;
-    const auto plan = compilePlan(scene, &profile, params);
-    REQUIRE(plan.ok());
-    ScenePlayer player(*plan);
-    std::vector<float> y(static_cast<std::size_t>(player.totalFrames()));
-    const std::span<float> all(y);
-    player.process(std::span(&all, 1));
+    auto y = test::drive(clip, profile, params);
     FeltModel model;
     model.prepare({48000.0, y.size()});
     model.setParams(*feltModelParams(profile));

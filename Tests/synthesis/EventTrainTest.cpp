@@ -12,18 +12,18 @@ using namespace pacini;
 
 namespace
 {
-constexpr double fs = 44100.0;
+constexpr double trainRate = 44100.0;
 
 /// Two seconds of clicks: decaying sines of `f` Hz.
 std::vector<float> clicks(double rate, double f, double decay)
 {
-    std::vector<float> x(static_cast<std::size_t>(2.2 * fs), 0.0f);
+    std::vector<float> x(static_cast<std::size_t>(2.2 * trainRate), 0.0f);
     for (int k = 0; k < 2.0 * rate; ++k)
     {
-        const auto at = static_cast<std::size_t>((0.05 + k / rate) * fs);
+        const auto at = static_cast<std::size_t>((0.05 + k / rate) * trainRate);
         for (std::size_t n = 0; n < 500; ++n)
         {
-            const double t = static_cast<double>(n) / fs;
+            const double t = static_cast<double>(n) / trainRate;
             x[at + n] += static_cast<float>(0.7 * std::exp(-t / decay) * std::sin(2.0 * std::numbers::pi * f * t));
         }
     }

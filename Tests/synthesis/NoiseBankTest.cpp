@@ -11,14 +11,14 @@ using namespace pacini;
 
 namespace
 {
-struct Signal
+struct Sum
 {
     std::vector<double> re, im;
 };
 
-Signal play(NoiseBank& bank, std::size_t frames, std::size_t block)
+Sum play(NoiseBank& bank, std::size_t frames, std::size_t block)
 {
-    Signal out{std::vector<double>(frames, 0.0), std::vector<double>(frames, 0.0)};
+    Sum out{std::vector<double>(frames, 0.0), std::vector<double>(frames, 0.0)};
     for (std::size_t i = 0; i < frames; i += block)
     {
         const std::size_t n = std::min(block, frames - i);

@@ -1,6 +1,7 @@
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 #include "support/HeapGuard.h"
+#include "support/Render.h"
 
 #include <pacini/synthesis/Decoder.h>
 
@@ -9,17 +10,10 @@
 #include <numbers>
 
 using namespace pacini;
+using test::render;
 
 namespace
 {
-std::vector<float> render(Decoder& decoder, std::size_t block)
-{
-    std::vector<float> y(static_cast<std::size_t>(decoder.totalFrames()));
-    for (std::size_t i = 0; i < y.size(); i += block)
-        decoder.process(std::span(y).subspan(i, std::min(block, y.size() - i)));
-    return y;
-}
-
 /// Upward zero crossings per second between two times.
 double frequencyIn(std::span<const float> y, double fs, double from, double to)
 {
@@ -35,7 +29,7 @@ double frequencyIn(std::span<const float> y, double fs, double from, double to)
     return count > 0 ? fs * count / (last - first) : 0.0;
 }
 
-Clip tone(double hertz, double seconds)
+Clip wideTone(double hertz, double seconds)
 {
     Clip clip;
     clip.duration = seconds;
@@ -62,7 +56,7 @@ TEST_CASE("Clock pieces join without gaps, and frameOf undoes clipAt", "[synthes
 TEST_CASE("A scheduled transposition comes on its sample and keeps the phase", "[synthesis]")
 {
     const double fs = 48000.0;
-    Decoder decoder(tone(100.0, 2.0), {}, {{1.0, 12.0, 1.0}});
+    Decoder decoder(wideTone(100.0, 2.0), {}, {{1.0, 12.0, 1.0}});
     const auto y = render(decoder, 100);
     CHECK(frequencyIn(y, fs, 0.1, 0.98) == Approx(100.0).epsilon(1e-4));
     CHECK(frequencyIn(y, fs, 1.02, 1.9) == Approx(200.0).epsilon(1e-4));
@@ -75,7 +69,7 @@ TEST_CASE("A scheduled transposition comes on its sample and keeps the phase", "
 
 TEST_CASE("A scheduled stretch moves all that follows: curves, events and the end", "[synthesis]")
 {
-    Clip clip = tone(100.0, 2.0);
+    Clip clip = wideTone(100.0, 2.0);
     clip.bands[0].amplitude = {{0.0, 0.0}, {1.5, 0.0}, {1.501, 0.5}, {2.0, 0.5}};
     clip.transients = {{0.5, 0.8, 0.5}, {1.25, 0.8, 0.5}};
     const DecoderParams params;
@@ -131,7 +125,7 @@ TEST_CASE("A live change is heard within 40 ms and needs no memory", "[synthesis
 {
     DecoderParams params;
     params.headroom = 12.0;
-    Decoder decoder(tone(100.0, 3.0), params);
+    Decoder decoder(wideTone(100.0, 3.0), params);
     std::vector<float> y(144000);
     decoder.process(std::span(y).first(48000));
     {

@@ -2,6 +2,7 @@
 #include "support/ClipSamples.h"
 #include "support/HeapGuard.h"
 #include "support/Measure.h"
+#include "support/Render.h"
 
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
@@ -11,35 +12,20 @@
 #include <limits>
 
 using namespace pacini;
+using test::Channels;
 
 namespace
 {
-using Channels = std::vector<std::vector<float>>;
-
-Channels render(ScenePlayer& player, std::size_t block)
-{
-    const auto frames = static_cast<std::size_t>(player.totalFrames());
-    Channels out(player.actuators(), std::vector<float>(frames));
-    for (std::size_t i = 0; i < frames; i += block)
-    {
-        std::vector<std::span<float>> part;
-        for (auto& channel : out)
-            part.push_back(std::span(channel).subspan(i, std::min(block, frames - i)));
-        player.process(part);
-    }
-    return out;
-}
-
 Channels render(const Scene& scene, const CompileParams& params = {}, const Profile* profile = nullptr,
                 std::size_t block = 1000)
 {
     const auto plan = compilePlan(scene, profile, params);
     REQUIRE(plan.ok());
     ScenePlayer player(*plan, {.sampleRate = params.sampleRate});
-    return render(player, block);
+    return test::renderChannels(player, player.actuators(), block);
 }
 
-CompileParams everything()
+CompileParams playEverything()
 {
     CompileParams params;
     params.leaveOut = false;
@@ -111,7 +97,7 @@ TEST_CASE("A scene of one play is that clip", "[scene]")
         Decoder decoder(scene.clips[0], {});
         std::vector<float> alone(static_cast<std::size_t>(decoder.totalFrames()));
         decoder.process(alone);
-        CHECK((render(scene, everything()).front() == alone));
+        CHECK((render(scene, playEverything()).front() == alone));
     }
 }
 
@@ -133,7 +119,7 @@ TEST_CASE("A scene does not depend on the block size", "[scene]")
     const auto whole = [&](std::size_t block)
     {
         ScenePlayer player(*plan);
-        return render(player, block);
+        return test::renderChannels(player, player.actuators(), block);
     };
     const auto reference = whole(1u << 20);
     CHECK(energy(reference) > 1.0);
@@ -257,7 +243,8 @@ TEST_CASE("What is left out costs less than predicted, and that less than the to
             const auto plan = compilePlan(scene, nullptr, params);
             REQUIRE(plan.ok());
             ScenePlayer player(*plan);
-            const double measured = errorInDecibels(render(player, 4096), render(scene, everything()));
+            const double measured = errorInDecibels(test::renderChannels(player, player.actuators(), 4096),
+                                                    render(scene, playEverything()));
             CHECK(measured <= plan->predictedError);
             CHECK(plan->predictedError <= tolerance);
             if (tolerance == -40.0)

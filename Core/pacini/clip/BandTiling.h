@@ -2,6 +2,7 @@
 
 // Where the bands of a clip lie.
 
+#include <pacini/clip/Clip.h>
 #include <pacini/foundation/BandSpacing.h>
 
 #include <cassert>
@@ -39,5 +40,37 @@ struct BandEdges
     }
     return bands;
 }
+
+namespace detail
+{
+/// Whether bands can tile what lies between two frequencies, Hz.
+inline bool canTile(double low, double high)
+{
+    return low > 0.0 && high > low && high <= limits::frequency;
+}
+
+/// Puts bands on as many edges.
+inline void setFrequencies(std::vector<Band>& bands, const std::vector<BandEdges>& edges)
+{
+    for (std::size_t k = 0; k < bands.size(); ++k)
+    {
+        bands[k].lowFrequency = edges[k].low;
+        bands[k].centreFrequency = edges[k].centre;
+        bands[k].highFrequency = edges[k].high;
+    }
+}
+
+/// Whether bands lie as tiledBands() would put them.
+inline bool isTiled(const std::vector<Band>& bands, BandSpacing spacing)
+{
+    const double low = bands.front().lowFrequency;
+    const double high = bands.back().highFrequency;
+    if (!canTile(low, high))
+        return false;
+    std::vector<Band> tiled = bands;
+    setFrequencies(tiled, tiledBands(bands.size(), low, high, spacing));
+    return tiled == bands;
+}
+} // namespace detail
 
 } // namespace pacini

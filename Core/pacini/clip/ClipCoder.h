@@ -285,29 +285,6 @@ private:
         }
     }
 
-    static bool canTile(double low, double high) { return low > 0.0 && high > low && high <= limits::frequency; }
-
-    static bool isTiled(const std::vector<Band>& bands, BandSpacing spacing)
-    {
-        const double low = bands.front().lowFrequency;
-        const double high = bands.back().highFrequency;
-        if (!canTile(low, high))
-            return false;
-        std::vector<Band> tiled = bands;
-        setFrequencies(tiled, tiledBands(bands.size(), low, high, spacing));
-        return tiled == bands;
-    }
-
-    static void setFrequencies(std::vector<Band>& bands, const std::vector<BandEdges>& edges)
-    {
-        for (std::size_t k = 0; k < bands.size(); ++k)
-        {
-            bands[k].lowFrequency = edges[k].low;
-            bands[k].centreFrequency = edges[k].centre;
-            bands[k].highFrequency = edges[k].high;
-        }
-    }
-
     /// Priorities that rank the bands by energy cost one bit.
     void codePriorities(std::vector<Band>& bands, const std::vector<int>& expected)
     {
@@ -374,29 +351,8 @@ private:
 
     void codeTexts(Clip& clip)
     {
-        TextCoder text = clipTextCoder();
-        std::size_t left = 2 * limits::text; // escaping can double a text
-        const auto codeRaw = [&](const std::string& words)
-        {
-            std::string result = text.code(coder, words, left);
-            left -= std::min(left, result.size());
-            return result;
-        };
-        const auto codeText = [&](const std::string& words)
-        {
-            return unescaped(codeRaw(escaped(words)));
-        };
-        clip.source.file = codeText(clip.source.file);
-        if (coder.bit(clip.name == fileStem(clip.source.file), namedAfterFileModel))
-            clip.name = fileStem(clip.source.file);
-        else
-            clip.name = codeText(clip.name);
-
-        if constexpr (!reading)
-            codeRaw(parameterText(clip.encoder));
-        else
-            clip.encoder = parametersOf(codeRaw({}));
-
+        ClipTexts<Coder> texts(coder);
+        texts.codeClip(clip);
         auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
         count = std::min(count, mostPoints - points);
         AdaptiveNumber gaps(300.0);
@@ -406,7 +362,7 @@ private:
             const Marker wanted = reading ? Marker{} : clip.markers[i];
             tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
                                                  coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
-            Marker marker{timeOf(tick), codeText(wanted.name)};
+            Marker marker{timeOf(tick), texts.code(wanted.name)};
             if constexpr (reading)
                 clip.markers.push_back(std::move(marker));
         }
@@ -422,7 +378,7 @@ private:
     std::size_t points = 0;
     bool failed = false;
     AdaptiveBit wholeModel{0.8, 2}, wholeDurationModel{0.9, 2}, usualRateModel{0.9, 2}, tiledModel{0.9, 2},
-        rankedModel{0.9, 2}, namedAfterFileModel{0.9, 2};
+        rankedModel{0.9, 2};
 };
 
 } // namespace detail

@@ -120,4 +120,42 @@ inline std::vector<EncoderParameter> parametersOf(const std::string& text)
     return parameters;
 }
 
+/// Codes the texts of a clip both ways, as ClipCoder does with the rest.
+template <typename Coder>
+class ClipTexts
+{
+public:
+    explicit ClipTexts(Coder& coderToUse) : coder(coderToUse) {}
+
+    /// Name, source and parameters.
+    void codeClip(Clip& clip)
+    {
+        clip.source.file = code(clip.source.file);
+        if (coder.bit(clip.name == fileStem(clip.source.file), namedAfterFileModel))
+            clip.name = fileStem(clip.source.file);
+        else
+            clip.name = code(clip.name);
+
+        if constexpr (!Coder::reading)
+            codeRaw(parameterText(clip.encoder));
+        else
+            clip.encoder = parametersOf(codeRaw({}));
+    }
+
+    std::string code(const std::string& words) { return unescaped(codeRaw(escaped(words))); }
+
+private:
+    std::string codeRaw(const std::string& words)
+    {
+        std::string result = text.code(coder, words, left);
+        left -= std::min(left, result.size());
+        return result;
+    }
+
+    Coder& coder;
+    TextCoder text = clipTextCoder();
+    std::size_t left = 2 * limits::text; // escaping can double a text
+    AdaptiveBit namedAfterFileModel{0.9, 2};
+};
+
 } // namespace pacini::detail

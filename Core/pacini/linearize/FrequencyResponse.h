@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Result.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -55,6 +56,20 @@ struct FrequencyResponse
             return wrong(i, "level", ErrorCode::invalidData, "must be -400 to 400 dB");
     }
     return {};
+}
+
+/// The level at `frequency` Hz, by a straight line over the logarithm of frequency; at the ends the nearest point.
+[[nodiscard]] inline double levelAt(const FrequencyResponse& response, double frequency) noexcept
+{
+    const auto& f = response.frequency;
+    const auto above = std::lower_bound(f.begin(), f.end(), frequency);
+    if (above == f.begin())
+        return response.level.front();
+    if (above == f.end())
+        return response.level.back();
+    const auto i = static_cast<std::size_t>(above - f.begin());
+    const double part = std::log(frequency / f[i - 1]) / std::log(f[i] / f[i - 1]);
+    return response.level[i - 1] + part * (response.level[i] - response.level[i - 1]);
 }
 
 } // namespace pacini

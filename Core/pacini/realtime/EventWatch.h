@@ -22,24 +22,25 @@ struct HeardEvent
 
 /// The relative score of TransientDetector, (fast - slow) / (slow + floor), on the peaks of the full band: bright
 /// events count that the range of touch hardly holds. TransientDetector itself names an event when nothing later can
-/// replace it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for the time in which
-/// skin takes two events for one.
+/// replace it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for `deadTime`, since
+/// skin takes two events within 8 to 10 ms for one. The release is short enough for 60 events a second, the hold
+/// outlasts the half waves of 50 Hz.
 class EventWatch
 {
 public:
     static constexpr double peakWait = 0.001; ///< s
-    static constexpr double deadTime = 0.030; ///< s between two events
+    static constexpr double deadTime = 0.010; ///< s between two events
 
     void prepare(double fs) noexcept
     {
         sampleRate = fs;
         TransientScoreParams params;
         params.reading = TransientScoreReading::relative;
-        params.floor = 0.01;
+        params.floor = 0.02;
         params.fastAttack = Seconds(0.0005);
         params.slowAttack = Seconds(0.030);
         params.hold = Seconds(0.010);
-        params.release = Seconds(0.060);
+        params.release = Seconds(0.025);
         score.prepare({fs, 1});
         score.setParams(params);
         waitFrames = static_cast<std::size_t>(std::lround(peakWait * fs));

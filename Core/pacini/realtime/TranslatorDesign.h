@@ -140,7 +140,8 @@ struct TranslatorDesign
                                {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
                                design.innerRate);
             filter.equalizer = pruned.kept;
-            design.filter = designOutputFilter(filter, design.innerRate);
+            if (!design.motor)
+                design.filter = designOutputFilter(filter, design.innerRate);
             for (const DroppedSection& section : pruned.dropped)
                 plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
             if (!flattening)
@@ -174,6 +175,8 @@ struct TranslatorDesign
     design.meter.design(design.layout, design.innerRate);
     Hertz low(1.0), border(1.0), high(1.0);
     const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
+    if (!anyWaveform) // few voices play where they are felt
+        design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
     for (std::size_t k = 0; k < design.layout.bands(); ++k)
     {
         TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};

@@ -2,15 +2,13 @@
 
 // The translator at its inner rate: what is heard, and what is to be felt.
 
-#include <pacini/actuator/LimiterGain.h>
-#include <pacini/actuator/MotorDrive.h>
 #include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierSection.h>
+#include <pacini/realtime/DriveStage.h>
 #include <pacini/realtime/EventPulses.h>
 #include <pacini/realtime/EventWatch.h>
 #include <pacini/realtime/LiveGate.h>
 #include <pacini/realtime/TranslatorDesign.h>
-#include <pacini/realtime/TranslatorMeters.h>
 
 #include <algorithm>
 #include <array>
@@ -37,12 +35,7 @@ public:
         meter = wanted.meter;
         direct = wanted.direct;
         carriers.adopt(wanted);
-        if (wanted.motor)
-        {
-            motor.prepare({fs, controlHop});
-            motor.setParams(*wanted.motor);
-        }
-        limiter.design(0, static_cast<std::size_t>(0.010 * fs), fs);
+        stage.adopt(wanted);
         if (fs != rate)
         {
             rate = fs;
@@ -51,10 +44,11 @@ public:
         }
         gainShare = hopShare(0.005, fs);
         levelShare = hopShare(0.030, fs);
-        strengthShare = hopShare(0.010, fs); // a motor follows no faster
         peakDecay = 1.0 - hopShare(0.020, fs);
         clearSignal();
         setParams(params);
+        direct.jump(rumble * directShare(), texture * directShare());
+        bright.jump(brightGain());
     }
 
     /// Linear gains and the like of clamped parameters. [audio]
@@ -89,7 +83,6 @@ public:
         clearSignal();
         watch.reset();
         gate.reset();
-        limiter.reset();
         framesIntoHop = 0;
         frame = 0;
         begun = false;
@@ -97,8 +90,8 @@ public:
     }
 
     /// Whether the output has faded to 0 on request, so that another design may come.
-    [[nodiscard]] bool faded() const noexcept { return fade.end() == 0.0 && fade.silent() && framesIntoHop == 0; }
-    void setFade(bool out) noexcept { fadeTarget = out ? 0.0 : 1.0; }
+    [[nodiscard]] bool faded() const noexcept { return stage.faded() && framesIntoHop == 0; }
+    void setFade(bool out) noexcept { stage.setFade(out); }
 
     /// All spans of one length: band-limited frames and full-band peaks in, drive out. `onEvent(frame, level)` is
     /// called for every event, with the frame since reset. Stops early, where the design may be changed, if `out` has
@@ -117,7 +110,7 @@ public:
             done += n;
             frame += n;
             framesIntoHop = (framesIntoHop + n) % controlHop;
-            if (faded() && fadeTarget == 0.0)
+            if (faded())
                 break;
         }
         return done;
@@ -125,12 +118,14 @@ public:
 
     [[nodiscard]] double bandPower(std::size_t k) const noexcept { return bandPowers[k]; }
     /// The smallest gain of the limiter since the last call.
-    [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
+    [[nodiscard]] double takeLimiterGain() noexcept { return stage.takeLimiterGain(); }
 
 private:
     static constexpr double baseThreshold = 1.0;
+    // An event shall be felt as strong as its peak below 3 kHz, within these parts of its full-band peak: a bright
+    // click holds little there, but shall be felt.
     static constexpr double leastShare = 0.06;
-    static constexpr double brightShare = 0.25; // of an event's full-band peak that is felt
+    static constexpr double brightShare = 0.25;
 
     void clearSignal() noexcept
     {
@@ -139,12 +134,10 @@ private:
         carriers.reset();
         bright.reset();
         pulses.reset();
-        motor.reset();
-        filterStates = {};
+        stage.reset();
         bandPowers = {};
-        firstStrength = strengthSquared = playedEnergy = playedPeak = heardPeak = 0.0;
+        playedEnergy = playedPeak = heardPeak = 0.0;
         loudest = 0.0;
-        burstLeft = 0;
         asleep = false;
     }
 
@@ -153,11 +146,7 @@ private:
         if (!design)
             return;
         input.jump(inputGain);
-        strength.jump(0.0);
-        drive.jump(intensity);
-        levelGain.jump(1.0);
-        fade.jump(1.0);
-        fadeTarget = 1.0;
+        stage.jump(intensity);
         ratio = transposition;
         direct.jump(rumble * directShare(), texture * directShare());
         bright.jump(brightGain());
@@ -180,24 +169,22 @@ private:
     {
         begun = true;
         input.aim(inputGain, gainShare);
-        drive.aim(intensity, gainShare);
-        // In straight lines of 4 hops, so that the end is 0 and not nearly so.
-        fade.aim(fadeTarget, fadeTarget == fade.end() ? 1.0 : std::min(1.0, 0.25 / std::abs(fadeTarget - fade.end())));
+        stage.aim(intensity, gainShare, playedPeak, playedEnergy);
         ratio += gainShare * (transposition - ratio);
         if (std::abs(ratio - transposition) < 1e-9)
             ratio = transposition;
 
         // A hop without any sign of life: what may be left is 180 dB below full scale.
-        const bool wasAsleep = std::exchange(asleep, frame > 0 && loudest < 1e-9 && pulses.silent() && burstLeft == 0);
+        const bool wasAsleep =
+            std::exchange(asleep, frame > 0 && loudest < 1e-9 && pulses.silent() && !stage.bursting());
         if (asleep && !wasAsleep)
         {
             meter.reset();
             direct.reset();
             carriers.reset();
             bright.reset();
-            filterStates = {};
+            stage.rest();
             bandPowers = {};
-            firstStrength = strengthSquared = 0.0;
         }
         loudest = 0.0;
 
@@ -215,34 +202,16 @@ private:
         }
         carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
         bright.aim(brightGain(), gainShare, design->brightFrequency / rate);
-        if (design->motor)
-        {
-            // Twice smoothed: the drive of a motor sharpens every ripple.
-            const double energy = playedEnergy / static_cast<double>(controlHop);
-            firstStrength += strengthShare * (energy - firstStrength);
-            strengthSquared += strengthShare * (firstStrength - strengthSquared);
-            double level = std::sqrt(2.0 * std::max(strengthSquared, 0.0));
-            if (burstLeft > 0)
-            {
-                --burstLeft;
-                level = std::max(level, burst);
-            }
-            strength.aim(design->levels(level), 1.0);
-        }
-        else if (!design->levels.isIdentity())
-            levelGain.aim(playedPeak > 1e-9 ? design->levels(playedPeak) / playedPeak : 1.0, gainShare);
         playedEnergy = 0.0;
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
-        for (double* value : {&playedPeak, &heardPeak, &firstStrength, &strengthSquared})
+        for (double* value : {&playedPeak, &heardPeak})
             flushTiny(*value);
         meter.flush();
         direct.flush();
         carriers.flush();
         bright.flush();
         watch.flush();
-        for (StateVariableState& state : filterStates)
-            state.flush();
     }
 
     template <typename OnEvent>
@@ -264,7 +233,7 @@ private:
                 eventAt = i; // events are farther apart than a hop
         }
         loudest = std::max(loudest, heard);
-        if (asleep && heard == 0.0 && pulses.silent())
+        if (asleep && heard == 0.0 && pulses.silent() && eventAt == n)
         {
             std::fill(out.begin(), out.end(), 0.0f);
             return;
@@ -292,36 +261,7 @@ private:
         }
         if (!pulses.silent() && !design->motor)
             pulses.addTo(out);
-        finish(out, gates);
-    }
-
-    /// From the sum of what is played to the drive.
-    void finish(std::span<float> out, std::span<const double> gates) noexcept
-    {
-        for (std::size_t i = 0; i < out.size(); ++i)
-        {
-            const double wanted = design->motor ? strength.at(framesIntoHop + i)
-                                                : levelGain.at(framesIntoHop + i) * static_cast<double>(out[i]);
-            out[i] = toSample(drive.at(framesIntoHop + i) * gates[i] * wanted);
-        }
-        if (design->motor)
-            motor.process(out, out);
-        const std::size_t sections = design->filter.sections.size();
-        for (std::size_t i = 0; i < out.size(); ++i)
-        {
-            auto y = static_cast<double>(out[i]);
-            for (std::size_t s = 0; s < sections; ++s)
-                y = filterStates[s].tick(design->filter.sections[s], y);
-            loudest = std::max(loudest, std::abs(y));
-            y *= design->scale * fade.at(framesIntoHop + i);
-            if (!design->protection && !design->motor)
-            {
-                const double g = limiter.tick(y * y);
-                smallestGain = std::min(smallestGain, g);
-                y *= g;
-            }
-            out[i] = toSample(y);
-        }
+        loudest = std::max(loudest, stage.process(out, gates, framesIntoHop));
     }
 
     /// The pulse tops what the bands give the event up to what is to be felt of it. Sharp is what the range of touch
@@ -333,10 +273,7 @@ private:
         if (design->motor)
         {
             if (wanted > 0.0)
-            {
-                burst = wanted;
-                burstLeft = static_cast<std::size_t>(design->motorBurst * rate / static_cast<double>(controlHop)) + 1;
-            }
+                stage.beginBurst(wanted);
             return;
         }
         const double missing = wanted - playedPeak;
@@ -353,7 +290,7 @@ private:
     double inputGain = 1.0, rumble = 1.0, texture = 1.0, transients = 1.0, brightness = 0.5, intensity = 1.0,
            transposition = 1.0;
     double attackShare = 1.0, releaseShare = 1.0, threshold = baseThreshold;
-    double gainShare = 1.0, levelShare = 1.0, strengthShare = 1.0, peakDecay = 0.9;
+    double gainShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
 
     LiveGate gate;
     EventWatch watch;
@@ -362,21 +299,14 @@ private:
     DirectPath direct;
     CarrierSection carriers;
     BrightVoice bright;
-    MotorDrive motor;
-    LimiterGain limiter;
-    std::array<StateVariableState, maxBiquadSections> filterStates{};
+    DriveStage stage;
 
-    HopRamp input, strength, drive, levelGain, fade;
-    double fadeTarget = 1.0;
+    HopRamp input;
     double ratio = 1.0;
-    double firstStrength = 0.0, strengthSquared = 0.0;
-    double burst = 0.0;
-    std::size_t burstLeft = 0;                // hops
     double playedEnergy = 0.0;                // in this hop
     double playedPeak = 0.0, heardPeak = 0.0; // of late
     double loudest = 0.0;                     // in this hop, of input and output
     std::array<double, maxTranslatorBands> bandPowers{};
-    double smallestGain = 1.0;
     std::size_t framesIntoHop = 0;
     std::uint64_t frame = 0;
     bool begun = false;

@@ -2,9 +2,10 @@
 
 // Scene -> RenderPlan.
 
-#include <pacini/actuator/EqualizerPruning.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/DecoderChoice.h>
+#include <pacini/synthesis/ErrorSum.h>
+#include <pacini/synthesis/LeaveOut.h>
 #include <pacini/synthesis/LoopUnroll.h>
 #include <pacini/synthesis/PlayEnergy.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -14,13 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <map>
-#include <numeric>
-#include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,48 +36,10 @@ struct CompileParams
 
 namespace detail
 {
-/// Adds up errors. Parts of one sound that start together add in amplitude, others in power; the sum is raised by 1.5
-/// dB for what different sounds may have in common by chance.
-class ErrorSum
-{
-public:
-    using Key = std::tuple<std::size_t, double, double>; // clip, start, transposition
-
-    [[nodiscard]] double with(const Key& key, double energy) const
-    {
-        const auto found = amplitudes.find(key);
-        const double before = found == amplitudes.end() ? 0.0 : found->second;
-        const double after = before + std::sqrt(energy);
-        return margin * (power - before * before + after * after);
-    }
-    void add(const Key& key, double energy)
-    {
-        double& amplitude = amplitudes[key];
-        power -= amplitude * amplitude;
-        amplitude += std::sqrt(energy);
-        power += amplitude * amplitude;
-    }
-    [[nodiscard]] double total() const { return margin * std::max(power, 0.0); }
-
-private:
-    static constexpr double margin = 1.41;
-    std::map<Key, double> amplitudes;
-    double power = 0.0;
-};
-
-inline double errorInDecibels(double energy, double whole)
-{
-    return energy > 0.0 && whole > 0.0 ? 10.0 * std::log10(energy / whole) : -std::numeric_limits<double>::infinity();
-}
-
 /// How long a play with its changes lasts, s; `duration` of the clip.
 inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, double duration)
 {
-    PlayClock clock(timeline.changes.size());
-    clock.change(0.0, 1.0 / play.stretch, 1.0);
-    for (const DecoderChange& change : timeline.changes)
-        clock.change(change.time, 1.0 / change.stretch, 1.0);
-    return clock.frameOf(duration);
+    return makeClock(play.stretch, timeline).frameOf(duration);
 }
 
 /// Takes the voices that an actuator does not have from the plays that need them least, and says so.
@@ -130,6 +88,143 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
     params.pulses.frequency = profile.transient.frequency;
     params.pulses.cycles = profile.transient.cycles;
 }
+
+/// Fits the clips of a scene to the plan's actuator and notes what was changed.
+inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& clips, const AdaptationParams& params)
+{
+    std::vector<Clip> adapted;
+    for (std::size_t i = 0; i < clips.size(); ++i)
+    {
+        AdaptedClip fitted = adaptClip(clips[i], *plan.profile, params);
+        adapted.push_back(std::move(fitted.clip));
+        for (std::string& what : fitted.changes)
+            plan.adaptations.push_back({indexed("clips", i), std::move(what)});
+    }
+    return adapted;
+}
+
+/// Flattens the actuator's resonance where that helps, and notes it.
+inline void flatten(RenderPlan& plan, const AdaptationParams& params)
+{
+    plan.flattening = flatteningOf(*plan.profile, Decibels(params.maxBoost));
+    if (plan.flattening)
+        plan.adaptations.push_back(
+            {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +
+                            " Hz is flattened down to " +
+                            std::to_string(std::lround(plan.flattening->target.frequency)) + " Hz"});
+}
+
+/// The timelines of all plays, and the plan's duration: a scene without one lasts until the last play ends.
+inline std::vector<PlayTimeline> planTimelines(RenderPlan& plan, const Scene& scene)
+{
+    std::vector<std::vector<SceneChange>> changesOf(scene.plays.size());
+    for (const SceneChange& change : scene.changes)
+        changesOf[change.play].push_back(change);
+    plan.duration = scene.duration;
+    std::vector<PlayTimeline> timelines;
+    timelines.reserve(scene.plays.size());
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        const ScenePlay& play = scene.plays[i];
+        timelines.push_back(makeTimeline(scene, i, changesOf[i]));
+        if (scene.duration == 0.0)
+        {
+            const double content =
+                play.loop > 0.0 ? play.loop * static_cast<double>(play.passes) : scene.clips[play.clip].duration;
+            plan.duration = std::max(plan.duration, play.start + playLength(play, timelines[i], content));
+        }
+    }
+    return timelines;
+}
+
+/// Why nothing of a play can be heard, in plain words; empty when something may be.
+inline std::string whyUnheard(const ScenePlay& play, const PlayTimeline& timeline, double duration)
+{
+    if (play.start >= duration)
+        return "starts after the end of the scene";
+    const bool muted = std::all_of(
+        timeline.gains.begin(), timeline.gains.end(),
+        [](const Curve& curve)
+        { return std::all_of(curve.begin(), curve.end(), [](const Breakpoint& p) { return p.value == 0.0; }); });
+    return muted ? "is muted" : "";
+}
+
+/// How often a play with a loop passes through it until the scene ends.
+inline double passesOf(const ScenePlay& play, const PlayTimeline& timeline, double duration)
+{
+    double fastest = play.stretch;
+    for (const DecoderChange& change : timeline.changes)
+        fastest = std::min(fastest, change.stretch);
+    const double fitting = std::ceil((duration - play.start) / (play.loop * fastest));
+    return play.passes > 0 ? std::min(static_cast<double>(play.passes), fitting) : fitting;
+}
+
+/// The clip of a play, varied and with its loop unrolled. `points` are those of the plays before, which this one's are
+/// added to. Errors: `plays[i].loop` (tooLarge).
+inline Result<Clip> playedClip(const Clip& clip, const ScenePlay& play, const PlayTimeline& timeline, double duration,
+                               const std::string& where, std::size_t& points)
+{
+    Clip played;
+    if (play.loop > 0.0)
+    {
+        const double passes = passesOf(play, timeline, duration);
+        const double perPass = static_cast<double>(breakpointCount(clip) + clip.transients.size()) + 2.0;
+        if (passes * perPass + static_cast<double>(points) > static_cast<double>(mostUnrolledPoints))
+            return Error{ErrorCode::tooLarge, where + ".loop",
+                         "unrolls to too many breakpoints (20 million are the most of a scene); make the loop "
+                         "longer or its passes fewer"};
+        played = unrollLoop(clip, play.loop, static_cast<std::size_t>(std::max(1.0, passes)), play.variation);
+    }
+    else
+        played = vary(clip, play.variation);
+    points += breakpointCount(played) + played.transients.size();
+    return played;
+}
+
+/// How a play's clip is decoded; `adapts`: fitted to the plan's actuator.
+inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const ScenePlay& play,
+                                 const CompileParams& params, bool adapts)
+{
+    DecoderParams base;
+    base.sampleRate = params.sampleRate;
+    base.transposition = play.transposition;
+    base.stretch = play.stretch;
+    base.variation.seed = play.variation.seed; // of the noise; the bands have been varied
+    const double resonance = plan.profile ? plan.profile->resonance.frequency : 67.0;
+    DecoderParams decoder = decoderParamsFor(clip, base, params.decoder, resonance);
+    if (adapts)
+        fitPulses(decoder, *plan.profile, params.decoder);
+    if (plan.motor)
+        decoder.carriers = CarrierMode::none;
+    // Without its highest bands a clip would get another inner rate, and with it other rounding.
+    decoder.reach = highestFrequency(clip, decoder.carriers);
+    return decoder;
+}
+
+/// Plans all plays that can be heard, from the clips as they are fitted to the actuator. Errors: those of
+/// playedClip().
+inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<Clip>& clips,
+                              std::vector<PlayTimeline> timelines, const CompileParams& params, bool adapts)
+{
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+    {
+        const ScenePlay& play = scene.plays[i];
+        const std::string where = indexed("plays", i);
+        if (params.leaveOut)
+            if (std::string why = whyUnheard(play, timelines[i], plan.duration); !why.empty())
+            {
+                plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
+                continue;
+            }
+        auto played = playedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
+        if (!played)
+            return played.error();
+        const DecoderParams decoder = planDecoder(plan, *played, play, params, adapts);
+        plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i])});
+    }
+    return {};
+}
 } // namespace detail
 
 /// Works out what a scene needs on an actuator (none: the plain drive signal). What costs least is left out first,
@@ -153,201 +248,42 @@ inline void fitPulses(DecoderParams& params, const Profile& profile, const Decod
     plan.motor = adapts && params.adaptation.voices && profile->technology == Technology::erm;
     std::vector<Clip> adapted;
     if (adapts)
-        for (std::size_t i = 0; i < scene.clips.size(); ++i)
-        {
-            AdaptedClip fitted = adaptClip(scene.clips[i], *profile, params.adaptation);
-            adapted.push_back(std::move(fitted.clip));
-            for (std::string& what : fitted.changes)
-                plan.adaptations.push_back({detail::indexed("clips", i), std::move(what)});
-        }
-    const std::vector<Clip>& clips = adapts ? adapted : scene.clips;
+        adapted = detail::adaptClips(plan, scene.clips, params.adaptation);
     if (adapts && !plan.motor)
-        plan.flattening = flatteningOf(*profile, Decibels(params.adaptation.maxBoost));
-    if (plan.flattening)
-        plan.adaptations.push_back(
-            {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +
-                            " Hz is flattened down to " +
-                            std::to_string(std::lround(plan.flattening->target.frequency)) + " Hz"});
-    const auto outputFilter = designOutputFilter(
-        {profile != nullptr ? profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
-    const double resonance = profile != nullptr ? profile->resonance.frequency : 67.0;
+        detail::flatten(plan, params.adaptation);
 
-    std::vector<std::vector<SceneChange>> changesOf(scene.plays.size());
-    for (const SceneChange& change : scene.changes)
-        changesOf[change.play].push_back(change);
-
-    // Lengths first: a scene without a duration lasts until the last play ends, and endless loops need to know.
-    plan.duration = scene.duration;
-    std::vector<PlayTimeline> timelines;
-    timelines.reserve(scene.plays.size());
-    for (std::size_t i = 0; i < scene.plays.size(); ++i)
-    {
-        const ScenePlay& play = scene.plays[i];
-        timelines.push_back(makeTimeline(scene, i, changesOf[i]));
-        if (scene.duration == 0.0)
-        {
-            const double content =
-                play.loop > 0.0 ? play.loop * static_cast<double>(play.passes) : scene.clips[play.clip].duration;
-            plan.duration = std::max(plan.duration, play.start + detail::playLength(play, timelines[i], content));
-        }
-    }
+    // Lengths first: endless loops need to know.
+    auto timelines = detail::planTimelines(plan, scene);
     if (!(plan.duration <= limits::duration))
         return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
+    if (auto planned =
+            detail::planPlays(plan, scene, adapts ? adapted : scene.clips, std::move(timelines), params, adapts);
+        !planned)
+        return planned.error();
 
-    std::size_t points = 0;
+    const auto outputFilter = designOutputFilter(
+        {profile != nullptr ? profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
     std::vector<PlayEnergy> energies;
-    double whole = 0.0;
-    for (std::size_t i = 0; i < scene.plays.size(); ++i)
-    {
-        const ScenePlay& play = scene.plays[i];
-        const std::string where = detail::indexed("plays", i);
-        const auto nothing = -std::numeric_limits<double>::infinity();
-        if (params.leaveOut && play.start >= plan.duration)
-        {
-            plan.leftOut.push_back({where, "starts after the end of the scene", nothing});
-            continue;
-        }
-        const auto& gains = timelines[i].gains;
-        const bool muted = std::all_of(
-            gains.begin(), gains.end(),
-            [](const Curve& curve)
-            { return std::all_of(curve.begin(), curve.end(), [](const Breakpoint& p) { return p.value == 0.0; }); });
-        if (params.leaveOut && muted)
-        {
-            plan.leftOut.push_back({where, "is muted", nothing});
-            continue;
-        }
-        PlannedPlay planned;
-        planned.play = i;
-        planned.start = play.start;
-        planned.timeline = std::move(timelines[i]);
-        const Clip& clip = clips[play.clip];
-        if (play.loop > 0.0)
-        {
-            double fastest = play.stretch;
-            for (const DecoderChange& change : planned.timeline.changes)
-                fastest = std::min(fastest, change.stretch);
-            const double fitting = std::ceil((plan.duration - play.start) / (play.loop * fastest));
-            const double passes = play.passes > 0 ? std::min(static_cast<double>(play.passes), fitting) : fitting;
-            const double perPass = static_cast<double>(breakpointCount(clip) + clip.transients.size()) + 2.0;
-            if (passes * perPass + static_cast<double>(points) > static_cast<double>(detail::mostUnrolledPoints))
-                return Error{ErrorCode::tooLarge, where + ".loop",
-                             "unrolls to too many breakpoints (20 million are the most of a scene); make the loop "
-                             "longer or its passes fewer"};
-            planned.clip = unrollLoop(clip, play.loop, static_cast<std::size_t>(std::max(1.0, passes)), play.variation);
-        }
-        else
-            planned.clip = vary(clip, play.variation);
-        points += breakpointCount(planned.clip) + planned.clip.transients.size();
-
-        DecoderParams base;
-        base.sampleRate = params.sampleRate;
-        base.transposition = play.transposition;
-        base.stretch = play.stretch;
-        base.variation.seed = play.variation.seed; // of the noise; the bands have been varied
-        planned.decoder = decoderParamsFor(planned.clip, base, params.decoder, resonance);
-        if (adapts)
-            detail::fitPulses(planned.decoder, *profile, params.decoder);
-        if (plan.motor)
-            planned.decoder.carriers = CarrierMode::none;
-        // Without its highest bands a clip would get another inner rate, and with it other rounding.
-        planned.decoder.reach = highestFrequency(planned.clip, planned.decoder.carriers);
+    for (const PlannedPlay& planned : plan.plays)
         energies.push_back(
-            playEnergy(planned.clip, planned.decoder, planned.timeline, play.start, plan.duration, outputFilter));
-        plan.plays.push_back(std::move(planned));
-    }
+            playEnergy(planned.clip, planned.decoder, planned.timeline, planned.start, plan.duration, outputFilter));
     if (adapts && params.adaptation.voices && profile->polyphony > 0 &&
         profile->polyphony < Profile::unlimitedPolyphony)
         detail::limitVoices(plan, scene, *profile, energies, outputFilter);
+    double whole = 0.0;
     for (const PlayEnergy& energy : energies)
         whole += energy.least;
 
-    struct Candidate
-    {
-        double energy;
-        std::size_t planned;
-        std::optional<std::size_t> band; // none: the whole play
-    };
-    std::vector<Candidate> candidates;
+    double lost = 0.0;
     if (params.leaveOut)
-        for (std::size_t i = 0; i < plan.plays.size(); ++i)
-        {
-            candidates.push_back({energies[i].most, i, {}});
-            if (plan.plays[i].decoder.carriers == CarrierMode::centroid)
-                continue; // bands are placed by the mean of all centres: each counts
-            for (std::size_t k = 0; k < energies[i].bands.size(); ++k)
-                candidates.push_back({energies[i].bands[k], i, k});
-        }
-    // Whole plays first: they save most, and their bands would count twice.
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b)
-                     { return a.band.has_value() != b.band.has_value() ? b.band.has_value() : a.energy < b.energy; });
-    // An equaliser may take a quarter of the energy, which is half of the amplitude (see below).
-    const double share = plan.profile && !plan.profile->equalizer.empty() ? 0.7 : 1.0;
-    const double bearable = share * whole * std::pow(10.0, params.tolerance / 10.0);
-    detail::ErrorSum error;
-    std::vector<bool> playOut(plan.plays.size(), false);
-    std::vector<std::vector<bool>> bandOut;
-    for (const PlannedPlay& planned : plan.plays)
-        bandOut.emplace_back(planned.clip.bands.size(), false);
-    for (const Candidate& candidate : candidates)
     {
-        if (playOut[candidate.planned])
-            continue;
-        const PlannedPlay& planned = plan.plays[candidate.planned];
-        const ScenePlay& play = scene.plays[planned.play];
-        const detail::ErrorSum::Key key{play.clip, play.start, play.transposition};
-        if (candidate.energy > 0.0 && error.with(key, candidate.energy) > bearable)
-            continue;
-        error.add(key, candidate.energy);
-        const std::string where = detail::indexed("plays", planned.play);
-        const double cost = detail::errorInDecibels(candidate.energy, whole);
-        if (candidate.band)
-        {
-            bandOut[candidate.planned][*candidate.band] = true;
-            plan.leftOut.push_back({where + detail::indexed(".bands", *candidate.band),
-                                    candidate.energy > 0.0 ? "is too weak to matter" : "is silent", cost});
-        }
-        else
-        {
-            playOut[candidate.planned] = true;
-            plan.leftOut.push_back({where, candidate.energy > 0.0 ? "is too weak to matter" : "is silent", cost});
-        }
-    }
-    double lost = error.total();
-    if (plan.profile && params.leaveOut)
-    {
-        // A deviation of some dB everywhere is an error of that part of all the energy. Half the tolerance is for it.
-        const double bearableGain = 1.0 + 0.5 * std::pow(10.0, params.tolerance / 20.0);
-        PruningParams pruning;
-        pruning.lowFrequency = Hertz(plan.profile->range.lowFrequency);
-        pruning.highFrequency = Hertz(plan.profile->range.highFrequency);
-        pruning.tolerance = Decibels(std::min(0.1, 20.0 * std::log10(bearableGain) / 4.0));
-        const auto pruned = pruneEqualizer(plan.profile->equalizer, pruning, params.sampleRate);
-        for (const DroppedSection& section : pruned.dropped)
-            plan.leftOut.push_back({detail::indexed("equalizer", section.index), "is flat in the actuator's range",
-                                    20.0 * std::log10(std::pow(10.0, section.deviation / 20.0) - 1.0 + 1e-30)});
-        plan.profile->equalizer = pruned.kept;
-        lost += whole * std::pow(std::pow(10.0, pruned.predictedError / 20.0) - 1.0, 2.0);
+        lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
+        if (plan.profile)
+            lost += whole * detail::leaveOutFlatSections(plan, params.tolerance, params.sampleRate);
     }
     plan.predictedError = detail::errorInDecibels(lost, whole);
-
-    std::vector<PlannedPlay> kept;
-    for (std::size_t i = 0; i < plan.plays.size(); ++i)
-    {
-        if (playOut[i])
-            continue;
-        PlannedPlay& planned = plan.plays[i];
-        std::vector<Band> bands;
-        for (std::size_t k = 0; k < planned.clip.bands.size(); ++k)
-            if (!bandOut[i][k])
-                bands.push_back(std::move(planned.clip.bands[k]));
-        planned.clip.bands = std::move(bands);
-        kept.push_back(std::move(planned));
-    }
-    std::stable_sort(kept.begin(), kept.end(),
+    std::stable_sort(plan.plays.begin(), plan.plays.end(),
                      [](const PlannedPlay& a, const PlannedPlay& b) { return a.start < b.start; });
-    plan.plays = std::move(kept);
     return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/synthesis/CarrierBank.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/NoiseBank.h>
 #include <pacini/synthesis/PlayClock.h>
@@ -24,93 +25,6 @@
 
 namespace pacini
 {
-
-/// Where a band's sinusoid stands.
-enum class CarrierMode
-{
-    fixed,    ///< at the band's centre frequency
-    pitch,    ///< on the band's pitch curve, at the centre where there is none
-    centroid, ///< all bands move with the clip's centroid, in the ratios of their centres (Weber 2020, section 4.3.3)
-    none,     ///< no sinusoids: the sum of the amplitudes itself, for motors
-};
-
-struct DecoderParams
-{
-    double sampleRate = 48000.0; ///< Hz, 2000 to 192000
-    CarrierMode carriers = CarrierMode::pitch;
-    bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
-    bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
-    PulseParams pulses;
-    VariationParams variation;
-    double transposition = 0.0; ///< semitones
-    double stretch = 1.0;       ///< 2 = twice as long; pitches stay
-    double gain = 1.0;          ///< linear
-    double delay = 0.0;         ///< s of silence before the clip
-    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition
-    double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
-    bool operator==(const DecoderParams&) const = default;
-};
-
-/// From `time` on a clip plays at another pitch and speed.
-struct DecoderChange
-{
-    double time = 0.0;          ///< s of the output
-    double transposition = 0.0; ///< semitones
-    double stretch = 1.0;
-    bool operator==(const DecoderChange&) const = default;
-};
-
-/// Geometric mean of the band centres, Hz; 1 without bands.
-[[nodiscard]] inline double referenceFrequency(const Clip& clip)
-{
-    double sum = 0.0;
-    for (const Band& band : clip.bands)
-        sum += std::log(std::max(band.centreFrequency, 1e-3));
-    return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
-}
-
-/// The highest frequency that a clip's sinusoids and noise reach, Hz, at least 50.
-[[nodiscard]] inline double highestFrequency(const Clip& clip, CarrierMode carriers)
-{
-    double highest = 50.0;
-    for (const NoiseBand& band : clip.noise)
-        highest = std::max(highest, band.highFrequency);
-    for (const Band& band : clip.bands)
-    {
-        highest = std::max(highest, band.centreFrequency);
-        if (carriers == CarrierMode::pitch)
-            for (const Breakpoint& point : band.pitch)
-                highest = std::max(highest, point.value);
-    }
-    if (carriers == CarrierMode::centroid)
-        for (const Breakpoint& point : clip.centroid)
-            highest = std::max(highest, point.value * highest / std::max(1.0, referenceFrequency(clip)));
-    return highest;
-}
-
-/// What a decoder plays, and what it leaves out because it would not be heard.
-struct DecoderReport
-{
-    double innerRate = 0.0; ///< Hz at which the sinusoids are summed
-    std::size_t carriers = 0;
-    std::size_t silentBands = 0; ///< left out
-    std::size_t noiseBands = 0;
-    bool levelled = false;
-    std::size_t pulses = 0;
-    std::size_t maskedTransients = 0; ///< left out: the bands reach their level
-};
-
-/// The readings of the thesis: fixed centres, one square cycle at the actuator's resonance on top, no levelling.
-[[nodiscard]] inline DecoderParams thesisDecoderParams(double sampleRate, double resonance = 67.0)
-{
-    DecoderParams params;
-    params.sampleRate = sampleRate;
-    params.carriers = CarrierMode::fixed;
-    params.followEnvelope = false;
-    params.fullRate = true;
-    params.pulses = {PulseShape::square, resonance, 1.0};
-    return params;
-}
 
 /// Plays one clip. Construction allocates and copies what it needs; process() and reset() are real-time safe, and the
 /// output does not depend on how it is cut into blocks. Sinusoids are summed at an inner rate of 4-8 kHz (they end at
@@ -167,8 +81,11 @@ public:
     /// Scheduled changes still to come are dropped. Clamped like the parameters. [audio]
     void change(double transposition, double stretch) noexcept
     {
-        // The clock holds no change ahead of what is computed but scheduled ones.
+        // The clock holds no change ahead of what is computed but scheduled ones. Events are begun where the output is,
+        // the envelope is read back by the leveller's delay.
         clock.dropAfter(static_cast<double>(innerFrame));
+        clock.forgetBefore(static_cast<double>(position - delayFrames) / static_cast<double>(ratio) -
+                           static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
         addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio),
                            static_cast<double>(innerFrame)),
                   transposition, stretch);
@@ -374,27 +291,32 @@ private:
         } while (readyFrom == ready.size());
     }
 
-    /// One hop of sinusoids and noise, cut where the clock changes.
+    /// One hop of sinusoids and noise.
     void sumSources() noexcept
     {
-        if (!clock.untouched())
-        {
-            // Events are begun where the output is, the envelope is read back by the leveller's delay.
-            const double heard = static_cast<double>(position - delayFrames) / static_cast<double>(ratio);
-            clock.forgetBefore(heard -
-                               static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
-        }
+        forPieces(static_cast<double>(innerFrame),
+                  [this](std::size_t done, std::size_t n, const ClockPiece& piece)
+                  {
+                      carriers.follow(piece);
+                      noise.follow(piece);
+                      carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+                      noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+                  });
+    }
+
+    /// Calls use(done, n, piece) for the n frames of a hop from `done` on that lie in one piece of the clock; the hop
+    /// begins at inner frame `from`.
+    template <typename Use>
+    void forPieces(double from, Use&& use) noexcept
+    {
         for (std::size_t done = 0; done < hopFrames;)
         {
-            const double at = static_cast<double>(innerFrame) + static_cast<double>(done);
+            const double at = from + static_cast<double>(done);
             const double left = std::ceil(clock.nextChange(at) - at);
             const std::size_t n = left < static_cast<double>(hopFrames - done)
                                       ? std::max<std::size_t>(1, static_cast<std::size_t>(left))
                                       : hopFrames - done;
-            carriers.follow(clock.pieceAt(at));
-            noise.follow(clock.pieceAt(at));
-            carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
-            noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+            use(done, n, clock.pieceAt(at));
             done += n;
         }
     }
@@ -403,8 +325,13 @@ private:
     std::span<const double> envelopeOf(std::size_t pass) noexcept
     {
         const auto first = static_cast<double>(innerFrame) - static_cast<double>(leveller->delayOfPass(pass));
-        for (std::size_t n = 0; n < hopFrames; ++n)
-            wantedEnvelope[n] = params.gain * envelopeReaders[pass].at(clock.clipAt(first + static_cast<double>(n)));
+        forPieces(first,
+                  [&](std::size_t done, std::size_t n, const ClockPiece& piece)
+                  {
+                      for (std::size_t i = done; i < done + n; ++i)
+                          wantedEnvelope[i] =
+                              params.gain * envelopeReaders[pass].at(piece.clipAt(first + static_cast<double>(i)));
+                  });
         return wantedEnvelope;
     }
 

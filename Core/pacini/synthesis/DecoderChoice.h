@@ -3,7 +3,7 @@
 // How a clip wants to be played.
 
 #include <pacini/clip/Clip.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 
 #include <optional>
 

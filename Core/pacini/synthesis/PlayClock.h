@@ -69,30 +69,19 @@ public:
             pieces.pop_back();
     }
 
-    /// Forgets pieces that end before `frame`. [audio]
+    /// Forgets pieces that end before `frame`, which makes room for changes. Takes as long as there are pieces. [audio]
     void forgetBefore(double frame) noexcept
     {
-        std::size_t old = 0;
-        while (old + 1 < pieces.size() && pieces[old + 1].from <= frame)
-            ++old;
-        pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(old));
+        pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(indexAt(frame)));
     }
 
-    [[nodiscard]] const ClockPiece& pieceAt(double frame) const noexcept
-    {
-        std::size_t i = pieces.size() - 1;
-        while (i > 0 && pieces[i].from > frame)
-            --i;
-        return pieces[i];
-    }
+    [[nodiscard]] const ClockPiece& pieceAt(double frame) const noexcept { return pieces[indexAt(frame)]; }
 
     /// First frame after `frame` at which a new piece begins; infinite when there is none.
     [[nodiscard]] double nextChange(double frame) const noexcept
     {
-        for (const ClockPiece& piece : pieces)
-            if (piece.from > frame)
-                return piece.from;
-        return std::numeric_limits<double>::infinity();
+        const std::size_t next = countUntil(&ClockPiece::from, frame);
+        return next < pieces.size() ? pieces[next].from : std::numeric_limits<double>::infinity();
     }
 
     [[nodiscard]] double clipAt(double frame) const noexcept { return pieceAt(frame).clipAt(frame); }
@@ -100,17 +89,28 @@ public:
     /// The frame at which the clip gets to `clipFrame`, as far as changes are known.
     [[nodiscard]] double frameOf(double clipFrame) const noexcept
     {
-        std::size_t i = pieces.size() - 1;
-        while (i > 0 && pieces[i].clip > clipFrame)
-            --i;
-        return pieces[i].frameOf(clipFrame);
+        return pieces[std::max<std::size_t>(countUntil(&ClockPiece::clip, clipFrame), 1) - 1].frameOf(clipFrame);
     }
 
     /// Whether the clip runs as it is, from the start and as far as changes are known.
     [[nodiscard]] bool untouched() const noexcept { return pieces.size() == 1 && pieces.front() == ClockPiece{}; }
 
 private:
-    std::vector<ClockPiece> pieces;
+    /// How many pieces begin at `value` or before, of the output or the clip: both grow from piece to piece.
+    [[nodiscard]] std::size_t countUntil(double ClockPiece::*member, double value) const noexcept
+    {
+        const auto next = std::upper_bound(pieces.begin(), pieces.end(), value,
+                                           [member](double v, const ClockPiece& piece) { return v < piece.*member; });
+        return static_cast<std::size_t>(next - pieces.begin());
+    }
+
+    /// The piece at `frame`; the first one for what lies before it.
+    [[nodiscard]] std::size_t indexAt(double frame) const noexcept
+    {
+        return std::max<std::size_t>(countUntil(&ClockPiece::from, frame), 1) - 1;
+    }
+
+    std::vector<ClockPiece> pieces; // at least one
 };
 
 } // namespace pacini

@@ -4,7 +4,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/BiquadCascade.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PlayTimeline.h>
 #include <pacini/synthesis/TransientPulse.h>
@@ -107,12 +107,10 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
                                            double start, double duration, const BiquadCascadeCoefficients& cascade)
 {
     const double fs = params.sampleRate;
-    PlayClock clock(timeline.changes.size());
-    clock.change(0.0, 1.0 / params.stretch, 1.0);
+    const PlayClock clock = makeClock(params.stretch, timeline);
     double lowest = params.transposition, highest = params.transposition;
     for (const DecoderChange& change : timeline.changes)
     {
-        clock.change(change.time, 1.0 / change.stretch, 1.0);
         lowest = std::min(lowest, change.transposition);
         highest = std::max(highest, change.transposition);
     }

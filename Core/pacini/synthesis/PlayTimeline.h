@@ -3,7 +3,8 @@
 // What happens to one play of a scene over time: levels and delays towards every actuator, changes of pitch and speed.
 
 #include <pacini/clip/Curve.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
+#include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/Scene.h>
 
 #include <algorithm>
@@ -25,6 +26,16 @@ struct PlayTimeline
     std::vector<DecoderChange> changes; ///< times from the play's start; in order
     bool operator==(const PlayTimeline&) const = default;
 };
+
+/// The clock of a play that begins with `stretch`: from seconds after its start to seconds of the clip.
+[[nodiscard]] inline PlayClock makeClock(double stretch, const PlayTimeline& timeline)
+{
+    PlayClock clock(timeline.changes.size());
+    clock.change(0.0, 1.0 / stretch, 1.0);
+    for (const DecoderChange& change : timeline.changes)
+        clock.change(change.time, 1.0 / change.stretch, 1.0);
+    return clock;
+}
 
 /// Gain of each of `actuators` for a pan of 0-1: between two neighbours sine and cosine of the way, so that the power
 /// stays 1; the same for all with pure delay panning.

@@ -5,7 +5,7 @@
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
-#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/PlayTimeline.h>
 
 #include <cstddef>

@@ -32,6 +32,15 @@ struct ScenePlayerParams
     Seconds lookAhead{0.001}; ///< of the protection, 0 to 1 ms; taken out of the output
 };
 
+/// What the decoder of a play was made to play.
+struct DecodedPlay
+{
+    std::size_t play = 0;  ///< index into the scene's plays
+    double start = 0.0;    ///< s
+    double duration = 0.0; ///< s, with the changes that were known
+    DecoderReport decoder;
+};
+
 /// Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend on how it is
 /// cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have ended, from a
 /// thread that may wait; the constructor makes all of them, so that live use need not call it.
@@ -66,7 +75,10 @@ public:
     /// while process() runs. [worker]
     void build(double until)
     {
-        for (std::size_t i = 0; i < voices.size(); ++i)
+        while (firstKept < voices.size() && voices[firstKept].ended && !voices[firstKept].decoder)
+            ++firstKept;
+        // Plays are in order of start.
+        for (std::size_t i = firstKept; i < voices.size() && (voices[i].ended || plan.plays[i].start < until); ++i)
         {
             Voice& voice = voices[i];
             if (voice.ended)
@@ -74,10 +86,13 @@ public:
                 voice.decoder.reset();
                 voice.delay = {};
             }
-            else if (!voice.decoder && plan.plays[i].start < until)
+            else if (!voice.decoder)
                 make(voice, plan.plays[i]);
         }
     }
+
+    /// The plays whose decoders have been made, in order of start. [worker]
+    [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays() const noexcept { return decoded; }
 
     /// Largest number of plays that sound at a time so far, for reports.
     [[nodiscard]] std::size_t mostSounding() const noexcept { return most; }
@@ -205,6 +220,8 @@ private:
         DecoderParams params = planned.decoder;
         params.sampleRate = fs;
         voice.decoder = std::make_unique<Decoder>(planned.clip, params, planned.timeline.changes);
+        decoded.push_back({planned.play, planned.start, static_cast<double>(voice.decoder->totalFrames()) / fs,
+                           voice.decoder->report()});
         if (!planned.timeline.delays.empty())
         {
             double longest = 0.0;
@@ -381,13 +398,15 @@ private:
     double fs;
     std::int64_t endFrame;
     std::vector<Voice> voices; // as plan.plays
+    std::vector<DecodedPlay> decoded;
     std::vector<Output> outputs;
     std::size_t preRoll = 0;
     std::array<float, blockFrames> mono{}, shifted{};
     std::vector<float> discarded;
     std::array<double, blockFrames> delays{};
     std::int64_t position = 0;
-    std::size_t first = 0; // voices before it have ended
+    std::size_t first = 0;     // voices before it have ended
+    std::size_t firstKept = 0; // voices before it have ended and are freed
     std::size_t most = 0;
 };
 

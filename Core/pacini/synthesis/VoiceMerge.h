@@ -2,6 +2,7 @@
 
 // Many bands on few voices.
 
+#include <pacini/clip/BandPriority.h>
 #include <pacini/clip/Clip.h>
 
 #include <algorithm>
@@ -55,17 +56,6 @@ inline Band mergedBand(const Band& a, const Band& b)
     }
     return merged;
 }
-
-inline double energyOf(const Curve& curve)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-    {
-        const double a = curve[i].value, b = curve[i + 1].value;
-        sum += (curve[i + 1].time - curve[i].time) * (a * a + a * b + b * b) / 3.0;
-    }
-    return sum;
-}
 } // namespace detail
 
 /// Leaves at most `voices` (1 or more) bands: again and again the least of them (the highest priority number, then the
@@ -78,7 +68,7 @@ inline void mergeVoices(Clip& clip, std::size_t voices)
               [](const Band& a, const Band& b) { return a.centreFrequency < b.centreFrequency; });
     std::vector<double> energies;
     for (const Band& band : bands)
-        energies.push_back(detail::energyOf(band.amplitude));
+        energies.push_back(curveEnergy(band.amplitude, clip.duration));
     while (bands.size() > std::max<std::size_t>(voices, 1))
     {
         std::size_t least = 0;

@@ -25,7 +25,7 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 10.0; // s of each sound
+constexpr double actuatorsExcerpt = 10.0; // s of each sound
 
 /// Ways to play a clip on an actuator.
 std::vector<std::pair<std::string, CompileParams>> ways()
@@ -80,10 +80,10 @@ double levelOf(const std::vector<float>& signal)
     return 10.0 * std::log10(std::max(energy / static_cast<double>(std::max<std::size_t>(signal.size(), 1)), 1e-12));
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureActuators(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     HtsAnalyzer analyzer;
-    const auto mono = sound.beginning(longest);
+    const auto mono = sound.beginning(actuatorsExcerpt);
     const auto source = htsSourceFeatures(analyzer, mono, sound.sampleRate);
     if (!source)
         return;
@@ -132,7 +132,7 @@ Bench actuatorsBench()
              {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
             {{"", "Likeness against felt level", "played", "level", "HTS", "profile", {}, {}, false}},
             {},
-            measure};
+            measureActuators};
 }
 
 } // namespace pacini::cli

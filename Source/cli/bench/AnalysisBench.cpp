@@ -22,8 +22,8 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 10.0;    // s of each sound
-constexpr double lowFrequency = 30; // Hz
+constexpr double analysisExcerpt = 10.0; // s of each sound
+constexpr double lowFrequency = 30;      // Hz
 constexpr double highFrequency = 1000;
 constexpr double gridStep = 0.005; // s, where envelopes are compared
 
@@ -213,9 +213,9 @@ EnvelopeAgreement agreement(const Envelopes& wanted, const Envelopes& found)
     return best;
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureAnalysis(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
-    const auto mono = sound.beginning(longest);
+    const auto mono = sound.beginning(analysisExcerpt);
     const double fs = sound.sampleRate;
     const double duration = static_cast<double>(mono.size()) / fs;
     RationalDecimator decimator(sound.sampleRate, analysisRate);
@@ -286,7 +286,7 @@ Bench analysisBench()
         {{"", "Filter banks, 6 bands", "variant", "time", "errorAtLag", "variant", "bands", "6"},
          {"bands", "Filter banks, 1 to 30 bands", "variant", "time", "errorAtLag", "bands"}},
         {},
-        measure};
+        measureAnalysis};
 }
 
 } // namespace pacini::cli

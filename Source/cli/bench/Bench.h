@@ -61,13 +61,15 @@ struct Bench
 [[nodiscard]] Bench synthesisBench();
 [[nodiscard]] Bench scenesBench();
 [[nodiscard]] Bench actuatorsBench();
+[[nodiscard]] Bench equalizersBench();
 [[nodiscard]] Bench liveBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
-    return {simplifyBench(), decimateBench(),  filtersBench(), analysisBench(), synthesisBench(), oscillatorsBench(),
-            scenesBench(),   actuatorsBench(), liveBench(),    bodyBench(),     stagesBench(),    methodsBench()};
+    return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),
+            oscillatorsBench(), scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),
+            bodyBench(),        stagesBench(),   methodsBench()};
 }
 
 } // namespace pacini::cli

@@ -22,8 +22,8 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 2.0; // s of each sound
-constexpr double silence = 1.0; // s after it, in which everything has died away
+constexpr double bodyExcerpt = 2.0; // s of each sound
+constexpr double silence = 1.0;     // s after it, in which everything has died away
 constexpr std::array rates = {48000, 16000, 8000};
 constexpr std::array stiffnesses = {4e4, 1e6, 1e8, 1e11}; // N/m
 constexpr double dampingRatio = 0.02;                     // of the joint
@@ -168,9 +168,9 @@ double errorShareOf(const Spectrum& input, const Spectrum& output, const BodyPar
     return 100.0 * std::sqrt(difference / energy);
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureBody(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
-    const auto mono = sound.beginning(longest);
+    const auto mono = sound.beginning(bodyExcerpt);
     for (const int rate : rates)
     {
         const double fs = rate;
@@ -249,7 +249,7 @@ Bench bodyBench()
          {"relativeTime", "", Reduction::relative, "time", "rate"}},
         {figure(8), figure(16), figure(48)},
         {},
-        measure};
+        measureBody};
 }
 
 } // namespace pacini::cli

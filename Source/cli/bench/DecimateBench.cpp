@@ -15,7 +15,7 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 10.0; // s of each sound
+constexpr double decimateExcerpt = 10.0; // s of each sound
 
 /// The spectra of the sound at both rates have bins at the same frequencies.
 struct Sizes
@@ -48,11 +48,11 @@ double snrBetween(const Spectrum& ideal, const Spectrum& found, std::size_t outp
     return energy > 0.0 ? std::min(150.0, 10.0 * std::log10(energy / std::max(difference, 1e-300))) : 150.0;
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureDecimate(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     if (sound.sampleRate / std::gcd(sound.sampleRate, analysisRate) > 1000)
         return; // the reference would need a transform of a huge prime factor
-    const auto mono = sound.beginning(longest);
+    const auto mono = sound.beginning(decimateExcerpt);
     const double duration = static_cast<double>(mono.size()) / sound.sampleRate;
     const Sizes sizes(mono.size(), sound.sampleRate);
     // An ideal low-pass at half the output rate changes no bin below it; only their scale goes with the length.
@@ -123,7 +123,7 @@ Bench decimateBench()
          {"relativeTime", "", Reduction::relative, "time"}},
         {{"", "Decimators", "variant", "time", "error20to1000Hz", "variant"}},
         {},
-        measure};
+        measureDecimate};
 }
 
 } // namespace pacini::cli

@@ -190,7 +190,7 @@ std::vector<float> noiseAndTone(const Place& place)
     return x;
 }
 
-void measure(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
+void measureFilters(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
 {
     for (const Place& place : places)
     {
@@ -261,7 +261,7 @@ Bench filtersBench()
              {"relativeTime", "", Reduction::relative, "time", "rate"}},
             {figure(48), figure(768)},
             {},
-            measure,
+            measureFilters,
             false};
 }
 

@@ -172,7 +172,7 @@ void measureOwn(Measurement& measurement, const BenchSound& sound, const Encoder
                      [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureMethods(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     Measurement measurement(sound, settings, rows);
     const EncoderParams usual;
@@ -249,7 +249,7 @@ Bench methodsBench()
         {figure("", "Log spectral distance against encoding time", "encodeTime", "lsd"),
          figure("rate", "Log spectral distance against size", "bytesPerSecond", "lsd")},
         {"method", "variant"},
-        measure};
+        measureMethods};
 }
 
 } // namespace pacini::cli

@@ -21,10 +21,10 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double fs = 4000.0;                 // Hz, the decoder's lowest inner rate
+constexpr double oscillatorRate = 4000.0;     // Hz, the decoder's lowest inner rate
 constexpr std::size_t windowFrames = 1 << 14; // at the end of each duration
 constexpr double low = 100.1, high = 200.7;   // Hz; a glide takes one second from one to the other
-constexpr auto second = static_cast<std::int64_t>(fs);
+constexpr auto second = static_cast<std::int64_t>(oscillatorRate);
 
 /// Frequency at a frame and its step there, cycles per frame.
 struct Motion
@@ -34,19 +34,19 @@ struct Motion
     [[nodiscard]] double frequency(std::int64_t frame) const noexcept
     {
         if (!glides)
-            return low / fs;
-        const auto into = static_cast<double>(frame % second) / fs;
-        return (frame / second % 2 == 0 ? low + (high - low) * into : high - (high - low) * into) / fs;
+            return low / oscillatorRate;
+        const auto into = static_cast<double>(frame % second) / oscillatorRate;
+        return (frame / second % 2 == 0 ? low + (high - low) * into : high - (high - low) * into) / oscillatorRate;
     }
     [[nodiscard]] double step(std::int64_t frame) const noexcept
     {
-        return !glides ? 0.0 : (frame / second % 2 == 0 ? high - low : low - high) / (fs * fs);
+        return !glides ? 0.0 : (frame / second % 2 == 0 ? high - low : low - high) / (oscillatorRate * oscillatorRate);
     }
     /// Cycles at a frame, modulo 1: the sum of all frequencies before it.
     [[nodiscard]] long double cycles(std::int64_t frame) const noexcept
     {
         const long double from = low, rise = glides ? static_cast<long double>(high) - from : 0.0L;
-        const long double rate = fs;
+        const long double rate = oscillatorRate;
         const auto whole = static_cast<long double>(frame / second);
         const auto n = static_cast<long double>(frame % second);
         const bool down = frame / second % 2 == 1;
@@ -60,10 +60,10 @@ struct Motion
     }
     [[nodiscard]] Curve curve(std::int64_t frames) const
     {
-        Curve points{{0.0, low / fs}};
+        Curve points{{0.0, low / oscillatorRate}};
         if (glides)
             for (std::int64_t k = 1; k <= frames / second + 1; ++k)
-                points.push_back({static_cast<double>(k * second), (k % 2 == 1 ? high : low) / fs});
+                points.push_back({static_cast<double>(k * second), (k % 2 == 1 ? high : low) / oscillatorRate});
         return points;
     }
 };
@@ -224,7 +224,7 @@ struct Bank
 
 /// The window after `frames`, and the time that it took.
 template <typename Oscillator>
-Timed<std::vector<double>> run(Motion motion, std::int64_t frames, int repeats)
+Timed<std::vector<double>> play(Motion motion, std::int64_t frames, int repeats)
 {
     Oscillator played(motion, frames);
     played.skip(frames);
@@ -245,19 +245,19 @@ Timed<std::vector<double>> run(Motion motion, std::int64_t frames, int repeats)
     return best;
 }
 
-struct Form
+struct OscillatorForm
 {
     const char* name;
-    Timed<std::vector<double>> (*run)(Motion motion, std::int64_t frames, int repeats);
+    Timed<std::vector<double>> (*play)(Motion motion, std::int64_t frames, int repeats);
 };
 
-constexpr std::array forms = {
-    Form{"carrier bank", run<Bank>},
-    Form{"accumulator and sine", run<AccumulatorAndSine<double>>},
-    Form{"accumulator and sine, float", run<AccumulatorAndSine<float>>},
-    Form{"accumulator and table", run<AccumulatorAndTable>},
-    Form{"rotation", run<Rotation<double>>},
-    Form{"rotation, float", run<Rotation<float>>},
+constexpr std::array oscillatorForms = {
+    OscillatorForm{"carrier bank", play<Bank>},
+    OscillatorForm{"accumulator and sine", play<AccumulatorAndSine<double>>},
+    OscillatorForm{"accumulator and sine, float", play<AccumulatorAndSine<float>>},
+    OscillatorForm{"accumulator and table", play<AccumulatorAndTable>},
+    OscillatorForm{"rotation", play<Rotation<double>>},
+    OscillatorForm{"rotation, float", play<Rotation<float>>},
 };
 
 /// What a window is beside a sin(2 pi (phi + error)) + noise.
@@ -303,15 +303,15 @@ struct Span
     std::int64_t seconds;
 };
 
-void measure(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
+void measureOscillators(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
 {
     for (const bool glides : {false, true})
         for (const Span& span : {Span{"1 s", 1}, Span{"1 h", 3600}, Span{"24 h", 86400}})
-            for (const Form& form : forms)
+            for (const OscillatorForm& form : oscillatorForms)
             {
                 const Motion motion{glides};
                 const std::int64_t frames = span.seconds * second;
-                const auto played = form.run(motion, frames, settings.repeats);
+                const auto played = form.play(motion, frames, settings.repeats);
                 const WindowError error = errorOf(played.result, motion, frames);
                 const auto cell = [](double value) -> BenchCell
                 {
@@ -354,7 +354,7 @@ Bench oscillatorsBench()
          {"relativeTime", "", Reduction::relative, "time", "pitch"}},
         {figure("steady", "steady"), figure("gliding", "gliding")},
         {},
-        measure,
+        measureOscillators,
         false};
 }
 

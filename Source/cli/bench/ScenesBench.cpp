@@ -21,7 +21,7 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 5.0; // s of each sound
+constexpr double scenesExcerpt = 5.0; // s of each sound
 constexpr std::size_t playCount = 64;
 
 /// Plays that begin within a second of each other, each at its own pitch and with its own variation. `audible` of them
@@ -97,15 +97,15 @@ double errorOf(const std::vector<float>& found, const std::vector<float>& whole)
 }
 
 /// Nothing to take a mean of where nothing is lost.
-BenchCell decibels(double value)
+BenchCell levelCell(double value)
 {
     return std::isfinite(value) ? BenchCell(value) : BenchCell();
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureScenes(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     Encoder encoder{EncoderParams{}};
-    const Clip clip = encoded(encoder, sound.beginning(longest), sound.sampleRate, 1);
+    const Clip clip = encoded(encoder, sound.beginning(scenesExcerpt), sound.sampleRate, 1);
     if (clip.bands.empty())
         return;
     for (const std::size_t audible : {std::size_t(1), std::size_t(8), std::size_t(32), std::size_t(64)})
@@ -127,7 +127,7 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
             const double error = errorOf(run.result.signal, whole.result.signal);
             const double predicted = run.result.predictedError;
             rows.add({sound.name, key, fmt::format("{:.0f} dB", tolerance), scene.duration, run.seconds, whole.seconds,
-                      static_cast<double>(run.result.plays), decibels(predicted), decibels(error), errorShare(-error),
+                      static_cast<double>(run.result.plays), levelCell(predicted), levelCell(error), errorShare(-error),
                       error <= predicted && predicted <= tolerance ? 100.0 : 0.0});
         }
     }
@@ -159,7 +159,7 @@ Bench scenesBench()
              {"timesFaster", "", Reduction::ratio, "everythingSeconds", "seconds"}},
             {{"", "Error of leaving out against time", "audible", "time", "error", "tolerance"}},
             {},
-            measure};
+            measureScenes};
 }
 
 } // namespace pacini::cli

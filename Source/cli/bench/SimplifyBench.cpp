@@ -24,7 +24,7 @@ namespace
 {
 using Curves = std::vector<Curve>;
 
-constexpr double longest = 4.0; // s of each sound: the exact method takes minutes for more
+constexpr double simplifyExcerpt = 4.0; // s of each sound: the exact method takes minutes for more
 
 /// What the points of a simplification are chosen for.
 enum class GoalKind
@@ -65,7 +65,7 @@ Curves denseEnvelopes(const BenchSound& sound)
 {
     RationalDecimator decimator(sound.sampleRate, analysisRate);
     std::vector<float> low;
-    decimator.push(sound.beginning(longest), low);
+    decimator.push(sound.beginning(simplifyExcerpt), low);
     decimator.finish(low);
     ZeroPhaseBankParams bank;
     bank.layout.kind = BandLayoutKind::tiled;
@@ -220,7 +220,7 @@ std::vector<Simplifier> simplifiers()
     return all;
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureSimplify(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     const Curves dense = denseEnvelopes(sound);
     if (dense.empty())
@@ -288,7 +288,7 @@ Bench simplifyBench()
          {"relativeTime", "", Reduction::relative, "time", "goal"}},
         {figure("count", "count"), figure("tolerance", "tolerance")},
         {},
-        measure};
+        measureSimplify};
 }
 
 } // namespace pacini::cli

@@ -59,7 +59,7 @@ std::vector<Onset> onsetsOf(const BenchSound& sound, const OnsetParams& params)
     return detector.finish();
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureStages(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     const EncoderParams params;
     const auto encodeWith = [&sound](Encoder& encoder)
@@ -129,7 +129,7 @@ Bench stagesBench()
          {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
         {},
         {},
-        measure};
+        measureStages};
 }
 
 } // namespace pacini::cli

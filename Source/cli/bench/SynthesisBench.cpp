@@ -15,8 +15,8 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double longest = 10.0;      // s of each sound
-constexpr double outputRate = 8000.0; // Hz, of the oscillators
+constexpr double synthesisExcerpt = 10.0; // s of each sound
+constexpr double outputRate = 8000.0;     // Hz, of the oscillators
 using Signal = std::vector<double>;
 
 double snr(const Signal& wanted, const Signal& found)
@@ -126,9 +126,9 @@ Signal decoded(const Clip& clip, const DecoderParams& params)
     return Signal(out.begin(), out.end());
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureSynthesis(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
-    const auto mono = sound.beginning(longest);
+    const auto mono = sound.beginning(synthesisExcerpt);
     Encoder usual{EncoderParams{}};
     const Clip clip = encoded(usual, mono, sound.sampleRate, 1);
     EncoderParams manyPoints;
@@ -191,7 +191,7 @@ Bench synthesisBench()
              {"relativeTime", "", Reduction::relative, "time", "part"}},
             {{"", "Oscillators", "variant", "time", "error", "variant", "part", "oscillators"}},
             {},
-            measure};
+            measureSynthesis};
 }
 
 } // namespace pacini::cli

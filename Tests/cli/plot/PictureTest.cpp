@@ -108,8 +108,8 @@ TEST_CASE("Series differ in colour or shape as far as the twenty-first", "[plot]
     for (std::size_t a = 0; a < series.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
         {
-            const Marker& first = *std::get<Line>(series[a]).marker;
-            const Marker& second = *std::get<Line>(series[b]).marker;
+            const plot::Marker& first = *std::get<Line>(series[a]).marker;
+            const plot::Marker& second = *std::get<Line>(series[b]).marker;
             CHECK_FALSE((first.shape == second.shape && first.colour == second.colour));
         }
 }

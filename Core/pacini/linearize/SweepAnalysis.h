@@ -1,0 +1,136 @@
+#pragma once
+
+// From a recording of sweeps to responses: the whole way.
+
+#include <pacini/linearize/LevelAnalysis.h>
+#include <pacini/linearize/RecordingChecks.h>
+#include <pacini/linearize/ResponseChecks.h>
+#include <pacini/linearize/StrongestResponse.h>
+#include <pacini/linearize/SweepLocator.h>
+#include <pacini/linearize/SweepTiming.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// Analyses what 1 to 3 channels recorded of makeSweepSignal(params): an accelerometer's axes in any orientation, or a
+/// microphone. `recordingRate` is a whole number of Hz, which may differ from that of the playback. The recording may
+/// start and end whenever, as long as every sweep is in it.
+///
+/// Errors: those of the parameters (`sweep.` or `measurement.` before their path) and of checkRecording();
+/// invalidArgument at `sampleRate` for one that cannot hold the sweep, invalidData there for a recording that was made
+/// at another rate than it is said to be; invalidData at `channels` without any sweep in it; truncated at `sweeps[k]`
+/// for one that is not in the recording as a whole; invalidData at `clock` for a drift beyond measurement.driftLimit.
+[[nodiscard]] inline Result<SweepMeasurement> analyseSweeps(std::span<const std::vector<float>> channels,
+                                                            double recordingRate, const SweepParams& params,
+                                                            const MeasurementParams& measurement = {})
+{
+    const auto within = [](Error error, const char* prefix)
+    {
+        error.where = prefix + error.where;
+        return error;
+    };
+    if (auto valid = validate(params); !valid)
+        return within(valid.error(), "sweep.");
+    if (auto valid = checkRecording(channels); !valid)
+        return valid.error();
+    if (auto valid = validate(measurement, channels.size()); !valid)
+        return within(valid.error(), "measurement.");
+    if (!(recordingRate >= 2000.0 && recordingRate <= 384000.0) || recordingRate != std::floor(recordingRate))
+        return Error{ErrorCode::invalidArgument, "sampleRate", "must be a whole number of 2000 to 384000 Hz"};
+    if (params.highFrequency > 0.45 * recordingRate)
+        return Error{ErrorCode::invalidArgument, "sampleRate", "is too low for the sweep's highest frequency"};
+    const double low = std::max(measurement.lowFrequency, params.lowFrequency);
+    const double high = std::min(measurement.highFrequency, params.highFrequency);
+    if (!(high > 1.05 * low))
+        return Error{ErrorCode::invalidArgument, "measurement.lowFrequency", "leaves nothing of the sweep's range"};
+    const double recordedSeconds = static_cast<double>(channels.front().size()) / recordingRate;
+    const SweepSchedule schedule = makeSweepSchedule(params);
+    const double needed = static_cast<double>(schedule.sweeps.back().startFrame - schedule.sweeps.front().startFrame) /
+                              params.sampleRate +
+                          params.duration;
+    if (recordedSeconds < 0.99 * needed) // clocks differ
+        return Error{ErrorCode::truncated, "channels",
+                     "last " + secondsText(recordedSeconds) + ", the sweeps last " + secondsText(needed) +
+                         "; record until the end"};
+
+    SweepMeasurement result;
+    warnOfChannels(channels, recordingRate, result.warnings);
+    std::vector<double> scale(channels.size());
+    for (std::size_t c = 0; c < scale.size(); ++c)
+        scale[c] = measurement.fullScale[measurement.fullScale.size() == 1 ? 0 : c];
+    const auto rate = static_cast<int>(recordingRate);
+
+    const auto coarse = reduceRate(channels, rate, params.highFrequency, 2.5, scale);
+    const auto position = locateSweeps(coarse, schedule, params.sampleRate, measuringSweep(params));
+    // Noise reaches 2; a response that is spread over more than the ringing of anything asks for a closer look.
+    constexpr double leastContrast = 5.0;
+    if (position.contrast < leastContrast || position.focus < 0.7)
+        if (const auto likelier = likelierRate(coarse, schedule, params, recordingRate, position))
+            return Error{ErrorCode::invalidData, "sampleRate",
+                         "is " + std::to_string(rate) + " Hz, but the recording was made at " +
+                             std::to_string(std::lround(*likelier)) + " Hz"};
+    if (position.contrast < leastContrast)
+        return Error{ErrorCode::invalidData, "channels",
+                     "hold no sweep that stands out of the noise; check cables, levels and the sweep's settings"};
+
+    const SweepTiming timing = timeSweeps(coarse, params, schedule, position);
+    for (std::size_t k = 0; k < schedule.sweeps.size(); ++k)
+    {
+        const double start = static_cast<double>(schedule.sweeps[k].startFrame) / params.sampleRate;
+        constexpr double slack = 0.01; // s, what the position of the strongest moment leaves open
+        if (timing.arrival(start) < -slack || timing.arrival(start + params.duration) > recordedSeconds + slack)
+            return Error{ErrorCode::truncated, "sweeps[" + std::to_string(k) + "]",
+                         "is not in the recording as a whole: it lasts from " + secondsText(timing.arrival(start)) +
+                             " to " + secondsText(timing.arrival(start + params.duration)) + ", the recording " +
+                             secondsText(recordedSeconds)};
+    }
+    if (timing.driftKnown)
+    {
+        result.driftPpm = 1e6 * timing.drift;
+        const double ppm = std::abs(*result.driftPpm);
+        const std::string text = std::to_string(std::lround(*result.driftPpm)) + " ppm";
+        if (ppm > measurement.driftLimit)
+            return Error{ErrorCode::invalidData, "clock",
+                         "player and recorder differ by " + text + "; use one device for both, or set its rate right"};
+        if (ppm > measurement.driftWarning)
+            result.warnings.push_back({MeasurementDefect::clockDrift, "clock",
+                                       "player and recorder differ by " + text + "; the result is corrected for it"});
+    }
+    for (const DelayStep& step : timing.steps)
+        result.warnings.push_back({MeasurementDefect::droppedFrames, secondsText(timing.arrival(step.time)),
+                                   std::to_string(std::lround(std::abs(step.seconds) * recordingRate)) + " frames " +
+                                       (step.seconds < 0.0 ? "are missing" : "too many") +
+                                       " about here; use larger buffers and measure again"});
+
+    const double highest = std::min(measurement.harmonics * params.highFrequency, 0.45 * recordingRate);
+    const auto recording = reduceRate(channels, rate, highest, 2.12, scale);
+    const auto quiet = quietTimes(params, schedule, timing, recordedSeconds);
+    std::vector<NoiseSpectrum> noise;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        noise.emplace_back(recording, c, quiet);
+    const auto frequency = logSpaced(low, high, measurement.points);
+    result.main =
+        static_cast<std::size_t>(std::max_element(params.levels.begin(), params.levels.end()) - params.levels.begin());
+    for (std::size_t i = 0; i < params.levels.size(); ++i)
+    {
+        const auto responses =
+            analyseLevel(recording, params, schedule, timing, noise, i, measurement.harmonics, highest);
+        result.levels.push_back(summariseLevel(responses, params.levels[i], frequency, measurement.smoothing, highest));
+        if (i != result.main)
+            continue;
+        result.impulseResponse = strongestDirection(responses.impulses, recording.rate);
+        result.latency = timing.start + strongestLag(result.impulseResponse);
+        warnOfResponses(responses.linear, params, result.warnings);
+    }
+    warnOfSnr(result.levels[result.main].snr, measurement.wantedSnr, result.warnings);
+    return result;
+}
+
+} // namespace pacini

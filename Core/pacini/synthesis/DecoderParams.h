@@ -1,0 +1,103 @@
+#pragma once
+
+// How a clip is decoded.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/TransientPulse.h>
+#include <pacini/synthesis/Variation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pacini
+{
+
+/// Where a band's sinusoid stands.
+enum class CarrierMode
+{
+    fixed,    ///< at the band's centre frequency
+    pitch,    ///< on the band's pitch curve, at the centre where there is none
+    centroid, ///< all bands move with the clip's centroid, in the ratios of their centres (Weber 2020, section 4.3.3)
+    none,     ///< no sinusoids: the sum of the amplitudes itself, for motors
+};
+
+struct DecoderParams
+{
+    double sampleRate = 48000.0; ///< Hz, 2000 to 192000
+    CarrierMode carriers = CarrierMode::pitch;
+    bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
+    bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
+    PulseParams pulses;
+    VariationParams variation;
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;       ///< 2 = twice as long; pitches stay
+    double gain = 1.0;          ///< linear
+    double delay = 0.0;         ///< s of silence before the clip
+    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition
+    double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
+    bool operator==(const DecoderParams&) const = default;
+};
+
+/// From `time` on a clip plays at another pitch and speed.
+struct DecoderChange
+{
+    double time = 0.0;          ///< s of the output
+    double transposition = 0.0; ///< semitones
+    double stretch = 1.0;
+    bool operator==(const DecoderChange&) const = default;
+};
+
+/// Geometric mean of the band centres, Hz; 1 without bands.
+[[nodiscard]] inline double referenceFrequency(const Clip& clip)
+{
+    double sum = 0.0;
+    for (const Band& band : clip.bands)
+        sum += std::log(std::max(band.centreFrequency, 1e-3));
+    return clip.bands.empty() ? 1.0 : std::exp(sum / static_cast<double>(clip.bands.size()));
+}
+
+/// The highest frequency that a clip's sinusoids and noise reach, Hz, at least 50.
+[[nodiscard]] inline double highestFrequency(const Clip& clip, CarrierMode carriers)
+{
+    double highest = 50.0;
+    for (const NoiseBand& band : clip.noise)
+        highest = std::max(highest, band.highFrequency);
+    for (const Band& band : clip.bands)
+    {
+        highest = std::max(highest, band.centreFrequency);
+        if (carriers == CarrierMode::pitch)
+            for (const Breakpoint& point : band.pitch)
+                highest = std::max(highest, point.value);
+    }
+    if (carriers == CarrierMode::centroid)
+        for (const Breakpoint& point : clip.centroid)
+            highest = std::max(highest, point.value * highest / std::max(1.0, referenceFrequency(clip)));
+    return highest;
+}
+
+/// What a decoder plays, and what it leaves out because it would not be heard.
+struct DecoderReport
+{
+    double innerRate = 0.0; ///< Hz at which the sinusoids are summed
+    std::size_t carriers = 0;
+    std::size_t silentBands = 0; ///< left out
+    std::size_t noiseBands = 0;
+    bool levelled = false;
+    std::size_t pulses = 0;
+    std::size_t maskedTransients = 0; ///< left out: the bands reach their level
+};
+
+/// The readings of the thesis: fixed centres, one square cycle at the actuator's resonance on top, no levelling.
+[[nodiscard]] inline DecoderParams thesisDecoderParams(double sampleRate, double resonance = 67.0)
+{
+    DecoderParams params;
+    params.sampleRate = sampleRate;
+    params.carriers = CarrierMode::fixed;
+    params.followEnvelope = false;
+    params.fullRate = true;
+    params.pulses = {PulseShape::square, resonance, 1.0};
+    return params;
+}
+
+} // namespace pacini

@@ -1,0 +1,126 @@
+#pragma once
+
+// What a plan can do without.
+
+#include <pacini/actuator/EqualizerPruning.h>
+#include <pacini/foundation/Result.h>
+#include <pacini/synthesis/ErrorSum.h>
+#include <pacini/synthesis/PlayEnergy.h>
+#include <pacini/synthesis/RenderPlan.h>
+#include <pacini/synthesis/Scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::detail
+{
+
+/// A whole play or one band of it, and what leaving it out costs at most.
+struct Dispensable
+{
+    double energy;
+    std::size_t planned;             ///< index into the plan's plays
+    std::optional<std::size_t> band; ///< none: the whole play
+};
+
+/// All plays of a plan and their bands, what costs least first. Whole plays come before bands: they save most, and
+/// their bands would count twice.
+inline std::vector<Dispensable> dispensables(const RenderPlan& plan, std::span<const PlayEnergy> energies)
+{
+    std::vector<Dispensable> candidates;
+    for (std::size_t i = 0; i < plan.plays.size(); ++i)
+    {
+        candidates.push_back({energies[i].most, i, {}});
+        if (plan.plays[i].decoder.carriers == CarrierMode::centroid)
+            continue; // bands are placed by the mean of all centres: each counts
+        for (std::size_t k = 0; k < energies[i].bands.size(); ++k)
+            candidates.push_back({energies[i].bands[k], i, k});
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Dispensable& a, const Dispensable& b)
+                     { return a.band.has_value() != b.band.has_value() ? b.band.has_value() : a.energy < b.energy; });
+    return candidates;
+}
+
+/// Takes the plays and bands out of a plan that are marked.
+inline void removeMarked(RenderPlan& plan, const std::vector<bool>& plays, const std::vector<std::vector<bool>>& bands)
+{
+    std::vector<PlannedPlay> kept;
+    for (std::size_t i = 0; i < plan.plays.size(); ++i)
+    {
+        if (plays[i])
+            continue;
+        PlannedPlay& planned = plan.plays[i];
+        std::vector<Band> keptBands;
+        for (std::size_t k = 0; k < planned.clip.bands.size(); ++k)
+            if (!bands[i][k])
+                keptBands.push_back(std::move(planned.clip.bands[k]));
+        planned.clip.bands = std::move(keptBands);
+        kept.push_back(std::move(planned));
+    }
+    plan.plays = std::move(kept);
+}
+
+/// Leaves out plays and bands, what costs least first, as long as their errors together stay `tolerance` dB below
+/// `whole`, the scene's energy. Returns the energy of the error.
+inline double leaveOutWeak(RenderPlan& plan, const Scene& scene, std::span<const PlayEnergy> energies, double whole,
+                           double tolerance)
+{
+    // An equaliser may take a quarter of the energy, which is half of the amplitude (leaveOutFlatSections).
+    const double share = plan.profile && !plan.profile->equalizer.empty() ? 0.7 : 1.0;
+    const double bearable = share * whole * std::pow(10.0, tolerance / 10.0);
+    ErrorSum error;
+    std::vector<bool> playOut(plan.plays.size(), false);
+    std::vector<std::vector<bool>> bandOut;
+    for (const PlannedPlay& planned : plan.plays)
+        bandOut.emplace_back(planned.clip.bands.size(), false);
+    for (const Dispensable& candidate : dispensables(plan, energies))
+    {
+        if (playOut[candidate.planned])
+            continue;
+        const PlannedPlay& planned = plan.plays[candidate.planned];
+        const ScenePlay& play = scene.plays[planned.play];
+        const ErrorSum::Key key{play.clip, play.start, play.transposition};
+        if (candidate.energy > 0.0 && error.with(key, candidate.energy) > bearable)
+            continue;
+        error.add(key, candidate.energy);
+        std::string where = indexed("plays", planned.play);
+        if (candidate.band)
+        {
+            bandOut[candidate.planned][*candidate.band] = true;
+            where += indexed(".bands", *candidate.band);
+        }
+        else
+            playOut[candidate.planned] = true;
+        plan.leftOut.push_back({where, candidate.energy > 0.0 ? "is too weak to matter" : "is silent",
+                                errorInDecibels(candidate.energy, whole)});
+    }
+    removeMarked(plan, playOut, bandOut);
+    return error.total();
+}
+
+/// Leaves out the sections of the plan's equaliser that are flat where the actuator plays, for half of the tolerance
+/// (dB). Returns the power of the error in parts of the signal's.
+inline double leaveOutFlatSections(RenderPlan& plan, double tolerance, double sampleRate)
+{
+    // A deviation of some dB everywhere is an error of that part of all the energy.
+    const double bearableGain = 1.0 + 0.5 * std::pow(10.0, tolerance / 20.0);
+    PruningParams pruning;
+    pruning.lowFrequency = Hertz(plan.profile->range.lowFrequency);
+    pruning.highFrequency = Hertz(plan.profile->range.highFrequency);
+    pruning.tolerance = Decibels(std::min(0.1, 20.0 * std::log10(bearableGain) / 4.0));
+    const auto pruned = pruneEqualizer(plan.profile->equalizer, pruning, sampleRate);
+    for (const DroppedSection& section : pruned.dropped)
+        plan.leftOut.push_back({indexed("equalizer", section.index), "is flat in the actuator's range",
+                                20.0 * std::log10(std::pow(10.0, section.deviation / 20.0) - 1.0 + 1e-30)});
+    plan.profile->equalizer = pruned.kept;
+    return std::pow(std::pow(10.0, pruned.predictedError / 20.0) - 1.0, 2.0);
+}
+
+} // namespace pacini::detail

@@ -1,0 +1,219 @@
+#pragma once
+
+// A clip of many bands as one voice: one amplitude, one frequency, events.
+
+#include <pacini/clip/Clip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace pacini
+{
+
+/// What formats with a single sinusoid hold. The curves start at 0 and end at the duration.
+struct SingleVoice
+{
+    double duration = 0.0; ///< s
+    Curve amplitude;       ///< linear, 1 = full drive
+    Curve frequency;       ///< Hz; empty where the clip says nothing of it
+    std::vector<Transient> events;
+    Curve displaced; ///< the amplitude, at each time, that the voice plays more than a third of an octave from where
+                     ///< the clip has it; empty for a clip of one band
+};
+
+/// Whether the clip is one voice already: at most one band, no noise, no envelope over them. Such a clip loses nothing
+/// in singleVoiceOf().
+[[nodiscard]] inline bool isSingleVoice(const Clip& clip) noexcept
+{
+    return clip.bands.size() <= 1 && clip.noise.empty() && clip.envelope.empty();
+}
+
+namespace detail
+{
+/// `curve` with points at 0 and at `duration`, where the nearest value holds.
+inline Curve overWholeTime(Curve curve, double duration)
+{
+    if (curve.empty())
+        return curve;
+    for (Breakpoint& point : curve)
+        point.time = std::clamp(point.time, 0.0, duration);
+    if (curve.front().time > 0.0)
+        curve.insert(curve.begin(), {0.0, curve.front().value});
+    if (curve.back().time < duration)
+        curve.push_back({duration, curve.back().value});
+    return curve;
+}
+
+/// The times at which any curve of the clip bends, each once, no two nearer than 1 ms to each other except the two
+/// sides of steps: those are told by a time just before.
+inline std::vector<double> bendTimes(const Clip& clip)
+{
+    constexpr double nearest = 0.001; // s
+    std::vector<double> all{0.0, clip.duration};
+    std::vector<double> steps;
+    const auto add = [&](const Curve& curve)
+    {
+        for (std::size_t i = 0; i < curve.size(); ++i)
+        {
+            const double time = std::min(curve[i].time, clip.duration);
+            all.push_back(time);
+            if (i > 0 && curve[i - 1].time == curve[i].time)
+                steps.push_back(time);
+        }
+    };
+    add(clip.envelope);
+    for (const Band& band : clip.bands)
+    {
+        add(band.amplitude);
+        add(band.pitch);
+    }
+    for (const NoiseBand& band : clip.noise)
+        add(band.amplitude);
+    if (clip.bands.empty())
+        add(clip.centroid);
+    std::sort(all.begin(), all.end());
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+
+    std::vector<double> times;
+    std::size_t step = 0;
+    for (const double time : all)
+    {
+        while (step < steps.size() && steps[step] < time)
+            ++step;
+        const bool isStep = step < steps.size() && steps[step] == time;
+        if (!times.empty() &&
+            (time == times.back() || (!isStep && time < clip.duration && time < times.back() + nearest)))
+            continue;
+        if (const double before = std::nextafter(time, 0.0); isStep && time > 0.0 && before > times.back())
+            times.push_back(before);
+        times.push_back(time);
+    }
+    return times;
+}
+
+/// Puts times that bendTimes() set just before a step on the step.
+inline void closeSteps(Curve& curve)
+{
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+        if (curve[i].time == std::nextafter(curve[i + 1].time, 0.0))
+            curve[i].time = curve[i + 1].time;
+}
+
+/// What of an event its voice does not reach by itself. An envelope is a mean over 10 ms: the signal peaks at up to
+/// twice its value, soon after the event begins.
+inline double beyondEnvelope(const Transient& event, const Curve& envelope)
+{
+    double reached = 0.0;
+    for (const double after : {0.0, 0.005, 0.010}) // s
+        reached = std::max(reached, 2.0 * valueAt(envelope, event.time + after));
+    return std::sqrt(std::max(event.amplitude * event.amplitude - reached * reached, 0.0));
+}
+
+/// Reads a band's amplitude and frequency at times that only move forward.
+class BandReader
+{
+public:
+    explicit BandReader(const Band& band) noexcept
+        : amplitude(band.amplitude),
+          pitch(band.pitch),
+          centre(std::log2(std::max(band.centreFrequency, 1.0))),
+          hasPitch(!band.pitch.empty())
+    {
+    }
+    void readAt(double time) noexcept
+    {
+        const double a = amplitude.at(time);
+        power = a * a;
+        if (hasPitch)
+            octave = std::log2(std::max(pitch.at(time), 1.0));
+        else
+            octave = centre;
+    }
+    double power = 0.0;
+    double octave = 0.0; ///< log2 of Hz
+
+private:
+    CurveReader amplitude, pitch;
+    double centre;
+    bool hasPitch;
+};
+} // namespace detail
+
+/// The one voice that comes nearest to a valid clip:
+///
+/// - its amplitude is the clip's total envelope, which the sum of the bands is levelled to, or where there is none the
+///   root of the summed powers of bands and noise;
+/// - its frequency is the mean of the bands' frequencies in octaves, weighted by power, so that it is that of whichever
+///   sounds, and moves only as fast as power moves; where nothing sounds, the one before holds. A clip without bands
+///   has that of its centroid;
+/// - its events are the clip's, as strong as what the envelope around them does not reach by itself, which may be
+///   nothing: they are played on top of it.
+///
+/// A clip that is one voice already keeps its points. Chosen over the strongest band alone, whose frequency jumps where
+/// two bands are about as strong, and over merging bands in pairs (mergeVoices()), whose result is the same mean in
+/// more steps. O(points x bands).
+[[nodiscard]] inline SingleVoice singleVoiceOf(const Clip& clip)
+{
+    SingleVoice voice;
+    voice.duration = clip.duration;
+    voice.events = clip.transients;
+    if (isSingleVoice(clip) && !clip.bands.empty())
+    {
+        const Band& band = clip.bands.front();
+        voice.amplitude = detail::overWholeTime(band.amplitude, clip.duration);
+        voice.frequency = detail::overWholeTime(
+            band.pitch.empty() && band.centreFrequency > 0.0 ? Curve{{0.0, band.centreFrequency}} : band.pitch,
+            clip.duration);
+        return voice;
+    }
+
+    if (!clip.envelope.empty())
+        for (Transient& event : voice.events)
+            event.amplitude = detail::beyondEnvelope(event, clip.envelope);
+    std::vector<detail::BandReader> bands(clip.bands.begin(), clip.bands.end());
+    std::vector<CurveReader> noise;
+    for (const NoiseBand& band : clip.noise)
+        noise.emplace_back(band.amplitude);
+    CurveReader envelope(clip.envelope);
+    CurveReader centroid(clip.centroid);
+    constexpr double third = 1.0 / 3.0; // of an octave
+    double octave = -1.0;
+    for (const double time : detail::bendTimes(clip))
+    {
+        double power = 0.0, weighted = 0.0;
+        for (detail::BandReader& band : bands)
+        {
+            band.readAt(time);
+            power += band.power;
+            weighted += band.power * band.octave;
+        }
+        if (power > 0.0)
+            octave = weighted / power;
+        double away = 0.0;
+        for (const detail::BandReader& band : bands)
+            away += std::abs(band.octave - octave) > third ? band.power : 0.0;
+        double residual = 0.0;
+        for (CurveReader& band : noise)
+        {
+            const double rms = band.at(time);
+            residual += 2.0 * rms * rms;
+        }
+        const double level = clip.envelope.empty() ? std::sqrt(power + residual) : envelope.at(time);
+        voice.amplitude.push_back({time, level});
+        if (bands.size() > 1)
+            voice.displaced.push_back({time, power > 0.0 ? level * std::sqrt(away / (power + residual)) : 0.0});
+        if (octave >= 0.0)
+            voice.frequency.push_back({time, std::exp2(octave)});
+        else if (bands.empty() && !clip.centroid.empty())
+            voice.frequency.push_back({time, std::max(centroid.at(time), 1.0)});
+    }
+    for (Curve* curve : {&voice.amplitude, &voice.frequency, &voice.displaced})
+        detail::closeSteps(*curve);
+    voice.frequency = detail::overWholeTime(std::move(voice.frequency), clip.duration);
+    return voice;
+}
+
+} // namespace pacini

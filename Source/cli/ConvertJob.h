@@ -1,0 +1,38 @@
+#pragma once
+
+// Converts one clip.
+
+#include "cli/ConvertManifest.h"
+#include "io/ClipExport.h"
+
+#include <filesystem>
+#include <string>
+
+namespace pacini::cli
+{
+
+struct ConvertSettings
+{
+    ClipTarget target;
+    ExportParams params;
+    int quantise = 0;             ///< bits of the values of a packed clip; 0: as the clip says
+    std::string record;           ///< what of the settings the outputs depend on
+    std::filesystem::path folder; ///< the outputs' names in the entry count from here
+    bool force = false;
+};
+
+/// What came of one clip.
+struct ConvertResult
+{
+    ManifestEntry entry;
+    std::vector<FormatLoss> losses; ///< all of them
+    bool upToDate = false;          ///< nothing was done
+};
+
+/// Converts `input` to `output` and whatever further files the format needs. Does nothing when `before` says that the
+/// same input with the same settings became these outputs, and they are still what was written then. Errors: those of
+/// readAnyClip, exportClip and writeExport.
+[[nodiscard]] Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
+                                                const ConvertSettings& settings, const ManifestEntry* before);
+
+} // namespace pacini::cli

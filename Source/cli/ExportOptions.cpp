@@ -1,0 +1,64 @@
+#include "cli/ExportOptions.h"
+
+#include "cli/Checks.h"
+#include "cli/ProfileInput.h"
+
+#include <fmt/format.h>
+
+namespace pacini::cli
+{
+
+void ExportOptions::declare(CLI::App& command)
+{
+    command
+        .add_option("--points", points,
+                    "For other formats: at most this many points of amplitude per second; what is one voice already "
+                    "keeps its points without this [what the format is used with]")
+        ->check(numberFrom(0.5, 10000.0));
+    command
+        .add_option("--frequency-points", frequencyPoints,
+                    "And of frequency [three quarters of --points, if that is given]")
+        ->check(numberFrom(0.5, 10000.0));
+    command.add_flag("--split", split, "For formats that can be one file or several: several");
+    command.add_option("--sample-rate", rate, "For formats that are samples, Hz [the format's own]")
+        ->check(CLI::Range(100, 384000));
+    command.add_option("--profile", profile,
+                       "Actuator whose range the frequencies of a format without a range of its own stand for; a "
+                       "file or a shipped profile");
+}
+
+std::optional<ExportParams> ExportOptions::params(Console& console) const
+{
+    constexpr double frequencyShare = 0.75;
+    ExportParams result;
+    if (points > 0.0)
+    {
+        result.amplitudePoints = points;
+        result.frequencyPoints = frequencyShare * points;
+    }
+    if (frequencyPoints > 0.0)
+        result.frequencyPoints = frequencyPoints;
+    if (rate > 0)
+        result.sampleRate = rate;
+    result.split = split;
+    if (!profile.empty())
+    {
+        result.profile = openProfile(console, profile);
+        if (!result.profile)
+            return std::nullopt;
+    }
+    return result;
+}
+
+std::string ExportOptions::record() const
+{
+    return fmt::format("points {}, frequency points {}, sample rate {}{}{}", points, frequencyPoints, rate,
+                       split ? ", split" : "", profile.empty() ? "" : ", profile " + profile);
+}
+
+bool ExportOptions::given() const noexcept
+{
+    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || !profile.empty();
+}
+
+} // namespace pacini::cli

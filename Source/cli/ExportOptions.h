@@ -1,0 +1,39 @@
+#pragma once
+
+// Options of the commands that write clips for other programs.
+
+#include "cli/Console.h"
+#include "io/formats/ForeignFormat.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace pacini::cli
+{
+
+/// What the user says of an export; declared once per command.
+class ExportOptions
+{
+public:
+    void declare(CLI::App& command);
+
+    /// The parameters that follow; nothing when the profile cannot be read, and the console has said why.
+    [[nodiscard]] std::optional<ExportParams> params(Console& console) const;
+
+    /// The options in one line, the same for the same choices.
+    [[nodiscard]] std::string record() const;
+
+    /// Whether any of them was given.
+    [[nodiscard]] bool given() const noexcept;
+
+private:
+    double points = 0.0;
+    double frequencyPoints = 0.0;
+    int rate = 0;
+    bool split = false;
+    std::string profile;
+};
+
+} // namespace pacini::cli

@@ -1,0 +1,332 @@
+#include "cli/measure/AnalyseStep.h"
+
+#include "cli/Checks.h"
+#include "cli/InputFiles.h"
+#include "cli/ProfileInput.h"
+#include "cli/plot/ResponseFigure.h"
+#include "io/AtomicFile.h"
+#include "io/ProfileFile.h"
+#include "io/ResponseTable.h"
+
+#include <pacini/linearize/ResponseFeatures.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr double profileLimit = 10.0; // %, see ProfileMeasurement
+
+/// What all recordings together say of the actuator.
+struct Findings
+{
+    ResponseFeatures features;
+    std::optional<ActuatorResponse> times;
+    double distortion = 0.0;               ///< %, the largest at the loudest sweep within the felt range
+    std::optional<double> distortionDrive; ///< dB re full scale, at which it passes the limit asked for
+    std::optional<double> profileDrive;    ///< the same for the limit of a profile
+    std::set<std::size_t> outliers;        ///< indices of recordings that were left out
+};
+
+Result<Findings> findingsOf(const AnalysedRecordings& analysed, double smoothing, double distortionLimit)
+{
+    ResponseFeatureParams params;
+    params.smoothing = smoothing;
+    auto features = responseFeatures(analysed.average.response, params);
+    if (!features)
+        return features.error();
+    Findings findings;
+    findings.features = *features;
+    for (const FittingOutlier& outlier : analysed.average.outliers)
+        findings.outliers.insert(outlier.index);
+    std::vector<double> rises, falls, drives, profileDrives;
+    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
+    {
+        if (findings.outliers.contains(i))
+            continue;
+        const SweepMeasurement& measured = analysed.recordings[i].measurement;
+        if (const auto times = burstTimes(measured.impulseResponse, features->resonance.frequency))
+        {
+            rises.push_back(times->riseTime);
+            falls.push_back(times->fallTime);
+        }
+        const FrequencyRange& felt = features->felt;
+        findings.distortion =
+            std::max(findings.distortion, largestDistortion(measured.levels[measured.main], felt.low, felt.high));
+        if (const auto drive = driveAtDistortion(measured, distortionLimit, felt.low, felt.high))
+            drives.push_back(*drive);
+        if (const auto drive = driveAtDistortion(measured, profileLimit, felt.low, felt.high))
+            profileDrives.push_back(*drive);
+    }
+    const auto middle = [](std::vector<double>& values)
+    {
+        const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    };
+    if (!rises.empty())
+        findings.times = ActuatorResponse{middle(rises), middle(falls)};
+    if (!drives.empty())
+        findings.distortionDrive = middle(drives);
+    if (!profileDrives.empty())
+        findings.profileDrive = middle(profileDrives);
+    return findings;
+}
+
+/// Frequencies outside what a profile may hold are moved to its ends.
+double profileFrequency(double f)
+{
+    return std::clamp(f, 1.0, 20000.0);
+}
+
+/// `base` with what was measured in the place of what it said.
+Profile measuredProfile(Profile base, const AnalysedRecordings& analysed, const Findings& findings)
+{
+    const double drive = *std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end());
+    base.resonance = {profileFrequency(findings.features.resonance.frequency),
+                      std::clamp(findings.features.resonance.q, 0.01, 100.0)};
+    if (findings.features.felt.high > findings.features.felt.low)
+    {
+        base.range.lowFrequency = profileFrequency(findings.features.felt.low);
+        base.range.highFrequency = profileFrequency(findings.features.felt.high);
+    }
+    if (findings.times)
+        base.response = {std::min(findings.times->riseTime, 2.0), std::min(findings.times->fallTime, 2.0)};
+    base.equalizer = {};
+    base.body.reset(); // belongs to the resonance that it was found with
+    ProfileMeasurement measurement;
+    measurement.fittings = static_cast<int>(analysed.recordings.size() - findings.outliers.size());
+    measurement.drive = drive;
+    measurement.distortionDrive = findings.profileDrive;
+    const FrequencyResponse& response = analysed.average.response;
+    for (std::size_t i = 0; i < response.size(); ++i)
+        measurement.points.push_back({response.frequency[i], response.level[i], std::nullopt});
+    base.measurement = std::move(measurement);
+
+    const auto measuredNow = [](const ProfileSource& source)
+    {
+        return source.path.starts_with("resonance") || source.path == "range" ||
+               source.path.starts_with("range.lowFrequency") || source.path.starts_with("range.highFrequency") ||
+               source.path.starts_with("response") || source.path.starts_with("equalizer") ||
+               source.path.starts_with("body");
+    };
+    std::erase_if(base.sources, measuredNow);
+    const std::string how = fmt::format("measured with swept sines at {:.3g} dB, {} fitting{}", drive,
+                                        base.measurement->fittings, base.measurement->fittings == 1 ? "" : "s");
+    base.sources.push_back({"resonance", how + ", as it is worn"});
+    base.sources.push_back({"range.lowFrequency", how + ", 20 dB below the strongest frequency"});
+    base.sources.push_back({"range.highFrequency", how + ", 20 dB below the strongest frequency or the sweep's end"});
+    if (findings.times)
+        base.sources.push_back({"response", how});
+    std::sort(base.sources.begin(), base.sources.end(),
+              [](const ProfileSource& a, const ProfileSource& b) { return a.path < b.path; });
+    return base;
+}
+
+std::string table(const AnalysedRecordings& analysed)
+{
+    const FrequencyResponse& response = analysed.average.response;
+    std::vector<TableColumn> columns{{"frequency", response.frequency}, {"dB", response.level}};
+    const auto add = [&](std::string name, std::vector<double> values)
+    {
+        values.resize(response.size(), std::numeric_limits<double>::quiet_NaN());
+        columns.push_back({std::move(name), std::move(values)});
+    };
+    if (analysed.recordings.size() > 1)
+        add("spread dB", analysed.average.spread);
+    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
+    {
+        const SweepMeasurement& measured = analysed.recordings[i].measurement;
+        const LevelMeasurement& level = measured.levels[measured.main];
+        const std::string number = analysed.recordings.size() > 1 ? fmt::format(" {}", i + 1) : "";
+        if (analysed.recordings.size() > 1)
+            add("dB" + number, level.response.level);
+        add("SNR dB" + number, level.snr.level);
+        add("distortion %" + number, level.distortion);
+    }
+    return tableText(columns);
+}
+
+Json report(const AnalysedRecordings& analysed, const Findings& findings, const std::string& output)
+{
+    Json recordings = Json::array();
+    Json outliers = Json::array();
+    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
+    {
+        const AnalysedRecording& recording = analysed.recordings[i];
+        Json warnings = Json::array();
+        for (const MeasurementWarning& warning : recording.measurement.warnings)
+            warnings.push_back({{"where", warning.where}, {"message", warning.message}});
+        Json entry{{"input", recording.file}, {"latency", recording.measurement.latency}};
+        if (recording.measurement.driftPpm)
+            entry["driftPpm"] = *recording.measurement.driftPpm;
+        entry["offset"] = analysed.average.offsets[i];
+        entry["warnings"] = std::move(warnings);
+        recordings.push_back(std::move(entry));
+    }
+    for (const FittingOutlier& outlier : analysed.average.outliers)
+        outliers.push_back(
+            {{"input", analysed.recordings[outlier.index].file}, {"offset", outlier.offset}, {"shape", outlier.shape}});
+    const ResponseFeatures& features = findings.features;
+    Json json{{"output", output},
+              {"resonance", {{"frequency", features.resonance.frequency}, {"q", features.resonance.q}}},
+              {"plateau", features.plateau},
+              {"even", {{"lowFrequency", features.even.low}, {"highFrequency", features.even.high}}},
+              {"felt", {{"lowFrequency", features.felt.low}, {"highFrequency", features.felt.high}}}};
+    if (findings.times)
+        json["response"] = {{"riseTime", findings.times->riseTime}, {"fallTime", findings.times->fallTime}};
+    json["distortion"] = findings.distortion;
+    if (findings.distortionDrive)
+        json["distortionDrive"] = *findings.distortionDrive;
+    json["outliers"] = std::move(outliers);
+    json["recordings"] = std::move(recordings);
+    return json;
+}
+
+std::string text(const AnalysedRecordings& analysed, const Findings& findings, double distortionLimit)
+{
+    const ResponseFeatures& features = findings.features;
+    std::string lines =
+        fmt::format("{} recording{}{}: resonance {:.2f} Hz, Q {:.2f}; plateau {:.1f} dB; felt from {:.0f} to {:.0f} "
+                    "Hz, even within "
+                    "3 dB from {:.0f} to {:.0f} Hz",
+                    analysed.recordings.size(), analysed.recordings.size() == 1 ? "" : "s",
+                    findings.outliers.empty() ? "" : fmt::format(", {} of them left out", findings.outliers.size()),
+                    features.resonance.frequency, features.resonance.q, features.plateau, features.felt.low,
+                    features.felt.high, features.even.low, features.even.high);
+    if (findings.times)
+        lines += fmt::format("\n  rises in {:.1f} ms, falls in {:.1f} ms", 1e3 * findings.times->riseTime,
+                             1e3 * findings.times->fallTime);
+    lines += fmt::format("\n  distortion at most {:.2g} % at {:.3g} dB", findings.distortion,
+                         *std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end()));
+    if (findings.distortionDrive)
+        lines += fmt::format(", passes {:.3g} % at {:.1f} dB", distortionLimit, *findings.distortionDrive);
+    for (const AnalysedRecording& recording : analysed.recordings)
+        lines += fmt::format(
+            "\n  {}: latency {:.2f} ms{}", printable(recording.file), 1e3 * recording.measurement.latency,
+            recording.measurement.driftPpm ? fmt::format(", clock {:+.1f} ppm", *recording.measurement.driftPpm) : "");
+    return lines;
+}
+} // namespace
+
+CLI::App* AnalyseStep::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("analyse", "Find the response of an actuator from recordings of a sweep");
+    options.declare(*command);
+    command->add_option("-o,--output", output, "Profile (.json) or table (.csv) to write")->type_name("OUT");
+    command->add_option("--profile", base, "Profile to take what was not measured from, such as its drive limits")
+        ->type_name("P");
+    command->add_option("--name", name, "Name of the profile to write")->type_name("NAME");
+    command->add_option("--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)")
+        ->type_name("PICTURE");
+    command->add_option("--distortion-limit", distortionLimit, "Distortion whose drive is looked for, %")
+        ->capture_default_str()
+        ->check(numberFrom(0.01, 100.0))
+        ->type_name("%");
+    command->add_flag("--json", json, "Print a report as one JSON object");
+    command->footer(
+        "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
+        "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
+    return command;
+}
+
+Exit AnalyseStep::run(Console& console)
+{
+    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
+    {
+        console.error(file, error);
+        return exit;
+    };
+    const std::string extension = lowerExtension(output);
+    if (!output.empty() && extension != ".json" && extension != ".csv")
+        return fail(output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .csv"}, Exit::usage);
+    if (!picture.empty() && !plot::pictureFormatOf(picture))
+        return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                    Exit::usage);
+    Profile profile;
+    profile.technology = Technology::vca;
+    profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();
+    if (!base.empty())
+    {
+        auto opened = openProfile(console, base);
+        if (!opened)
+            return Exit::failed;
+        profile = std::move(*opened);
+    }
+    if (!name.empty())
+        profile.name = name;
+
+    const auto analysed = analyseRecordings(console, options);
+    if (!analysed)
+        return Exit::failed;
+    if (!analysed->sweep.equalizedFor.empty())
+        console.warning(options.sweep, fmt::format("went through the equaliser of '{}': this is its response with the "
+                                                   "equaliser; 'pacini measure verify' judges it",
+                                                   analysed->sweep.equalizedFor));
+    const auto findings = findingsOf(*analysed, options.smoothingOctaves(), distortionLimit);
+    if (!findings)
+        return fail("", findings.error());
+
+    if (extension == ".json")
+    {
+        if (const auto written = writeProfile(output, measuredProfile(profile, *analysed, *findings)); !written)
+            return fail(output, written.error());
+    }
+    else if (extension == ".csv")
+        if (const auto written = writeFileAtomically(output, table(*analysed)); !written)
+            return fail(output, written.error());
+    if (!picture.empty())
+        if (const auto drawn = drawPicture(*analysed, findings->features); !drawn)
+            return fail(picture, drawn.error());
+
+    if (json)
+        console.print(report(*analysed, *findings, output).dump(2, ' ', false, Json::error_handler_t::replace));
+    else
+    {
+        console.print(text(*analysed, *findings, distortionLimit));
+        if (!output.empty())
+            console.note(fmt::format("written to {}", printable(output)));
+    }
+    return Exit::ok;
+}
+
+Result<std::size_t> AnalyseStep::drawPicture(const AnalysedRecordings& analysed, const ResponseFeatures& features) const
+{
+    plot::ResponseFigureContent content;
+    content.title = !name.empty()    ? name
+                    : output.empty() ? "Measured response"
+                                     : std::filesystem::path(output).stem().string();
+    content.subtitle = fmt::format("resonance {:.1f} Hz, Q {:.2f}", features.resonance.frequency, features.resonance.q);
+    content.lowFrequency = features.felt.low;
+    content.highFrequency = features.felt.high;
+    const bool several = analysed.recordings.size() > 1;
+    for (std::size_t i = 0; i < analysed.recordings.size() && several; ++i)
+    {
+        const auto& outliers = analysed.average.outliers;
+        const bool out = std::any_of(outliers.begin(), outliers.end(),
+                                     [i](const FittingOutlier& outlier) { return outlier.index == i; });
+        content.responses.push_back({out ? "left out" : "fittings", analysed.recordings[i].measurement.response(),
+                                     out ? plot::ResponseRole::outlier : plot::ResponseRole::fitting});
+    }
+    const SweepMeasurement& first = analysed.recordings.front().measurement;
+    const LevelMeasurement& level = first.levels[first.main];
+    content.responses.push_back({"noise", level.noise, plot::ResponseRole::noise});
+    content.responses.push_back({several ? "average" : "response", analysed.average.response});
+    content.distortion = plot::NamedResponse{"all harmonics", {level.response.frequency, level.distortion}};
+    const plot::FigureStyle style;
+    return plot::writeFigure(picture, makeResponseFigure(content, style), style);
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+// Recordings of sweeps, as the steps of a measurement read them.
+
+#include "cli/Console.h"
+#include "io/SweepFile.h"
+
+#include <pacini/linearize/FittingAverage.h>
+#include <pacini/linearize/MeasurementParams.h>
+#include <pacini/linearize/SweepMeasurement.h>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// What the steps that read recordings ask the user.
+struct RecordingOptions
+{
+    std::vector<std::string> recordings;
+    std::string sweep;
+    std::vector<int> channels; ///< counted from 1; empty: all
+    std::vector<std::string> fullScale{"1"};
+    std::string smoothing = "1/12";
+    int points = 240;
+
+    void declare(CLI::App& command);
+    [[nodiscard]] double smoothingOctaves() const;
+};
+
+/// One analysed recording.
+struct AnalysedRecording
+{
+    std::string file;
+    SweepMeasurement measurement;
+};
+
+struct AnalysedRecordings
+{
+    SweepFile sweep;
+    std::vector<AnalysedRecording> recordings;
+    FittingAverage average; ///< of their responses
+};
+
+/// Analyses all recordings. Warnings and errors have gone to the console when nothing comes back.
+[[nodiscard]] std::optional<AnalysedRecordings> analyseRecordings(Console& console, const RecordingOptions& options);
+
+} // namespace pacini::cli

@@ -1,0 +1,157 @@
+#include "cli/measure/SweepStep.h"
+
+#include "cli/Checks.h"
+#include "cli/InputFiles.h"
+#include "cli/ProfileInput.h"
+#include "cli/measure/SweepNames.h"
+#include "io/AudioWriter.h"
+#include "io/SweepFile.h"
+
+#include <pacini/actuator/Equalizer.h>
+#include <pacini/linearize/SweepSchedule.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// Plays `signal` through the equaliser of a profile.
+void equalize(std::vector<float>& signal, const EqualizerSections& sections, double fs)
+{
+    constexpr std::size_t blockFrames = 4096;
+    Equalizer equalizer;
+    equalizer.prepare({fs, blockFrames});
+    equalizer.setParams(sections);
+    equalizer.reset();
+    for (std::size_t i = 0; i < signal.size(); i += blockFrames)
+    {
+        const auto part = std::span(signal).subspan(i, std::min(blockFrames, signal.size() - i));
+        equalizer.process(part, part);
+    }
+}
+
+double peakOf(const std::vector<float>& signal)
+{
+    float peak = 0.0f;
+    for (const float v : signal)
+        peak = std::max(peak, std::abs(v));
+    return static_cast<double>(peak);
+}
+} // namespace
+
+CLI::App* SweepStep::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("sweep", "Make the sound that an actuator is measured with");
+    command
+        ->add_option("-o,--output", output,
+                     "Sound to play (.wav or .flac); what was in it goes beside it, as .json of the same name")
+        ->capture_default_str()
+        ->type_name("OUT");
+    command->add_option("--low", low, "Frequency at which sweeps start, Hz")->capture_default_str()->type_name("HZ");
+    command->add_option("--high", high, "Frequency at which sweeps end, Hz")->capture_default_str()->type_name("HZ");
+    command
+        ->add_option("--duration", duration, "Length of a sweep, s; twice as long gives 3 dB more distance from noise")
+        ->capture_default_str()
+        ->type_name("S");
+    command->add_option("--pause", pause, "Silence between sweeps, s; longer than the actuator rings")
+        ->capture_default_str()
+        ->type_name("S");
+    command->add_option("--repeats", repeats, "How often each level is played")->capture_default_str()->type_name("N");
+    command
+        ->add_option("--levels", levels,
+                     "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show from where on the "
+                     "actuator distorts")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->type_name("DB,...");
+    command->add_option("--rate", rate, "Sample rate, Hz")->capture_default_str()->type_name("HZ");
+    command->add_option("--profile", profile, "Play through the equaliser of this profile, to verify it")
+        ->type_name("P");
+    command->add_flag("--json", json, "Print a report as one JSON object");
+    return command;
+}
+
+Exit SweepStep::run(Console& console)
+{
+    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
+    {
+        console.error(file, error);
+        return exit;
+    };
+    SweepFile file;
+    SweepParams& params = file.sweep;
+    params.lowFrequency = low;
+    params.highFrequency = high;
+    params.duration = duration;
+    params.fadeIn = std::min(params.fadeIn, 0.25 * duration);
+    params.pause = pause;
+    params.repeats = repeats;
+    params.levels = levels;
+    params.sampleRate = rate;
+    auto signal = makeSweepSignal(params);
+    if (!signal)
+    {
+        Error error = signal.error();
+        error.where = optionFor(error.where);
+        return fail("", error, Exit::usage);
+    }
+    const std::string description = sweepFileBeside(output).string();
+    if (sameFileKey(description) == sameFileKey(output))
+        return fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
+    if (!profile.empty())
+    {
+        const auto actuator = openProfile(console, profile);
+        if (!actuator)
+            return Exit::failed;
+        if (actuator->equalizer.empty())
+            return fail(profile, {ErrorCode::invalidData, "equalizer",
+                                  "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+        equalize(*signal, actuator->equalizer, params.sampleRate);
+        file.equalizedFor = actuator->name;
+    }
+    if (const double peak = peakOf(*signal); peak > 1.0)
+        return fail(profile, {ErrorCode::invalidArgument, "--levels",
+                              fmt::format("are too high: the equaliser raises the sweep {:.1f} dB beyond full scale; "
+                                          "take {:.0f} dB or less",
+                                          20.0 * std::log10(peak),
+                                          std::floor(*std::max_element(levels.begin(), levels.end()) -
+                                                     20.0 * std::log10(peak)))});
+
+    AudioWriteParams writing;
+    writing.sampleRate = rate;
+    writing.encoding = SampleEncoding::pcm24;
+    writing.expectedFrames = signal->size();
+    const auto written = writeAudio(output, *signal, writing);
+    if (!written)
+        return fail(output, written.error());
+    if (const auto described = writeSweepFile(description, file); !described)
+        return fail(description, described.error());
+
+    const double seconds = static_cast<double>(signal->size()) / params.sampleRate;
+    if (json)
+        console.print(nlohmann::ordered_json{{"output", output},
+                                             {"sweep", description},
+                                             {"duration", seconds},
+                                             {"sampleRate", rate},
+                                             {"sweeps", levels.size() * static_cast<std::size_t>(repeats)},
+                                             {"equalizedFor", file.equalizedFor}}
+                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+        console.print(fmt::format("{}: {} sweep{} from {:g} to {:g} Hz{}, {} in all; keep {} for the analysis",
+                                  printable(output), levels.size() * static_cast<std::size_t>(repeats),
+                                  levels.size() * static_cast<std::size_t>(repeats) == 1 ? "" : "s", low, high,
+                                  file.equalizedFor.empty()
+                                      ? std::string()
+                                      : fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor)),
+                                  durationText(seconds), printable(description)));
+    return Exit::ok;
+}
+
+} // namespace pacini::cli

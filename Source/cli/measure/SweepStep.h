@@ -1,0 +1,31 @@
+#pragma once
+
+#include "cli/Command.h"
+
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// `pacini measure sweep`: the sound to play on an actuator, and beside it what it was.
+class SweepStep : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::string output = "sweep.wav";
+    std::string profile;
+    double low = 10.0;
+    double high = 1500.0;
+    double duration = 20.0;
+    double pause = 1.0;
+    int repeats = 1;
+    std::vector<double> levels{-6.0};
+    int rate = 48000;
+    bool json = false;
+};
+
+} // namespace pacini::cli

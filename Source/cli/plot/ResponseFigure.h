@@ -1,0 +1,50 @@
+#pragma once
+
+// Measured responses as a figure.
+
+#include "cli/plot/Figure.h"
+
+#include <pacini/actuator/Equalizer.h>
+#include <pacini/actuator/ProfileMeasurement.h>
+#include <pacini/linearize/FrequencyResponse.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini::plot
+{
+
+enum class ResponseRole
+{
+    fitting,  ///< one of many, thin
+    outlier,  ///< one that was left out, thin and dashed by its colour
+    noise,    ///< what is measured without a signal
+    measured, ///< the result
+    flattened ///< the result with the equaliser
+};
+
+struct NamedResponse
+{
+    std::string name;
+    FrequencyResponse response;
+    ResponseRole role = ResponseRole::measured;
+};
+
+struct ResponseFigureContent
+{
+    std::string title;
+    std::string subtitle;
+    std::vector<NamedResponse> responses;
+    EqualizerSections equalizer;             ///< shown in a panel of its own unless empty
+    double sampleRate = 48000.0;             ///< Hz, of the equaliser
+    std::optional<NamedResponse> distortion; ///< % over frequency, in a panel of its own
+    double lowFrequency = 0.0;               ///< Hz, range that is marked; 0 for none
+    double highFrequency = 0.0;              ///< Hz
+    std::optional<Linearity> linearity;      ///< shows level and tolerance
+};
+
+/// A panel of the responses over the frequencies that they share, one of the distortion, one of the equaliser.
+[[nodiscard]] Figure makeResponseFigure(const ResponseFigureContent& content, const FigureStyle& style);
+
+} // namespace pacini::plot

@@ -1,0 +1,110 @@
+#include "document/AudioReference.h"
+
+#include "io/AtomicFile.h"
+#include "io/InputFile.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+constexpr std::size_t largestSound = std::size_t(4) << 30;
+
+bool sameContent(const fs::path& path, const AudioReference& reference)
+{
+    std::error_code error;
+    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != reference.bytes || error)
+        return false;
+    const auto bytes = readWholeFile(path, largestSound);
+    return bytes && contentHash(*bytes) == reference.hash;
+}
+
+/// A folder and those directly inside it.
+std::vector<fs::path> withSubfolders(const fs::path& folder)
+{
+    constexpr std::size_t most = 1000; // a folder with more is not searched to the end: it may be anybody's
+    std::vector<fs::path> all = {folder};
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end && all.size() < most;
+         entry.increment(error))
+        if (std::error_code ignored; entry->is_directory(ignored))
+            all.push_back(entry->path());
+    return all;
+}
+} // namespace
+
+std::string contentHash(std::string_view bytes)
+{
+    std::uint64_t hash = 0xCBF29CE484222325ull;
+    for (const char c : bytes)
+    {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001B3ull;
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+Result<DescribedAudio> describeAudio(const fs::path& path, bool embed)
+{
+    auto bytes = readWholeFile(path, largestSound);
+    if (!bytes)
+        return bytes.error();
+    auto audio = readAudio(path);
+    if (!audio)
+        return audio.error();
+    DescribedAudio described;
+    std::error_code error;
+    described.reference.path = fs::absolute(path, error).lexically_normal();
+    described.reference.bytes = bytes->size();
+    described.reference.hash = contentHash(*bytes);
+    described.reference.sampleRate = audio->sampleRate;
+    described.reference.channels = audio->channels;
+    described.reference.duration =
+        static_cast<double>(audio->samples.size() / static_cast<std::size_t>(audio->channels)) / audio->sampleRate;
+    if (embed)
+        described.reference.embedded = std::make_shared<const std::string>(std::move(*bytes));
+    described.audio = std::move(*audio);
+    return described;
+}
+
+Result<LocatedAudio> locateAudio(const AudioReference& reference, std::span<const fs::path> folders)
+{
+    if (sameContent(reference.path, reference))
+        return LocatedAudio{reference.path, false, false};
+    for (const fs::path& folder : folders)
+        for (const fs::path& inside : withSubfolders(folder))
+            if (const fs::path candidate = inside / reference.path.filename(); sameContent(candidate, reference))
+                return LocatedAudio{candidate, true, false};
+    std::error_code error;
+    if (fs::is_regular_file(reference.path, error))
+        return LocatedAudio{reference.path, false, true};
+    return Error{ErrorCode::io, reference.path.string(),
+                 "is not there any more; the clip is kept, show where the sound is to analyse it again"};
+}
+
+Result<AudioData> loadAudio(const AudioReference& reference, std::span<const fs::path> folders,
+                            const fs::path& temporaryFolder)
+{
+    if (!reference.embedded)
+    {
+        const auto found = locateAudio(reference, folders);
+        return found ? readAudio(found->path) : Result<AudioData>(found.error());
+    }
+    const fs::path file = temporaryFolder / (".sound-" + reference.hash + reference.path.extension().string());
+    if (auto written = writeFileAtomically(file, std::string_view(*reference.embedded)); !written)
+        return written.error();
+    auto audio = readAudio(file);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    return audio;
+}
+
+} // namespace pacini

@@ -1,0 +1,71 @@
+#pragma once
+
+// The sounds that a project is made from: named, recognised when they have moved, carried along on request.
+
+#include "io/AudioReader.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pacini
+{
+
+/// A sound file. In memory its path is absolute; a project file writes it relative to itself where it can.
+struct AudioReference
+{
+    int id = 0; ///< of this sound in its project, from 1
+    std::filesystem::path path;
+    std::uint64_t bytes = 0;
+    double duration = 0.0;   ///< s
+    double sampleRate = 0.0; ///< Hz
+    int channels = 0;
+    std::string hash;                            ///< contentHash() of the file
+    std::shared_ptr<const std::string> embedded; ///< the whole file, or null
+
+    /// Same file and same content; of an embedded copy only whether there is one.
+    bool operator==(const AudioReference& other) const
+    {
+        return id == other.id && path == other.path && bytes == other.bytes && duration == other.duration &&
+               sampleRate == other.sampleRate && channels == other.channels && hash == other.hash &&
+               (embedded != nullptr) == (other.embedded != nullptr);
+    }
+};
+
+/// 16 hexadecimal digits of FNV-1a with 64 bits (Fowler, Noll, Vo, 1991): tells files apart that are not made to
+/// collide, which is enough to find a sound again.
+[[nodiscard]] std::string contentHash(std::string_view bytes);
+
+/// Reads a sound and says what it is. The samples come along, so that it is read once. Errors: those of readAudio().
+struct DescribedAudio
+{
+    AudioReference reference;
+    AudioData audio;
+};
+[[nodiscard]] Result<DescribedAudio> describeAudio(const std::filesystem::path& path, bool embed = false);
+
+/// Where a sound is now.
+struct LocatedAudio
+{
+    std::filesystem::path path;
+    bool moved = false;   ///< found elsewhere, by its name and content
+    bool changed = false; ///< still in its place, but with another content: analyse it anew
+};
+
+/// Looks for a sound: in its place, else under its name in `folders` (the project's own first) and the folders directly
+/// inside them, where size and hash must agree. Error io when it is nowhere; its message names the file.
+[[nodiscard]] Result<LocatedAudio> locateAudio(const AudioReference& reference,
+                                               std::span<const std::filesystem::path> folders);
+
+/// The samples of a sound: the embedded copy where there is one, else the file as locateAudio() finds it. An embedded
+/// copy passes through a temporary file in `temporaryFolder`.
+[[nodiscard]] Result<AudioData> loadAudio(const AudioReference& reference,
+                                          std::span<const std::filesystem::path> folders,
+                                          const std::filesystem::path& temporaryFolder);
+
+} // namespace pacini

@@ -1,0 +1,442 @@
+#include "document/Document.h"
+
+#include "document/OperationCheck.h"
+#include "document/ProjectJson.h"
+#include "io/AtomicFile.h"
+#include "io/InputFile.h"
+
+#include <pacini/clip/edits/TimeEdits.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace pacini
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+Error noSuchClip(int id)
+{
+    return {ErrorCode::invalidArgument, "clip", "there is no clip " + std::to_string(id) + " in this project"};
+}
+
+EditList with(EditList list, std::vector<Edit> edits)
+{
+    for (Edit& edit : edits)
+        list = list.with(std::make_shared<const Edit>(std::move(edit)));
+    return list;
+}
+
+std::vector<Edit> listOf(const EditList& edits)
+{
+    std::vector<Edit> all;
+    for (const auto& edit : edits.whole())
+        all.push_back(*edit);
+    return all;
+}
+
+EditList sharedList(std::vector<Edit> edits, const EditList& before)
+{
+    const auto old = before.whole();
+    std::vector<std::shared_ptr<const Edit>> shared;
+    for (std::size_t i = 0; i < edits.size(); ++i)
+        shared.push_back(i < old.size() && *old[i] == edits[i] ? old[i]
+                                                               : std::make_shared<const Edit>(std::move(edits[i])));
+    return EditList::of(shared, before);
+}
+
+void putReapplied(ClipItem& item, Reapplied reapplied)
+{
+    item.edits = sharedList(std::move(reapplied.edits), item.edits);
+    item.unfitting = std::move(reapplied.unfitting);
+    item.clip = std::make_shared<const Clip>(std::move(reapplied.clip));
+}
+
+int freeSourceId(const Project& project)
+{
+    int id = 1;
+    for (const AudioReference& source : project.sources)
+        id = std::max(id, source.id + 1);
+    return id;
+}
+
+/// The id of a sound in a project, where it is put if it is not there yet.
+int placeSound(Project& project, AudioReference sound)
+{
+    for (const AudioReference& known : project.sources)
+        if (known.hash == sound.hash && known.path == sound.path)
+            return known.id;
+    sound.id = freeSourceId(project);
+    project.sources.push_back(std::move(sound));
+    return project.sources.back().id;
+}
+} // namespace
+
+Document::Document(Project project, fs::path path, bool saved)
+    : content(std::move(project)), file(std::move(path)), history(content), savedState(saved ? history.id() : 0)
+{
+}
+
+Result<Document> Document::open(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error).lexically_normal();
+    const auto text = readWholeFile(absolute, largestProjectText);
+    if (!text)
+        return text.error();
+    auto read = readProjectJson(*text, absolute.parent_path());
+    if (!read)
+        return read.error();
+    return Document(std::move(read->project), absolute, true);
+}
+
+Result<Document> Document::recover(const fs::path& recoveryFile)
+{
+    const auto text = readWholeFile(recoveryFile, largestProjectText);
+    if (!text)
+        return text.error();
+    auto read = readProjectJson(*text, recoveryFile.parent_path());
+    if (!read)
+        return read.error();
+    const std::string path = read->recovery ? read->recovery->path : "";
+    return Document(std::move(read->project), fs::path(std::u8string(path.begin(), path.end())), false);
+}
+
+Result<void> Document::save()
+{
+    if (file.empty())
+        return Error{ErrorCode::invalidArgument, "", "the project has no file yet; choose one"};
+    return saveAs(file);
+}
+
+Result<void> Document::saveAs(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error).lexically_normal();
+    ProjectTextOptions options;
+    options.folder = absolute.parent_path();
+    if (auto written = writeFileAtomically(absolute, std::string_view(projectJson(content, options))); !written)
+        return written.error();
+    file = absolute;
+    savedState = history.id();
+    return {};
+}
+
+void Document::commit(std::string name, Project project, Gesture gesture)
+{
+    const bool continues = gesture != 0 && gesture == openGesture && history.canUndo() && !history.canRedo();
+    if (!continues)
+        beforeGesture = gesture != 0 ? content : Project{};
+    content = std::move(project);
+    if (continues)
+        history.replaceNewest(content);
+    else
+        history.push(std::move(name), content);
+    openGesture = gesture;
+}
+
+std::shared_ptr<const Clip> Document::gestureStart(int id, Gesture gesture) const
+{
+    const bool continues = gesture != 0 && gesture == openGesture;
+    const auto item = (continues ? beforeGesture : content).find(id);
+    return item ? item->clip : nullptr;
+}
+
+Result<void> Document::change(int id, std::string name, std::vector<Edit> edits, Clip edited, Gesture gesture)
+{
+    const bool continues = gesture != 0 && gesture == openGesture;
+    const Project& start = continues ? beforeGesture : content;
+    ClipItem item = *start.find(id);
+    item.edits = with(item.edits, std::move(edits));
+    item.clip = std::make_shared<const Clip>(std::move(edited));
+    Project next = start;
+    for (auto& place : next.clips)
+        if (place->id == id)
+            place = std::make_shared<const ClipItem>(std::move(item));
+    commit(std::move(name), std::move(next), gesture);
+    return {};
+}
+
+Result<void> Document::edit(int id, std::string name, EditOperation operation, Gesture gesture)
+{
+    const auto start = gestureStart(id, gesture);
+    if (!start)
+        return noSuchClip(id);
+    if (auto wrong = checkOperation(operation))
+        return *wrong;
+    auto edited = applyEdit(*start, operation);
+    if (!edited)
+        return edited.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(operation), *start));
+    return change(id, std::move(name), std::move(edits), std::move(edited).value(), gesture);
+}
+
+Result<void> Document::setClip(int id, std::string name, Clip edited, Gesture gesture)
+{
+    const auto start = gestureStart(id, gesture);
+    if (!start)
+        return noSuchClip(id);
+    if (auto valid = validate(edited); !valid)
+        return valid.error();
+    std::vector<Edit> edits;
+    for (EditOperation& operation : editsBetween(*start, edited))
+        edits.push_back(anchored(std::move(operation), *start));
+    if (edits.empty() && (gesture == 0 || gesture != openGesture))
+        return {};
+    return change(id, std::move(name), std::move(edits), std::move(edited), gesture);
+}
+
+int Document::nextClipId() const
+{
+    int id = 1;
+    for (const auto& item : content.clips)
+        id = std::max(id, item->id + 1);
+    return id;
+}
+
+Result<int> Document::addClip(std::string name, Clip clip)
+{
+    if (auto valid = validate(clip); !valid)
+        return valid.error();
+    ClipItem item;
+    item.id = nextClipId();
+    item.clip = item.analysis = std::make_shared<const Clip>(std::move(clip));
+    Project next = content;
+    const int id = item.id;
+    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return id;
+}
+
+Result<int> Document::addSound(std::string name, AudioReference sound, const EncoderParams& encoder, Clip analysis)
+{
+    if (auto valid = validate(analysis); !valid)
+        return valid.error();
+    if (auto valid = validate(encoder); !valid)
+        return valid.error();
+    Project next = content;
+    ClipItem item;
+    item.id = nextClipId();
+    item.source = placeSound(next, std::move(sound));
+    item.encoder = encoder;
+    item.clip = item.analysis = std::make_shared<const Clip>(std::move(analysis));
+    const int id = item.id;
+    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return id;
+}
+
+Result<void> Document::replaceItem(ClipItem item, std::string name)
+{
+    Project next = content;
+    for (auto& place : next.clips)
+        if (place->id == item.id)
+        {
+            place = std::make_shared<const ClipItem>(std::move(item));
+            commit(std::move(name), std::move(next));
+            return {};
+        }
+    return noSuchClip(item.id);
+}
+
+Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
+                                 std::optional<AudioReference> sound)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    if (auto valid = validate(analysis); !valid)
+        return valid.error();
+    if (auto valid = validate(encoder); !valid)
+        return valid.error();
+    Project next = content;
+    ClipItem item = *old;
+    item.encoder = encoder;
+    if (sound)
+        item.source = placeSound(next, std::move(*sound));
+    putReapplied(item, reapply(*old->analysis, analysis, listOf(old->edits)));
+    item.analysis = std::make_shared<const Clip>(std::move(analysis));
+    for (auto& place : next.clips)
+        if (place == old)
+            place = std::make_shared<const ClipItem>(std::move(item));
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::removeEdits(int id, std::string name, const std::vector<std::size_t>& edits)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    std::vector<Edit> kept;
+    const auto all = listOf(old->edits);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!std::binary_search(edits.begin(), edits.end(), i))
+            kept.push_back(all[i]);
+    ClipItem item = *old;
+    putReapplied(item, reapply(*old->analysis, *old->analysis, kept));
+    return replaceItem(std::move(item), std::move(name));
+}
+
+Result<int> Document::duplicateClip(int id, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.id = nextClipId();
+    const int added = item.id;
+    Project next = content;
+    const auto place = std::find(next.clips.begin(), next.clips.end(), old);
+    next.clips.insert(place + 1, std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return added;
+}
+
+Result<void> Document::removeClip(int id, std::string name)
+{
+    if (!clip(id))
+        return noSuchClip(id);
+    Project next = content;
+    std::erase_if(next.clips, [&](const auto& item) { return item->id == id; });
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::moveClip(int id, std::size_t index, std::string name)
+{
+    const auto moved = clip(id);
+    if (!moved)
+        return noSuchClip(id);
+    Project next = content;
+    std::erase(next.clips, moved);
+    const std::size_t place = std::min(index, next.clips.size());
+    next.clips.insert(next.clips.begin() + static_cast<std::ptrdiff_t>(place), moved);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<int> Document::splitClipAt(int id, double time, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    const double at = clampTo(time, 0.0, old->clip->duration);
+    const auto part = [&](int itsId, TimeRange range) -> Result<std::shared_ptr<const ClipItem>>
+    {
+        ClipItem item = *old;
+        item.id = itsId;
+        EditOperation trim = TrimEdit{range};
+        auto trimmed = applyEdit(*old->clip, trim);
+        if (!trimmed)
+            return trimmed.error();
+        std::vector<Edit> edits;
+        edits.push_back(anchored(std::move(trim), *old->clip));
+        item.edits = with(item.edits, std::move(edits));
+        item.clip = std::make_shared<const Clip>(std::move(trimmed).value());
+        return std::shared_ptr<const ClipItem>(std::make_shared<const ClipItem>(std::move(item)));
+    };
+    const int added = nextClipId();
+    const auto left = part(id, {0.0, at});
+    const auto right = part(added, {at, old->clip->duration});
+    if (!left || !right)
+        return left ? right.error() : left.error();
+    Project next = content;
+    const auto place = std::find(next.clips.begin(), next.clips.end(), old);
+    *place = *left;
+    next.clips.insert(place + 1, *right);
+    commit(std::move(name), std::move(next));
+    return added;
+}
+
+Result<void> Document::setGroup(int id, std::string group, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.group = std::move(group);
+    return replaceItem(std::move(item), std::move(name));
+}
+
+Result<void> Document::setNotes(int id, std::string notes, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.notes = std::move(notes);
+    return replaceItem(std::move(item), std::move(name));
+}
+
+void Document::setProjectNotes(std::string notes, std::string name)
+{
+    Project next = content;
+    next.notes = std::move(notes);
+    commit(std::move(name), std::move(next));
+}
+
+void Document::setGroups(std::vector<std::string> groups, std::string name)
+{
+    Project next = content;
+    next.groups = std::move(groups);
+    commit(std::move(name), std::move(next));
+}
+
+Result<void> Document::setProfile(ProjectProfile profile, std::string name)
+{
+    if (profile.embedded)
+        if (auto valid = validate(*profile.embedded); !valid)
+            return valid.error();
+    Project next = content;
+    next.profile = std::move(profile);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::setSound(AudioReference sound, std::string name)
+{
+    Project next = content;
+    for (AudioReference& known : next.sources)
+        if (known.id == sound.id)
+        {
+            known = std::move(sound);
+            commit(std::move(name), std::move(next));
+            return {};
+        }
+    return Error{ErrorCode::invalidArgument, "sound", "is not one of the project's sounds"};
+}
+
+void Document::goTo(std::size_t state)
+{
+    openGesture = 0;
+    content = history.goTo(std::min(state, history.size() - 1));
+}
+
+bool Document::undo()
+{
+    if (!canUndo())
+        return false;
+    goTo(history.current() - 1);
+    return true;
+}
+
+bool Document::redo()
+{
+    if (!canRedo())
+        return false;
+    goTo(history.current() + 1);
+    return true;
+}
+
+Result<std::size_t> Document::exportClip(int id, const fs::path& path, ClipFormat format) const
+{
+    const auto item = clip(id);
+    return item ? writeClip(path, *item->clip, format) : Result<std::size_t>(noSuchClip(id));
+}
+
+} // namespace pacini

@@ -1,0 +1,141 @@
+#pragma once
+
+// An open project: what an editor's windows talk to.
+
+#include "document/History.h"
+#include "document/Project.h"
+#include "io/ClipFile.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// Steps of one gesture (a drag, a turn of a knob) are one step of undo. 0: a step of its own.
+using Gesture = std::uint64_t;
+
+/// What an autosave needs, to go to another thread. Copying it is cheap.
+struct DocumentSnapshot
+{
+    Project project;
+    std::filesystem::path path; ///< empty: never saved
+    std::uint64_t state = 0;    ///< differs when anything differs
+    bool dirty = false;
+};
+
+/// One project with its file and its history. Every change goes through it: it is checked, becomes a step with a name,
+/// and hand edits of clips are kept as a layer over their analysis. What fails changes nothing. One thread. [message]
+class Document
+{
+public:
+    /// A new project without a file.
+    Document() : Document(Project{}, {}, true) {}
+
+    /// Opens a project file. Errors: io as in readWholeFile, and those of readProjectJson().
+    [[nodiscard]] static Result<Document> open(const std::filesystem::path& path);
+
+    /// Opens what an autosave has written as the project that it was: not saved, under its old path.
+    [[nodiscard]] static Result<Document> recover(const std::filesystem::path& recoveryFile);
+
+    /// Writes the project to its file, or to `path`, which becomes its file. On an error (io, or invalidArgument
+    /// without a path) the file that was there is untouched and the project stays as it is.
+    [[nodiscard]] Result<void> save();
+    [[nodiscard]] Result<void> saveAs(const std::filesystem::path& path);
+
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return file; }
+    [[nodiscard]] bool isDirty() const noexcept { return savedState != history.id(); }
+    [[nodiscard]] const Project& project() const noexcept { return content; }
+    [[nodiscard]] DocumentSnapshot snapshot() const { return {content, file, history.id(), isDirty()}; }
+
+    /// A clip with all that belongs to it, or null. Immutable: views and threads may keep it.
+    [[nodiscard]] std::shared_ptr<const ClipItem> clip(int id) const { return content.find(id); }
+
+    // Hand edits. Error invalidArgument: no such clip, or numbers that are not finite; else those of applyEdit().
+
+    /// Begins a gesture: all edits that carry it start from the clip as it was before the first of them, and each takes
+    /// the place of the one before.
+    [[nodiscard]] Gesture beginGesture() noexcept { return ++lastGesture; }
+
+    /// Applies an operation to a clip.
+    Result<void> edit(int id, std::string name, EditOperation operation, Gesture gesture = 0);
+
+    /// Takes a clip that was edited by the functions of Core/pacini/clip/edits; what has changed becomes the edit.
+    /// Within a gesture, `edited` is made of gestureStart().
+    Result<void> setClip(int id, std::string name, Clip edited, Gesture gesture = 0);
+
+    /// The clip that edits of a gesture start from: the current one when the gesture has none yet.
+    [[nodiscard]] std::shared_ptr<const Clip> gestureStart(int id, Gesture gesture) const;
+
+    // Clips and their analysis.
+
+    /// Adds a clip that is its own analysis (imported, or made by hand). Errors: those of validate(clip).
+    Result<int> addClip(std::string name, Clip clip);
+
+    /// Adds a sound and the clip that analyse() made of it.
+    Result<int> addSound(std::string name, AudioReference sound, const EncoderParams& encoder, Clip analysis);
+
+    /// Puts another analysis under the edits of a clip: other parameters, or `sound` in place of the old one. What does
+    /// not fit any more is listed in the clip's `unfitting` and waits there. Errors: those of validate(analysis).
+    Result<void> reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
+                           std::optional<AudioReference> sound = {});
+
+    /// Removes edits by their indices (ascending) and applies the others anew.
+    Result<void> removeEdits(int id, std::string name, const std::vector<std::size_t>& edits);
+
+    Result<int> duplicateClip(int id, std::string name);
+    Result<void> removeClip(int id, std::string name);
+    Result<void> moveClip(int id, std::size_t index, std::string name);
+
+    /// Splits a clip in two; the right part is a new clip behind it, whose id is returned.
+    Result<int> splitClipAt(int id, double time, std::string name);
+
+    Result<void> setGroup(int id, std::string group, std::string name);
+    Result<void> setNotes(int id, std::string notes, std::string name);
+    void setProjectNotes(std::string notes, std::string name);
+    void setGroups(std::vector<std::string> groups, std::string name);
+    Result<void> setProfile(ProjectProfile profile, std::string name);
+
+    /// Another place, or an embedded copy or none, for a sound whose id `sound` has.
+    Result<void> setSound(AudioReference sound, std::string name);
+
+    // Undo.
+
+    [[nodiscard]] bool canUndo() const noexcept { return history.canUndo(); }
+    [[nodiscard]] bool canRedo() const noexcept { return history.canRedo(); }
+    [[nodiscard]] std::string undoName() const { return canUndo() ? history.name(history.current()) : ""; }
+    [[nodiscard]] std::string redoName() const { return canRedo() ? history.name(history.current() + 1) : ""; }
+    [[nodiscard]] const History& steps() const noexcept { return history; }
+    bool undo();
+    bool redo();
+
+    /// Goes to any state of steps(); larger indices mean the newest.
+    void goTo(std::size_t state);
+
+    /// Writes a clip for use elsewhere and returns its size in bytes. Errors: those of writeClip().
+    [[nodiscard]] Result<std::size_t> exportClip(int id, const std::filesystem::path& path, ClipFormat format) const;
+
+private:
+    Document(Project project, std::filesystem::path path, bool saved);
+
+    Result<void> change(int id, std::string name, std::vector<Edit> edits, Clip edited, Gesture gesture);
+    void commit(std::string name, Project project, Gesture gesture = 0);
+    Result<void> replaceItem(ClipItem item, std::string name);
+    [[nodiscard]] int nextClipId() const;
+
+    Project content;
+    std::filesystem::path file;
+    History history;
+    std::uint64_t savedState = 0; ///< id of the state in the file; 0: none
+    Gesture lastGesture = 0;
+    Gesture openGesture = 0; ///< of the newest state
+    Project beforeGesture;
+};
+
+} // namespace pacini

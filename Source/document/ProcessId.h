@@ -1,0 +1,16 @@
+#pragma once
+
+// Who wrote a file, and whether it still runs.
+
+#include <cstdint>
+
+namespace pacini
+{
+
+/// The id of this process.
+[[nodiscard]] std::int64_t processId() noexcept;
+
+/// Whether a process of that id runs on this machine.
+[[nodiscard]] bool isRunning(std::int64_t process) noexcept;
+
+} // namespace pacini

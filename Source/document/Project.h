@@ -1,0 +1,94 @@
+#pragma once
+
+// What a project holds: a plain value. Its large parts are immutable and shared, so that a copy is cheap and may go to
+// any thread.
+
+#include "document/AudioReference.h"
+#include "document/EditLayer.h"
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/analysis/Encoder.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+/// A clip of a project with what it was made of: an analysis of a sound, and the hand edits over it.
+struct ClipItem
+{
+    int id = 0;        ///< in its project, from 1
+    std::string group; ///< empty: none
+    std::string notes;
+    int source = 0;                       ///< id of an AudioReference; 0: none
+    EncoderParams encoder;                ///< of the analysis
+    std::shared_ptr<const Clip> analysis; ///< without edits; never null
+    EditList edits;
+    std::vector<UnfittingEdit> unfitting; ///< of `edits`
+    std::shared_ptr<const Clip> clip;     ///< the analysis with the edits; never null
+};
+
+/// The actuator that the project is made for.
+struct ProjectProfile
+{
+    std::string name;                ///< of a shipped profile or a file; empty: none
+    std::optional<Profile> embedded; ///< its content, which counts before the name
+    bool operator==(const ProjectProfile&) const = default;
+};
+
+struct Project
+{
+    std::string notes;
+    std::vector<AudioReference> sources;
+    std::vector<std::shared_ptr<const ClipItem>> clips;
+    std::vector<std::string> groups; ///< in the order in which they are shown
+    ProjectProfile profile;
+
+    [[nodiscard]] std::shared_ptr<const ClipItem> find(int id) const
+    {
+        for (const auto& item : clips)
+            if (item->id == id)
+                return item;
+        return nullptr;
+    }
+
+    [[nodiscard]] const AudioReference* findSource(int id) const
+    {
+        for (const AudioReference& source : sources)
+            if (source.id == id)
+                return &source;
+        return nullptr;
+    }
+};
+
+[[nodiscard]] inline bool operator==(const ClipItem& a, const ClipItem& b)
+{
+    const auto same = [](const auto& x, const auto& y)
+    {
+        return x == y || *x == *y;
+    };
+    if (a.edits.size() != b.edits.size())
+        return false;
+    const auto editsOfA = a.edits.whole();
+    const auto editsOfB = b.edits.whole();
+    for (std::size_t i = 0; i < editsOfA.size(); ++i)
+        if (!same(editsOfA[i], editsOfB[i]))
+            return false;
+    return a.id == b.id && a.group == b.group && a.notes == b.notes && a.source == b.source && a.encoder == b.encoder &&
+           a.unfitting == b.unfitting && same(a.analysis, b.analysis) && same(a.clip, b.clip);
+}
+
+[[nodiscard]] inline bool operator==(const Project& a, const Project& b)
+{
+    if (a.clips.size() != b.clips.size())
+        return false;
+    for (std::size_t i = 0; i < a.clips.size(); ++i)
+        if (a.clips[i] != b.clips[i] && !(*a.clips[i] == *b.clips[i]))
+            return false;
+    return a.notes == b.notes && a.sources == b.sources && a.groups == b.groups && a.profile == b.profile;
+}
+
+} // namespace pacini

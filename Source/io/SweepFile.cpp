@@ -1,0 +1,78 @@
+#include "io/SweepFile.h"
+
+#include "io/AtomicFile.h"
+#include "io/FieldsReader.h"
+#include "io/FieldsWriter.h"
+#include "io/InputFile.h"
+#include "io/JsonTree.h"
+
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr std::size_t mostLevels = 32;
+
+/// Shows `visitor` (FieldsReader or FieldsWriter) all entries in the order of the file.
+template <typename AnySweep, typename Visitor>
+void visitFields(AnySweep& file, Visitor& visitor)
+{
+    using enum Need;
+    auto& sweep = file.sweep;
+    visitor.number("lowFrequency", sweep.lowFrequency, required);
+    visitor.number("highFrequency", sweep.highFrequency, required);
+    visitor.number("duration", sweep.duration, required);
+    visitor.number("fadeIn", sweep.fadeIn, required);
+    visitor.number("fadeOut", sweep.fadeOut, required);
+    visitor.integer("repeats", sweep.repeats, "must be a whole number, 1 to 100");
+    visitor.number("pause", sweep.pause, required);
+    visitor.numbers("levels", sweep.levels, mostLevels);
+    visitor.number("markerDuration", sweep.markerDuration, required);
+    visitor.number("sampleRate", sweep.sampleRate, required);
+    visitor.optionalText("equalizedFor", file.equalizedFor);
+}
+} // namespace
+
+Result<SweepFile> readSweepJson(std::string_view text)
+{
+    const auto document = readJsonTree(text, largestSweepText);
+    if (!document)
+        return document.error();
+    if (!document->is_object())
+        return Error{ErrorCode::invalidData, "", "is not the description of a sweep, which is a JSON object"};
+    FieldsReader reader(*document);
+    reader.format(sweepFormatName, sweepFormatVersion);
+    SweepFile file;
+    visitFields(file, reader);
+    if (reader.error)
+        return *reader.error;
+    if (auto valid = validate(file.sweep); !valid)
+        return valid.error();
+    return file;
+}
+
+std::string sweepJson(const SweepFile& sweep)
+{
+    FieldsWriter writer(sweepFormatName, sweepFormatVersion);
+    visitFields(sweep, writer);
+    return std::move(writer).document();
+}
+
+Result<SweepFile> readSweepFile(const std::filesystem::path& path)
+{
+    const auto text = readWholeFile(path, largestSweepText);
+    if (!text)
+        return text.error();
+    return readSweepJson(*text);
+}
+
+Result<std::size_t> writeSweepFile(const std::filesystem::path& path, const SweepFile& sweep)
+{
+    if (auto valid = validate(sweep.sweep); !valid)
+        return valid.error();
+    return writeFileAtomically(path, sweepJson(sweep));
+}
+
+} // namespace pacini

@@ -1,0 +1,53 @@
+#include "io/formats/ForeignFormat.h"
+
+#include "io/formats/AhapFormat.h"
+#include "io/formats/HapticFormat.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pacini
+{
+
+std::span<const ForeignFormat> foreignFormats()
+{
+    static const std::array formats{hapticFormat(), ahapFormat()};
+    return formats;
+}
+
+const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes)
+{
+    const ForeignFormat* found = nullptr;
+    for (const ForeignFormat& format : foreignFormats())
+    {
+        if (format.read == nullptr)
+            continue;
+        const bool named = format.extension == extension;
+        const bool recognised = format.recognises != nullptr && format.recognises(bytes);
+        if (recognised && named)
+            return &format;
+        if (recognised && (found == nullptr || found->recognises == nullptr))
+            found = &format;
+        if (format.recognises == nullptr && named && found == nullptr)
+            found = &format;
+    }
+    return found;
+}
+
+const ForeignFormat* foreignFormatNamed(std::string_view name)
+{
+    const auto formats = foreignFormats();
+    const auto found =
+        std::find_if(formats.begin(), formats.end(), [&](const ForeignFormat& format) { return format.name == name; });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+std::string_view lossName(LossKind kind)
+{
+    constexpr std::array<std::string_view, 11> names{"bands",    "points",    "length",   "frequency",
+                                                     "timeStep", "amplitude", "crowding", "event",
+                                                     "noise",    "empty",     "text"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+} // namespace pacini

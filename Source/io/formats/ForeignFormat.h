@@ -1,0 +1,103 @@
+#pragma once
+
+// Clip formats of others: what each reads, writes and loses.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+/// What a format makes of a clip in one place.
+enum class LossKind
+{
+    bands,     ///< bands became fewer
+    points,    ///< breakpoints were left out
+    length,    ///< the clip is longer than the format plays
+    frequency, ///< a frequency lies outside of what the format can say
+    timeStep,  ///< times were moved to the format's grid
+    amplitude, ///< an amplitude lies outside of what the format can say
+    crowding,  ///< events are nearer to each other than the format plays
+    event,     ///< an event or a property of it cannot be said
+    noise,     ///< residual noise cannot be said
+    empty,     ///< nothing is left here
+    text       ///< names, markers or sources cannot be said
+};
+
+/// One loss. Losses of one kind that follow each other are one.
+struct FormatLoss
+{
+    LossKind kind = LossKind::points;
+    double time = 0.0;     ///< s from the start of the clip
+    double duration = 0.0; ///< s; 0 for a moment or the whole clip
+    double error = 0.0;    ///< largest error of the amplitude there (1 = full drive), of the frequency in octaves for
+                           ///< `frequency`, of the time in s for `timeStep`
+    std::string message;   ///< what happens, for people
+    bool operator==(const FormatLoss&) const = default;
+};
+
+struct ImportedClip
+{
+    Clip clip;
+    std::vector<std::string> warnings; ///< what was let pass, with the place first
+};
+
+/// One file that a format needs; most need one.
+struct ExportedFile
+{
+    std::string suffix; ///< goes between the name and the extension, such as `-transients`; empty for the main file
+    std::string bytes;
+};
+
+struct ExportedClip
+{
+    std::vector<ExportedFile> files;
+    std::vector<FormatLoss> losses; ///< by time
+};
+
+struct ExportParams
+{
+    std::string name;                      ///< of the clip, for formats that carry one; empty: the clip's own
+    std::optional<double> amplitudePoints; ///< per second; none: what the format is used with
+    std::optional<double> frequencyPoints; ///< per second; likewise
+    std::optional<Profile> profile;        ///< where a format leaves open what its frequencies mean, and for rendering
+    std::optional<int> sampleRate;         ///< Hz, of formats that are samples
+    bool split = false;                    ///< formats that can be one file or several: several
+    bool operator==(const ExportParams&) const = default;
+};
+
+/// A format. Readers are lenient where the format's own players are and say so in warnings; writers keep every rule
+/// after rounding. Bytes depend on clip and parameters only.
+struct ForeignFormat
+{
+    std::string_view name;                      ///< on the command line, such as `haptic`
+    std::string_view title;                     ///< for people
+    std::string_view extension;                 ///< with dot, lower case
+    bool (*recognises)(std::string_view bytes); ///< whether a file's content is of this format; null: extension only
+    Result<ImportedClip> (*read)(std::string_view bytes);                        ///< null: cannot be read
+    Result<ExportedClip> (*write)(const Clip& clip, const ExportParams& params); ///< null: cannot be written
+    std::string_view companion = {}; ///< suffix of a second file whose events belong to the clip, if there can be one
+};
+
+/// All formats, in the order in which they are listed.
+[[nodiscard]] std::span<const ForeignFormat> foreignFormats();
+
+/// The format of a file with this extension (with dot, lower case) and content; null when it is none of these. Of
+/// several that recognise the content the one with the extension counts; what is recognised by extension only comes
+/// last.
+[[nodiscard]] const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes);
+
+/// The format of this name; null when there is none.
+[[nodiscard]] const ForeignFormat* foreignFormatNamed(std::string_view name);
+
+/// A kind of loss in one word, such as `points`.
+[[nodiscard]] std::string_view lossName(LossKind kind);
+
+} // namespace pacini

@@ -1,0 +1,166 @@
+"""End to end: pacini measure, from a sweep over simulated wearers to an actuator that is proven flat."""
+import json
+import math
+import unittest
+
+from command import SOURCE, SANITIZED, CommandTest, sine, wav
+
+
+def peaking(section, f, fs):
+    """dB of a section at f by the formulas of Robert Bristow-Johnson's cookbook."""
+    w0 = 2 * math.pi * section["frequency"] / fs
+    a = 10 ** (section["gain"] / 40)
+    alpha = math.sin(w0) / (2 * section["q"])
+    cos, root = math.cos(w0), 2 * math.sqrt(a) * alpha
+    if section["type"] == "peak":
+        top, bottom = (1 + alpha * a, -2 * cos, 1 - alpha * a), (1 + alpha / a, -2 * cos, 1 - alpha / a)
+    elif section["type"] == "lowShelf":
+        top = (a * (a + 1 - (a - 1) * cos + root), 2 * a * (a - 1 - (a + 1) * cos), a * (a + 1 - (a - 1) * cos - root))
+        bottom = (a + 1 + (a - 1) * cos + root, -2 * (a - 1 + (a + 1) * cos), a + 1 + (a - 1) * cos - root)
+    else:
+        assert section["type"] == "highShelf", section
+        top = (a * (a + 1 + (a - 1) * cos + root), -2 * a * (a - 1 + (a + 1) * cos), a * (a + 1 + (a - 1) * cos - root))
+        bottom = (a + 1 - (a - 1) * cos + root, 2 * (a - 1 - (a + 1) * cos), a + 1 - (a - 1) * cos - root)
+    z = complex(math.cos(2 * math.pi * f / fs), -math.sin(2 * math.pi * f / fs))
+    value = (top[0] + top[1] * z + top[2] * z * z) / (bottom[0] + bottom[1] * z + bottom[2] * z * z)
+    return 20 * math.log10(abs(value))
+
+
+def csv(frequencies, levels):
+    return "frequency,dB\n" + "".join(f"{f!r},{level!r}\n" for f, level in zip(frequencies, levels))
+
+
+class MeasureTest(CommandTest):
+    def refused(self, pattern, *arguments):
+        """Runs; exit 1 and one message that matches."""
+        self.assertRegex(self.fails(1, arguments).stderr.decode(), pattern)
+
+    def warned(self, *arguments):
+        """Runs with --json; the object on stdout, and the warnings, of which there are some."""
+        done = self.run_command(*arguments, "--json")
+        warnings = done.stderr.decode()
+        for line in warnings.splitlines():
+            self.assertRegex(line, r"^pacini: .*: warning: ")
+        return done.returncode, json.loads(done.stdout), warnings
+
+
+class Fit(MeasureTest):
+    def cases(self):
+        return json.loads((SOURCE / "Tests/golden/eq_cases.json").read_text())
+
+    def test_what_is_reported_is_what_the_sections_do(self):
+        cases = self.cases()
+        frequencies = cases["frequencyHz"]
+        for index, rate in ((0, 48000), (6, 8000), (10, 3000), (15, 48000)):
+            case = cases["cases"][index]
+            self.put("response.csv", csv(frequencies, case["responseDb"]).encode())
+            for sections in ("3", "auto"):
+                report = self.report("measure", "fit", "response.csv", "--sections", sections, "--rate", str(rate))
+                curve = [sum(peaking(s, f, rate) for s in report["sections"]) for f in frequencies]
+                flat = [level + eq for level, eq in zip(case["responseDb"], curve)]
+                mean = sum(flat) / len(flat)
+                rms = math.sqrt(sum((x - mean) ** 2 for x in flat) / len(flat))
+                self.assertAlmostEqual(report["rms"], rms, delta=0.01)
+                self.assertAlmostEqual(report["max"], max(abs(x - mean) for x in flat), delta=0.01)
+                self.assertLessEqual(max(sum(peaking(s, f, rate) for s in report["sections"])
+                                         for f in (10 * 1.01 ** i for i in range(500)) if f < 0.49 * rate), 12.2)
+                self.assertGreater(report["milliseconds"], 0)
+                if sections == "3":
+                    self.assertLessEqual(len(report["sections"]), 3)
+
+    def test_a_flat_response_needs_no_section(self):
+        self.put("flat.csv", csv(range(30, 130), [3.5] * 100).encode())
+        report = self.report("measure", "fit", "flat.csv")
+        self.assertEqual(report["sections"], [])
+        self.assertEqual((report["rms"], report["max"]), (0, 0))
+
+    def test_bad_responses_are_refused_at_their_place(self):
+        good = "".join(f"{10 * i},{i}\n" for i in range(1, 10))
+        for text, where in (("10,0\n20,0\n", "points"), (good + "5,0\n", "line 10: frequency"),
+                            (good + "100,nan\n", "line 10: level"), (good + "100\n", "line 10: level"),
+                            ("10,1\n" * 9, "line 2: frequency"), ("", "points")):
+            self.put("bad.csv", text.encode())
+            self.refused(r"bad\.csv: " + where, "measure", "fit", "bad.csv")
+        self.refused(r"none\.csv: ", "measure", "fit", "none.csv")
+        self.refused(r"measurement: is missing", "measure", "fit", "l5-wristband")
+
+    def test_the_equaliser_goes_into_a_profile(self):
+        self.put("r.csv", csv(*zip(*((f, -6 * math.log2(f / 100)) for f in range(30, 1000, 10)))).encode())
+        self.succeeds("measure", "fit", "r.csv", "--profile", "l5-test-jig", "-o", "mine.json", "--plot", "mine.svg")
+        profile = json.loads((self.folder / "mine.json").read_text())
+        self.assertTrue(profile["equalizer"])
+        self.assertIn("r.csv", profile["sources"]["equalizer"])
+        self.assertIn(b"<svg", (self.folder / "mine.svg").read_bytes()[:400])
+
+
+class EndToEnd(MeasureTest):
+    def test_fourteen_wearers_become_flat(self):
+        seconds = "2" if SANITIZED else "6"
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", seconds, "--rate", "8000", "--levels", "-12")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "12")
+        for loose in (13, 14):
+            self.succeeds("measure", "simulate", "sweep.wav", "-o", f"rec-{loose}.wav", "--wearer", str(loose),
+                          "--contact", "-6")
+        recordings = [f"rec-{i:02}.wav" for i in range(1, 15)]
+        code, report, warnings = self.warned("measure", "analyse", *recordings, "--sweep", "sweep.json", "--full-scale",
+                                             "5g", "-o", "mine.json", "--name", "Mine", "--plot", "mine.svg")
+        self.assertEqual(code, 0)
+        self.assertRegex(warnings, r"rec-01\.wav and 13 more: warning: clock: .* 50 ppm")
+        self.assertEqual(sorted(entry["input"] for entry in report["outliers"]), ["rec-13.wav", "rec-14.wav"])
+        for entry in report["recordings"]:
+            self.assertAlmostEqual(entry["driftPpm"], 50, delta=2)
+            self.assertAlmostEqual(entry["latency"], 0.012, delta=0.002)
+
+        fit = self.report("measure", "fit", "mine.json", "-o", "mine.json", "--rate", "8000", "--goal",
+                          "0.5")
+        self.assertLess(fit["max"], 0.5)
+        self.succeeds("measure", "sweep", "-o", "flat.wav", "--duration", seconds, "--rate", "8000", "--levels", "-15",
+                      "--profile", "mine.json")
+        self.succeeds("measure", "simulate", "flat.wav", "-o", "after.wav", "--wearers", "12")
+        after = [f"after-{i:02}.wav" for i in range(1, 13)]
+        code, verified, _ = self.warned("measure", "verify", *after, "--sweep", "flat.wav", "--full-scale", "5g",
+                                        "--profile", "mine.json", "--tolerance", "1", "--plot", "after.svg")
+        self.assertEqual(code, 0)
+        self.assertTrue(verified["passed"])
+        self.assertLessEqual(abs(verified["worstDeviation"]), 1)
+        each = sorted(abs(entry["worstDeviation"]) for entry in verified["recordings"])
+        self.assertLessEqual(each[9], 3)  # the two most unlike the average have skins at the ends of the assumed range
+        self.assertLessEqual(each[11], 4)
+        profile = json.loads((self.folder / "mine.json").read_text())
+        self.assertEqual(profile["measurement"]["fittings"], 12)
+        self.assertEqual(profile["measurement"]["linearity"]["worstDeviation"], verified["worstDeviation"])
+        self.succeeds("info", "mine.json")
+
+    def test_what_is_not_flat_fails_and_says_where(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav")
+        self.assertEqual(self.warned("measure", "analyse", "rec.wav", "--sweep", "sweep.wav", "-o", "mine.json")[0], 0)
+        done = self.run_command("measure", "fit", "mine.json", "-o", "mine.json", "--rate", "8000")
+        self.assertEqual(done.returncode, 0)
+        profile = json.loads((self.folder / "mine.json").read_text())
+        profile["equalizer"] = [{"type": "peak", "frequency": 200, "gain": 12, "q": 2}]
+        self.put("mine.json", json.dumps(profile).encode())
+        self.succeeds("measure", "sweep", "-o", "flat.wav", "--duration", "2", "--rate", "8000", "--levels", "-20",
+                      "--profile", "mine.json")
+        self.succeeds("measure", "simulate", "flat.wav", "-o", "after.wav")
+        done = self.run_command("measure", "verify", "after.wav", "--sweep", "flat.wav", "--profile", "mine.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout.decode(), r"FAIL within ±4 dB.*\n.* Hz: [+-]\d")
+
+    def test_recordings_that_cannot_be_analysed_are_named(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000")
+        self.put("tone.wav", wav(sine(200, 8, 8000), 8000))
+        self.refused(r"tone\.wav: channels: hold no sweep", "measure", "analyse", "tone.wav", "--sweep", "sweep.json")
+        self.put("short.wav", wav(sine(200, 1, 8000), 8000))
+        self.refused(r"short\.wav: channels: ", "measure", "analyse", "short.wav", "--sweep", "sweep.json")
+        self.put("slow.wav", wav(sine(200, 8, 2000), 2000))
+        self.refused(r"slow\.wav: ", "measure", "analyse", "slow.wav", "--sweep", "sweep.json")
+        self.refused(r"none\.json: ", "measure", "analyse", "tone.wav", "--sweep", "none.json")
+        self.put("other.json", b'{"format": "pacini.sweep", "version": 1}')
+        self.refused(r"other\.json: lowFrequency: is missing", "measure", "analyse", "tone.wav", "--sweep",
+                        "other.json")
+        self.refused(r"--channels", "measure", "analyse", "tone.wav", "--sweep", "sweep.json", "--channels", "2")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,300 @@
+#include "document/Document.h"
+
+#include "io/ClipJson.h"
+#include "support/Catch.h"
+#include "support/RandomEdits.h"
+#include "support/TempFolder.h"
+
+#include <pacini/clip/edits/PointEdits.h>
+
+#include <filesystem>
+
+using namespace pacini;
+
+namespace
+{
+/// An operation with arguments of all kinds, also such that are refused.
+EditOperation anyOperation(Random& random, const Clip& clip)
+{
+    const auto time = [&]
+    {
+        return test::anyNumber(random, 0.0, clip.duration);
+    };
+    switch (random.next() % 13)
+    {
+    case 0:
+        return GainEdit{test::anyScope(random, clip), test::anyNumber(random, -20.0, 6.0)};
+    case 1:
+        return FadeEdit{test::anyScope(random, clip), FadeDirection::out, FadeShape::smooth};
+    case 2:
+        return InvertEdit{test::anyScope(random, clip)};
+    case 3:
+        return QuantiseEdit{test::anyScope(random, clip), {0.05, 0.0, 0.8}};
+    case 4:
+        return HumaniseEdit{test::anyScope(random, clip), {0.01, 2.0, 0.5, random.next()}};
+    case 5:
+        return TransposeEdit{test::anyNumber(random, -12.0, 12.0)};
+    case 6:
+        return TrimEdit{{time(), time()}};
+    case 7:
+        return CutEdit{{time(), time()}};
+    case 8:
+        return InsertEdit{time(), std::make_shared<const Clip>(test::randomClip(random.next() % 9, 5))};
+    case 9:
+        return RepeatEdit{static_cast<int>(random.next() % 3)};
+    case 10:
+        return ReverseEdit{};
+    case 11:
+        return StretchEdit{random.uniform(0.5, 2.0)};
+    default:
+        return RenameEdit{"name " + std::to_string(random.next() % 100)};
+    }
+}
+
+/// Some step of a user on clip `id`.
+void anyStep(Random& random, Document& document, int id)
+{
+    const auto item = document.clip(id);
+    if (random.next() % 2 == 0)
+    {
+        if (auto edited = test::anyEdit(random, *item->clip); edited && breakpointCount(*edited) < 5000)
+            REQUIRE(document.setClip(id, "Edit", std::move(edited).value()));
+        return;
+    }
+    const auto before = document.snapshot().state;
+    if (breakpointCount(*item->clip) > 3000)
+        REQUIRE(document.edit(id, "Trim", TrimEdit{{0.0, 0.3 * item->clip->duration}}));
+    else if (!document.edit(id, "Operation", anyOperation(random, *item->clip)))
+        CHECK(document.snapshot().state == before); // what is refused changes nothing
+}
+
+/// A clip as it comes out of a file: texts are UTF-8.
+Clip fileClip(std::uint64_t seed)
+{
+    return readClipJson(writeClipJson(test::randomClip(seed, 12))).value();
+}
+} // namespace
+
+TEST_CASE("Undoing everything gives the first project bit for bit, redoing everything the last")
+{
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    {
+        Random random(seed);
+        Document document;
+        const int id = document.addClip("Add", fileClip(seed)).value();
+        std::vector<std::string> texts = {writeClipJson(*document.clip(id)->clip)};
+        std::vector<std::size_t> states = {document.steps().current()};
+        for (int step = 0; step < 40; ++step)
+        {
+            anyStep(random, document, id);
+            INFO("seed " << seed << ", step " << step);
+            REQUIRE(validate(*document.clip(id)->clip));
+            if (document.steps().current() == states.back())
+                continue;
+            states.push_back(document.steps().current());
+            texts.push_back(writeClipJson(*document.clip(id)->clip));
+        }
+        const Project last = document.project();
+        for (std::size_t i = texts.size(); i-- > 0;)
+        {
+            CHECK(writeClipJson(*document.clip(id)->clip) == texts[i]);
+            CHECK(document.undo());
+        }
+        CHECK(document.project().clips.empty());
+        CHECK_FALSE(document.undo());
+        for (const std::string& text : texts)
+        {
+            REQUIRE(document.redo());
+            CHECK(writeClipJson(*document.clip(id)->clip) == text);
+        }
+        CHECK_FALSE(document.redo());
+        CHECK(document.project() == last);
+    }
+}
+
+TEST_CASE("The edits over an analysis make the clip again, bit for bit")
+{
+    for (std::uint64_t seed = 1; seed <= 25; ++seed)
+    {
+        Random random(seed);
+        Document document;
+        const int id = document.addClip("Add", fileClip(seed)).value();
+        for (int step = 0; step < 25; ++step)
+            anyStep(random, document, id);
+        const auto item = document.clip(id);
+        const Clip analysis = *item->analysis;
+        REQUIRE(document.reanalyse(id, "Again", item->encoder, analysis));
+        INFO("seed " << seed);
+        CHECK(document.clip(id)->unfitting.empty());
+        CHECK(writeClipJson(*document.clip(id)->clip) == writeClipJson(*item->clip));
+    }
+}
+
+TEST_CASE("Edit, save, close, open, export: identical clips and edits")
+{
+    const test::TempFolder folder;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    {
+        Random random(seed);
+        Document document;
+        const int id = document.addClip("Add", fileClip(seed)).value();
+        const int other = document.addClip("Add", fileClip(seed + 100)).value();
+        for (int step = 0; step < 20; ++step)
+            anyStep(random, document, step % 3 == 0 ? other : id);
+        REQUIRE(document.setGroup(id, "group \"ä\"", "Group"));
+        REQUIRE(document.setNotes(other, "two\nlines", "Notes"));
+        document.setGroups({"group \"ä\"", "empty"}, "Groups");
+        document.setProjectNotes("all", "Notes");
+        const auto path = folder / "sub folder.pacini";
+        REQUIRE(document.saveAs(path));
+        CHECK_FALSE(document.isDirty());
+
+        auto opened = Document::open(path);
+        INFO("seed " << seed << (opened ? "" : opened.error().text()));
+        REQUIRE(opened);
+        CHECK(opened->project() == document.project());
+        CHECK_FALSE(opened->isDirty());
+        REQUIRE(document.exportClip(id, folder / "a.json", ClipFormat::json));
+        REQUIRE(opened->exportClip(id, folder / "b.json", ClipFormat::json));
+        CHECK(test::bytesOf(folder / "a.json") == test::bytesOf(folder / "b.json"));
+        REQUIRE(opened->saveAs(folder / "again.pacini"));
+        CHECK(test::bytesOf(folder / "again.pacini") == test::bytesOf(path));
+    }
+}
+
+TEST_CASE("A project is dirty exactly when it differs from its file")
+{
+    const test::TempFolder folder;
+    Document document;
+    CHECK_FALSE(document.isDirty());
+    CHECK(document.save().error().code == ErrorCode::invalidArgument);
+    const int id = document.addClip("Add", fileClip(1)).value();
+    CHECK(document.isDirty());
+    REQUIRE(document.saveAs(folder / "p.pacini"));
+    REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
+    CHECK(document.isDirty());
+    CHECK(document.undoName() == "Reverse");
+    document.undo();
+    CHECK_FALSE(document.isDirty());
+    CHECK(document.redoName() == "Reverse");
+    document.redo();
+    CHECK(document.isDirty());
+    document.undo();
+    REQUIRE(document.setNotes(id, "other way", "Notes"));
+    CHECK_FALSE(document.canRedo());
+    CHECK(document.isDirty());
+}
+
+TEST_CASE("A file that cannot be written leaves the old one and the project as they were")
+{
+    const test::TempFolder folder;
+    Document document;
+    (void)document.addClip("Add", fileClip(1));
+    REQUIRE(document.saveAs(folder / "p.pacini"));
+    const std::string before = test::bytesOf(folder / "p.pacini");
+    document.setProjectNotes("new", "Notes");
+    CHECK(document.saveAs(folder / "missing/p.pacini").error().code == ErrorCode::io);
+    CHECK(document.path() == folder / "p.pacini");
+    CHECK(document.isDirty());
+    CHECK(test::bytesOf(folder / "p.pacini") == before);
+    REQUIRE(document.save());
+    CHECK_FALSE(document.isDirty());
+}
+
+TEST_CASE("All edits of a gesture are one step, each in place of the one before")
+{
+    Document document;
+    Clip clip;
+    clip.duration = 1.0;
+    clip.envelope = {{0.0, 0.5}, {0.5, 0.8}, {1.0, 0.5}};
+    const int id = document.addClip("Add", clip).value();
+    const auto steps = document.steps().size();
+    const Gesture drag = document.beginGesture();
+    for (int i = 1; i <= 30; ++i)
+    {
+        Clip moved = *document.gestureStart(id, drag);
+        moved.envelope =
+            movePoints(moved.envelope, {1}, {0.01 * i, 0.0, 1.0}, limitsOf(moved, {LaneKind::envelope, 0})).curve;
+        REQUIRE(document.setClip(id, "Move point", moved, drag));
+    }
+    CHECK(document.steps().size() == steps + 1);
+    CHECK(document.clip(id)->clip->envelope[1].time == Approx(0.8));
+    CHECK(document.clip(id)->edits.size() == 1);
+    const Gesture turn = document.beginGesture();
+    for (int i = 1; i <= 6; ++i)
+        REQUIRE(document.edit(id, "Gain", GainEdit{{}, -1.0 * i}, turn));
+    CHECK(document.clip(id)->clip->envelope[0].value == Approx(0.5 * std::pow(10.0, -0.3)));
+    document.undo();
+    CHECK(document.clip(id)->clip->envelope[0].value == 0.5);
+    document.undo();
+    CHECK(*document.clip(id)->clip == clip);
+}
+
+TEST_CASE("Clips are added, copied, moved, split and removed, and each of these can be undone")
+{
+    Document document;
+    const Clip clip = fileClip(4);
+    const int id = document.addClip("Add", clip).value();
+    const int copy = document.duplicateClip(id, "Copy").value();
+    CHECK(*document.clip(copy)->clip == clip);
+    const int right = document.splitClipAt(id, 0.4 * clip.duration, "Split").value();
+    CHECK(document.clip(id)->clip->duration + document.clip(right)->clip->duration == Approx(clip.duration));
+    CHECK(document.project().clips[1]->id == right);
+    REQUIRE(document.moveClip(right, 9, "Move"));
+    CHECK(document.project().clips.back()->id == right);
+    REQUIRE(document.removeClip(copy, "Remove"));
+    CHECK_FALSE(document.clip(copy));
+    CHECK_FALSE(document.removeClip(copy, "Remove"));
+    for (int i = 0; i < 3; ++i)
+        document.undo();
+    CHECK(*document.clip(id)->clip == clip);
+    CHECK(document.project().clips.size() == 2);
+}
+
+TEST_CASE("Removing one edit keeps those after it")
+{
+    Document document;
+    Clip clip;
+    clip.duration = 1.0;
+    clip.envelope = {{0.0, 0.1}, {0.3, 0.8}, {0.6, 0.2}, {1.0, 0.5}};
+    const int id = document.addClip("Add", clip).value();
+    REQUIRE(document.edit(id, "Gain", GainEdit{{}, 6.0}));
+    REQUIRE(document.edit(id, "Trim", TrimEdit{{0.3, 1.0}}));
+    REQUIRE(document.removeEdits(id, "Remove gain", {0}));
+    CHECK(document.clip(id)->edits.size() == 1);
+    CHECK(*document.clip(id)->clip == trimClip(clip, {0.3, 1.0}));
+}
+
+TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the clip")
+{
+    Random random(1);
+    Clip clip;
+    clip.duration = 100.0;
+    for (int i = 0; i < 50000; ++i)
+        clip.envelope.push_back({0.002 * i, random.uniform()});
+    Document document;
+    const int id = document.addClip("Add", clip).value();
+    for (int i = 0; i < 200; ++i)
+    {
+        Clip edited = *document.clip(id)->clip;
+        const auto limits = limitsOf(edited, {LaneKind::envelope, 0});
+        edited.envelope = movePoints(edited.envelope, {random.next() % 50000}, {0.0, 0.1, 1.0}, limits).curve;
+        edited.envelope = addPoint(edited.envelope, {random.uniform(0.0, 100.0), 0.5}, limits).curve;
+        REQUIRE(document.setClip(id, "Edit", edited));
+    }
+    // Two places far apart: all between them is new once, at the most.
+    std::size_t sum = 0;
+    for (int i = 0; i < 200; ++i)
+    {
+        Clip edited = *document.clip(id)->clip;
+        edited.envelope = movePoints(edited.envelope, {random.next() % 50000}, {0.0, 0.01, 1.0},
+                                     limitsOf(edited, {LaneKind::envelope, 0}))
+                              .curve;
+        REQUIRE(document.setClip(id, "Edit", edited));
+        sum += document.steps().bytes(document.steps().current());
+    }
+    CHECK(sum / 200 < 20'000); // the clip has 800 000 bytes
+    while (document.steps().current() > 1)
+        document.undo();
+    CHECK(*document.clip(id)->clip == clip);
+}

@@ -1,0 +1,77 @@
+#include "EqualizerReference.h"
+#include "support/Catch.h"
+
+#include <pacini/linearize/EqualizerCost.h>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+Profile coil()
+{
+    Profile profile;
+    profile.resonance = {67.0, 4.0};
+    profile.range = {20.0, 1000.0, 60.0};
+    profile.drive.impedance = 8.8;
+    profile.drive.maxVoltageRms = 1.0;
+    profile.drive.excursion = 0.0007;
+    profile.drive.maxExcursion = 0.003;
+    return profile;
+}
+} // namespace
+
+TEST_CASE("No equaliser costs nothing", "[linearize]")
+{
+    const EqualizerCost cost = equalizerCost(coil(), {}, 48000.0);
+    CHECK(cost.powerChange == Approx(0.0).margin(1e-12));
+    CHECK(cost.excursionChange == Approx(0.0).margin(1e-12));
+    REQUIRE(cost.power.has_value());
+    CHECK(*cost.power == Approx(1.0 / 8.8));
+    REQUIRE(cost.excursion.has_value());
+    // a resonator of q 4 moves q / sqrt(1 - 1 / (4 q^2)) times as far at its peak, at sqrt(1 - 1 / (2 q^2)) of f0
+    CHECK(*cost.excursion == Approx(0.0007 / 0.003 * 4.0 / std::sqrt(1.0 - 1.0 / 64.0)).epsilon(1e-4));
+    CHECK(cost.excursionFrequency == Approx(67.0 * std::sqrt(1.0 - 1.0 / 32.0)).epsilon(3e-3));
+}
+
+TEST_CASE("The power of an equaliser is that of its response over the spectrum", "[linearize]")
+{
+    const EqualizerSections sections = {{EqualizerType::peak, 30.0, 16.0, 1.5, 2},
+                                        {EqualizerType::peak, 68.0, -10.0, 1.6, 2}};
+    for (const auto reference : {ReferenceSpectrum::flat, ReferenceSpectrum::pink})
+    {
+        // the middle rule over Hz, where the code steps by ratios
+        double plain = 0.0, equalized = 0.0;
+        for (double f = 20.005; f < 1000.0; f += 0.01)
+        {
+            const double density = reference == ReferenceSpectrum::flat ? 1.0 : 1.0 / f;
+            plain += density;
+            equalized += density * std::pow(10.0, cookbookLevel(sections, f, 48000.0) / 10.0);
+        }
+        const EqualizerCost cost = equalizerCost(coil(), sections, 48000.0, reference);
+        CHECK(cost.powerChange == Approx(10.0 * std::log10(equalized / plain)).margin(1e-3));
+        CHECK(*cost.power == Approx(equalized / plain / 8.8).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("A boost below the resonance costs travel, a cut at it gives some back", "[linearize]")
+{
+    const EqualizerCost boosted = equalizerCost(coil(), {{EqualizerType::peak, 30.0, 16.0, 1.5, 2}}, 48000.0);
+    CHECK(boosted.powerChange > 4.0);
+    CHECK(boosted.excursionChange > 3.0);
+    CHECK(boosted.excursionFrequency < 60.0);
+    const EqualizerCost cut = equalizerCost(coil(), {{EqualizerType::peak, 67.0, -12.0, 2.0, 2}}, 48000.0);
+    CHECK(cut.powerChange < 0.0);
+    CHECK(cut.excursionChange < -8.0);
+}
+
+TEST_CASE("What a profile does not say is not predicted", "[linearize]")
+{
+    Profile profile = coil();
+    profile.drive = {};
+    const EqualizerCost cost = equalizerCost(profile, {{EqualizerType::peak, 30.0, 6.0, 1.0, 2}}, 48000.0);
+    CHECK_FALSE(cost.power.has_value());
+    CHECK_FALSE(cost.excursion.has_value());
+    CHECK(cost.powerChange > 0.0);
+    CHECK(std::isfinite(equalizerCost(profile, {}, 1000.0).excursionChange));
+}

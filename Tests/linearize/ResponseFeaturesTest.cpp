@@ -1,0 +1,151 @@
+#include "support/Catch.h"
+
+#include <pacini/foundation/Gaussian.h>
+#include <pacini/linearize/ResponseFeatures.h>
+#include <pacini/linearize/ResponseSmoothing.h>
+#include <pacini/linearize/SimulatedRig.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+using namespace pacini;
+
+namespace
+{
+/// The level of a driven mass by its transfer function s^slope / (s^2 + w0 s / Q + w0^2), in units of w0.
+double secondOrder(double f, double f0, double q, int slope)
+{
+    const std::complex<double> s(0.0, f / f0);
+    return 20.0 * std::log10(std::abs(std::pow(s, slope) / (s * s + s / q + 1.0)));
+}
+
+/// A fine response, smoothed by brute force, with noise.
+FrequencyResponse resonant(double f0, double q, int slope, double octaves, double noise, std::uint64_t seed)
+{
+    Gaussian gaussian(seed);
+    FrequencyResponse response{logSpaced(10.0, 1500.0, 240), {}};
+    for (const double f : response.frequency)
+    {
+        double power = 0.0;
+        constexpr int pieces = 400;
+        for (int i = 0; i < pieces; ++i)
+            power +=
+                std::pow(10.0, secondOrder(f * std::exp2(octaves * ((i + 0.5) / pieces - 0.5)), f0, q, slope) / 10.0);
+        response.level.push_back(12.0 + 10.0 * std::log10(power / pieces) + noise * gaussian.next());
+    }
+    return response;
+}
+} // namespace
+
+TEST_CASE("Resonance and Q of any actuator are found under smoothing and noise", "[linearize]")
+{
+    Random random(11);
+    double worstFrequency = 0.0;
+    double worstQ = 0.0;
+    for (int i = 0; i < 60; ++i)
+    {
+        const double f0 = 40.0 * std::exp2(random.uniform(0.0, 2.8));
+        const double q = 0.7 * std::pow(40.0 / 0.7, random.uniform());
+        const int slope = i % 3 == 0 ? 1 : 2;
+        const double octaves = i % 2 == 0 ? 1.0 / 12.0 : 0.0;
+        CAPTURE(f0, q, slope, octaves);
+        const auto response = resonant(f0, q, slope, octaves, 0.1, static_cast<std::uint64_t>(i));
+        const auto found = fitResonance(response, 10.0, 1500.0, octaves).value();
+        worstFrequency = std::max(worstFrequency, std::abs(found.frequency / f0 - 1.0));
+        worstQ = std::max(worstQ, std::abs(found.q / q - 1.0));
+        CHECK(found.frequency == Approx(f0).epsilon(0.01));
+        CHECK(found.q == Approx(q).epsilon(0.05));
+        CHECK(found.slope == slope);
+        CHECK(found.error < 0.15);
+    }
+    CHECK(worstFrequency < 0.005);
+    CHECK(worstQ < 0.04);
+}
+
+TEST_CASE("The ranges of a response are those of its curve", "[linearize]")
+{
+    // Plateau of 12 dB; a peak of 4 at 67 Hz. +3 dB is passed above the peak, -20 dB re the peak below it.
+    const auto response = resonant(67.0, 4.0, 2, 0.0, 0.0, 1);
+    ResponseFeatureParams params;
+    params.smoothing = 0.0;
+    const auto features = responseFeatures(response, params).value();
+    CHECK(features.resonance.frequency == Approx(67.0).epsilon(0.001));
+    CHECK(features.plateau == Approx(12.0).margin(0.6));
+    CHECK(features.even.high == 1500.0);
+    CHECK(secondOrder(features.even.low, 67.0, 4.0, 2) + 12.0 == Approx(features.plateau + 3.0).margin(0.2));
+    const double peak = 20.0 * std::log10(4.0) + 12.0;
+    CHECK(secondOrder(features.felt.low, 67.0, 4.0, 2) + 12.0 == Approx(peak - 20.0).margin(0.6));
+    CHECK(features.felt.high == 1500.0);
+
+    params.threshold = FrequencyResponse{logSpaced(10.0, 1500.0, 8), std::vector<double>(8, 14.0)};
+    const auto limited = responseFeatures(response, params).value();
+    CHECK(limited.felt.high < limited.even.low * 1.3);
+    CHECK(secondOrder(limited.felt.high, 67.0, 4.0, 2) + 12.0 == Approx(14.0).margin(0.3));
+    params.threshold->level.assign(8, 60.0);
+    const auto none = responseFeatures(response, params).value();
+    CHECK(none.felt.high <= none.felt.low);
+}
+
+TEST_CASE("Rise and fall of a burst follow from the impulse response", "[linearize]")
+{
+    const double fs = 4000.0;
+    for (const double q : {2.0, 3.97, 15.0})
+    {
+        CAPTURE(q);
+        // The impulse response of a resonator in closed form, 200 samples after the list's beginning.
+        const double f0 = 67.0;
+        const double w0 = 2.0 * std::numbers::pi * f0;
+        const double wd = w0 * std::sqrt(1.0 - 0.25 / (q * q));
+        ImpulseResponse response{fs, 200, std::vector<double>(200, 0.0)};
+        for (int n = 0; n < 4000; ++n)
+        {
+            const double t = n / fs;
+            response.samples.push_back(std::exp(-0.5 * w0 * t / q) * std::sin(wd * t) * w0 / fs);
+        }
+        const auto times = burstTimes(response, f0).value();
+        // Driven at w0 from rest: the envelope comes within a tenth when exp(-w0 t / 2 Q) has fallen to a tenth.
+        const double expected = std::log(10.0) * q / (std::numbers::pi * f0);
+        CHECK(times.riseTime == Approx(expected).margin(0.6 / f0));
+        CHECK(times.fallTime == Approx(expected).margin(0.6 / f0));
+
+        // A real burst, played out: the last zero-free half cycle above 10 % ends there.
+        const std::size_t burst = 3000;
+        std::vector<double> y(4000, 0.0);
+        const std::vector<double> h(response.samples.begin() + 200, response.samples.begin() + 1700);
+        for (std::size_t n = 0; n < y.size(); ++n)
+            for (std::size_t k = n < burst ? 0 : n - burst + 1; k <= std::min(n, h.size() - 1); ++k)
+                y[n] += h[k] * std::sin(w0 * static_cast<double>(n - k) / fs);
+        double steady = 0.0;
+        for (std::size_t n = 2200; n < burst; ++n)
+            steady = std::max(steady, std::abs(y[n]));
+        std::size_t rise = 0;
+        while (std::abs(y[rise]) < 0.9 * steady)
+            ++rise;
+        std::size_t fall = y.size() - 1;
+        while (std::abs(y[fall]) < 0.1 * steady)
+            --fall;
+        CHECK(times.riseTime == Approx(static_cast<double>(rise) / fs).margin(0.6 / f0));
+        CHECK(times.fallTime == Approx(static_cast<double>(fall - burst) / fs).margin(0.6 / f0));
+    }
+}
+
+TEST_CASE("Features of nothing are errors that say why", "[linearize]")
+{
+    const auto good = resonant(67.0, 4.0, 2, 0.0, 0.0, 1);
+    CHECK(fitResonance(good, 100.0, 101.0).error().where == "points");
+    auto bad = good;
+    bad.level[9] = std::numeric_limits<double>::infinity();
+    CHECK(responseFeatures(bad).error().where == "points[9].level");
+    ResponseFeatureParams params;
+    params.threshold = FrequencyResponse{};
+    CHECK(responseFeatures(good, params).error().where == "threshold.points");
+    CHECK(burstTimes({8000.0, 0, {}}, 67.0).error().where == "samples");
+    CHECK(burstTimes({8000.0, 0, std::vector<double>(100, 0.0)}, 67.0).error().where == "samples");
+    CHECK(burstTimes({8000.0, 0, {1.0}}, 5000.0).error().where == "frequency");
+    CHECK(burstTimes({8000.0, 0, {1.0}}, std::numeric_limits<double>::quiet_NaN()).error().where == "frequency");
+    std::vector<double> cut;
+    for (int n = 0; n < 400; ++n)
+        cut.push_back(std::sin(0.05 * n));
+    CHECK(burstTimes({8000.0, 0, cut}, 63.7).error().code == ErrorCode::truncated);
+}

@@ -1,0 +1,89 @@
+#include "support/Catch.h"
+
+#include <pacini/linearize/Verification.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace pacini;
+
+namespace
+{
+/// 100 points from 10 to 1000 Hz, evenly in octaves.
+template <typename Level>
+FrequencyResponse responseOf(Level&& level)
+{
+    FrequencyResponse response;
+    for (int i = 0; i <= 100; ++i)
+    {
+        response.frequency.push_back(10.0 * std::pow(100.0, i / 100.0));
+        response.level.push_back(level(response.frequency.back()));
+    }
+    return response;
+}
+} // namespace
+
+TEST_CASE("A slope over octaves has the mean, the deviations and the outliers that paper gives")
+{
+    // -10 to 10 dB over two decades around 100 Hz: |d| has the mean 5, d^2 the mean 100 / 3.
+    const auto slope = responseOf([](double f) { return 7.0 + 10.0 * std::log10(f / 100.0); });
+    const auto judged = judgeLinearity(slope, {0.0, 0.0, 3.9});
+    REQUIRE(judged);
+    CHECK(judged->level == Approx(7.0));
+    CHECK(judged->meanDeviation == Approx(5.0).epsilon(0.001));
+    CHECK(judged->standardDeviation == Approx(10.0 / std::sqrt(3.0)).epsilon(0.001));
+    CHECK(std::abs(judged->worstDeviation) == Approx(10.0));
+    CHECK_FALSE(judged->passed());
+    REQUIRE(judged->outliers.size() == 2);
+    CHECK(judged->outliers[0].lowFrequency == Approx(10.0));
+    CHECK(judged->outliers[0].deviation == Approx(-10.0));
+    CHECK(judged->outliers[1].highFrequency == Approx(1000.0));
+    CHECK(judged->outliers[1].lowFrequency > 100.0 * std::pow(10.0, 0.39));
+    CHECK(judgeLinearity(slope, {0.0, 0.0, 10.001})->passed());
+}
+
+TEST_CASE("Only the range counts, and the spacing of the points does not")
+{
+    auto response = responseOf([](double f) { return f < 50.0 ? -60.0 : 3.0; });
+    const auto judged = judgeLinearity(response, {50.0, 1000.0, 0.5});
+    REQUIRE(judged);
+    CHECK(judged->passed());
+    CHECK(judged->level == Approx(3.0));
+    CHECK(judged->lowFrequency >= 50.0);
+
+    // A hundred more points in one place do not move the mean of a slope.
+    auto slope = responseOf([](double f) { return 10.0 * std::log10(f / 100.0); });
+    FrequencyResponse crowded;
+    for (std::size_t i = 0; i < slope.size(); ++i)
+    {
+        crowded.frequency.push_back(slope.frequency[i]);
+        crowded.level.push_back(slope.level[i]);
+        for (int k = 1; i == 90 && k < 100; ++k)
+        {
+            const double f = slope.frequency[90] * std::pow(slope.frequency[91] / slope.frequency[90], k / 100.0);
+            crowded.frequency.push_back(f);
+            crowded.level.push_back(10.0 * std::log10(f / 100.0));
+        }
+    }
+    CHECK(judgeLinearity(crowded, {})->level == Approx(judgeLinearity(slope, {})->level).margin(1e-9));
+}
+
+TEST_CASE("A response that cannot be judged is refused at its place")
+{
+    const auto flat = responseOf([](double) { return 0.0; });
+    CHECK(judgeLinearity(flat, {900.0, 1000.0, 1.0}).error().where == "range");
+    CHECK(judgeLinearity(flat, {0.0, 0.0, -1.0}).error().where == "tolerance");
+    CHECK(judgeLinearity(flat, {0.0, 0.0, std::nan("")}).error().where == "tolerance");
+    auto broken = flat;
+    broken.level[5] = std::numeric_limits<double>::infinity();
+    CHECK(judgeLinearity(broken, {}).error().where == "points[5].level");
+}
+
+TEST_CASE("Between two points the level is on the line over the logarithm of frequency")
+{
+    const auto slope = responseOf([](double f) { return 20.0 * std::log10(f); });
+    for (const double f : {10.0, 11.0, 123.4, 999.0, 1000.0})
+        CHECK(levelAt(slope, f) == Approx(20.0 * std::log10(f)));
+    CHECK(levelAt(slope, 1.0) == slope.level.front());
+    CHECK(levelAt(slope, 5000.0) == slope.level.back());
+}
