@@ -16,6 +16,11 @@ public:
     Content(plugin::PluginProcessor& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
     {
         bar.setLookAndFeel(&plugin.getLookAndFeel());
+        plugin.onThemeChange = [this]
+        {
+            bar.sendLookAndFeelChange();
+            bar.repaint();
+        };
         bar.onDevices = [this]
         {
             showDevices();
@@ -74,7 +79,7 @@ StandaloneWindow::StandaloneWindow(plugin::PluginProcessor& processor, AudioRig&
     setUsingNativeTitleBar(true);
     setContentOwned(new Content(processor, rig), true);
     setResizable(true, false);
-    setResizeLimits(936, 544 + barHeight, 2400, 1700);
+    setResizeLimits(936, 608 + barHeight, 2400, 1700);
     centreWithSize(getWidth(), getHeight());
     setVisible(true);
 }

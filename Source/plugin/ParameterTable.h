@@ -27,6 +27,7 @@ enum class ParameterId : std::size_t
     textureMute,
     transientLevel,
     transientMute,
+    brightness,
     transposition,
     direct,
     attack,
