@@ -95,7 +95,7 @@ TEST_CASE("A program killed at any time leaves a project that opens, with all bu
         {
             // Edits as fast as it can; tells how many it had made when each state was handed over.
             Document document;
-            Clip clip = test::randomClip(1, 400);
+            Clip clip = test::randomFullClip(1, 400);
             const int id = document.addClip("Add", clip).value();
             Autosave autosave(recovery, std::chrono::milliseconds(1));
             for (int i = 1;; ++i)

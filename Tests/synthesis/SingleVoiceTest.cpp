@@ -64,7 +64,7 @@ TEST_CASE("Any valid clip makes a voice with times in order, from 0 to its end",
     for (std::uint64_t seed = 0; seed < 200; ++seed)
     {
         CAPTURE(seed);
-        const Clip clip = test::randomClip(seed);
+        const Clip clip = test::randomFullClip(seed);
         const SingleVoice voice = singleVoiceOf(clip);
         for (const Curve* curve : {&voice.amplitude, &voice.frequency})
         {

@@ -249,7 +249,7 @@ TEST_CASE("AHAP: any clip is written and read again", "[io][formats]")
     for (std::uint64_t seed = 0; seed < 150; ++seed)
     {
         CAPTURE(seed);
-        const Clip clip = test::randomClip(seed);
+        const Clip clip = test::randomFullClip(seed);
         const std::string text = written(clip)[0];
         const auto back = readAhap(text);
         REQUIRE((back.ok() ? "" : back.error().text()) == "");

@@ -170,7 +170,7 @@ TEST_CASE("Android's rules hold for every clip", "[formats]")
 {
     for (std::uint64_t seed = 1; seed <= 60; ++seed)
     {
-        const Clip clip = test::randomClip(seed);
+        const Clip clip = test::randomFullClip(seed);
         CAPTURE(seed);
         const auto root = nlohmann::json::parse(written(androidJsonFormat(), clip));
         const auto& waveform = root.at("waveform");
@@ -225,7 +225,7 @@ TEST_CASE("A table keeps all curves of a clip exactly", "[formats]")
     checkRoundTrip(csvFormat(), test::csvSample());
     for (std::uint64_t seed = 1; seed <= 60; ++seed)
     {
-        Clip clip = test::randomClip(seed);
+        Clip clip = test::randomFullClip(seed);
         const Clip back = readBack(csvFormat(), written(csvFormat(), clip)).clip;
         CAPTURE(seed);
         CHECK(back.duration == clip.duration);
@@ -255,7 +255,7 @@ TEST_CASE("Every format writes every clip, the same bytes each time, and reads w
         {
             Clip clip;
             if (seed > 0)
-                clip = test::randomClip(seed, 10);
+                clip = test::randomFullClip(seed, 10);
             CAPTURE(format->name, seed);
             const auto first = format->write(clip, {});
             const auto second = format->write(clip, {});
