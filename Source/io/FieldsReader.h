@@ -100,17 +100,6 @@ public:
             fail(name, rule);
     }
 
-    void truth(const char* name, bool& value)
-    {
-        if (const nlohmann::json* entry = find(name, Need::usual))
-        {
-            if (entry->is_boolean())
-                value = entry->get<bool>();
-            else
-                fail(name, "must be true or false");
-        }
-    }
-
     template <typename E, typename Choices>
     void choice(const char* name, E& value, const Choices& choices, Need need)
     {
