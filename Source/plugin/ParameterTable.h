@@ -99,6 +99,7 @@ struct ParameterRow
     const char* help;
 };
 
+// clang-format off: a table
 inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
     {ParameterId::source, "source", 1, "Source", ParameterUnit::choice, 0, 2, 0, 0, sourceChoices,
      "What is turned into touch: the main input, the sidechain or both"},
@@ -216,6 +217,17 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      0,
      {},
      "Plays no pulses"},
+    {ParameterId::brightness,
+     "brightness",
+     1,
+     "Brightness",
+     ParameterUnit::decibels,
+     -60,
+     12,
+     -6,
+     -12,
+     {},
+     "Level of what is too high for the skin, felt as a tone of 200 Hz; -60 dB is off"},
     {ParameterId::transposition,
      "transposition",
      1,
@@ -316,6 +328,7 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      {},
      "The sound as it came, no haptic signal"},
 }};
+// clang-format on
 
 [[nodiscard]] constexpr const ParameterRow& rowOf(ParameterId parameter) noexcept
 {
