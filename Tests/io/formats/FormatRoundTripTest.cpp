@@ -251,7 +251,7 @@ TEST_CASE("Every format writes every clip, the same bytes each time, and reads w
          {&hjifFormat(), &androidJsonFormat(), &androidXmlFormat(), &androidKotlinFormat(), &androidJavaFormat(),
           &hapsFormat(), &tactFormat(), &csvFormat(), &openXrJsonFormat(), &openXrHeaderFormat(), &wav8Format(),
           &wav16Format(), &raw8Format(), &raw16Format(), &cArrayFormat()})
-        for (std::uint64_t seed = 0; seed <= 25; ++seed)
+        for (std::uint64_t seed = 0; seed <= 6; ++seed)
         {
             Clip clip;
             if (seed > 0)
