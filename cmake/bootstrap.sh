@@ -79,12 +79,12 @@ deps)
 build)
     install_packages "${build_packages[@]}"
     say "Building"
-    build release pacini -DPACINI_BUILD_TESTS=OFF
+    build release pacini -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=OFF
     ;;
 demo)
     install_packages "${build_packages[@]}"
     say "Building"
-    build release pacini -DPACINI_BUILD_TESTS=OFF
+    build release pacini -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=OFF
     pacini=build/release/bin/pacini
     say "Encoding Resources/demo to build/demo/clips"
     "$pacini" encode Resources/demo -o build/demo/clips --format packed --force
