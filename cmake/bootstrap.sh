@@ -108,7 +108,7 @@ test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
     say "Building"
-    build release all -DPACINI_BUILD_TESTS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8
+    build release all -DPACINI_BUILD_TESTS=ON -DPACINI_BUILD_PLUGIN=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8
     say "Compiling every header on its own"
     cmake --build --preset release --target all_verify_interface_header_sets
     say "Testing"
