@@ -128,7 +128,7 @@ class CommandTest(unittest.TestCase):
         self.names()
         return done
 
-    def clip(self, name="clip.json", seconds=1.0, **changes):
+    def clip(self, file="clip.json", seconds=1.0, **changes):
         """Writes a small valid clip: one band at 100 Hz that fades in and out, one event. Returns its content."""
         content = {
             "format": "pacini.clip", "version": 1, "name": "made", "duration": seconds,
@@ -142,5 +142,5 @@ class CommandTest(unittest.TestCase):
             "transients": [{"time": seconds / 4, "amplitude": 0.8, "sharpness": 0.5}],
         }
         content.update(changes)
-        self.put(name, json.dumps(content))
+        self.put(file, json.dumps(content))
         return content

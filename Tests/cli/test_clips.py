@@ -36,7 +36,7 @@ class Info(CommandTest):
         self.assertEqual((report["kind"], report["frames"], report["sampleRate"]), ("audio", 4000, 8000))
 
     def test_what_a_clip_says_cannot_reach_the_terminal(self):
-        self.clip(name="clip.json")
+        self.clip("clip.json")
         self.put("clip.json", json.dumps(self.clip(**{"name": "clip.json"}) | {"name": "\x1b[2Jgone\n"}))
         text = self.succeeds("info", "clip.json")
         self.assertNotIn("\x1b", text)

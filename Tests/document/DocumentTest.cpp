@@ -39,7 +39,7 @@ EditOperation anyOperation(Random& random, const Clip& clip)
     case 7:
         return CutEdit{{time(), time()}};
     case 8:
-        return InsertEdit{time(), std::make_shared<const Clip>(test::randomClip(random.next() % 9, 5))};
+        return InsertEdit{time(), std::make_shared<const Clip>(test::randomFullClip(random.next() % 9, 5))};
     case 9:
         return RepeatEdit{static_cast<int>(random.next() % 3)};
     case 10:
@@ -71,7 +71,7 @@ void anyStep(Random& random, Document& document, int id)
 /// A clip as it comes out of a file: texts are UTF-8.
 Clip fileClip(std::uint64_t seed)
 {
-    return readClipJson(writeClipJson(test::randomClip(seed, 12))).value();
+    return readClipJson(writeClipJson(test::randomFullClip(seed, 12))).value();
 }
 } // namespace
 

@@ -91,7 +91,7 @@ def main():
             return 1
 
         # The LV2's settings are no control ports, which is all that the script can set.
-        for kind, name, source in (("LV2", "https://pacini.example/plugins/translator", ""), ("VST3", "Pacini", "0.5")):
+        for kind, name, source in (("LV2", "urn:pacini:translator", ""), ("VST3", "Pacini", "0.5")):
             session = folder / kind / "session"  # of the same name, which its folders bear
             here = dict(environment, SESSION_DIR=str(session), PLUGIN_ID=name, PLUGIN_KIND=kind, SOURCE=source)
             for _ in run("ardour_play.lua", here):

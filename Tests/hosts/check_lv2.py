@@ -18,7 +18,7 @@ if not Path(sys.argv[1]).exists():
     print("SKIPPED: liblilv-dev was missing when this was built; cmake/bootstrap.sh test installs it")
     sys.exit(77)
 
-URI = "https://pacini.example/plugins/translator"
+URI = "urn:pacini:translator"
 RATE = 48000
 failures = []
 

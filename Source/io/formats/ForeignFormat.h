@@ -91,7 +91,7 @@ struct ForeignFormat
 
 /// The format of a file with this extension (with dot, lower case) and content; null when it is none of these. Of
 /// several that recognise the content the one with the extension counts; what is recognised by extension only comes
-/// last.
+/// next, and last what has the extension but other content, unless that is .json.
 [[nodiscard]] const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes);
 
 /// The format of this name; null when there is none.

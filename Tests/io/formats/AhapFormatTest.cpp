@@ -42,7 +42,7 @@ Clip moving(double duration, std::size_t points, std::size_t events, std::uint64
     return clip;
 }
 
-std::vector<std::string> written(const Clip& clip, bool split = false)
+std::vector<std::string> writtenFiles(const Clip& clip, bool split = false)
 {
     ExportParams params;
     params.split = split;
@@ -87,7 +87,7 @@ std::string pattern(const std::string& entries)
 TEST_CASE("AHAP: curves do not run late after their sixteenth point", "[io][formats]")
 {
     const Clip clip = moving(3.0, 200, 0);
-    const test::AhapPattern played = test::parseAhap(written(clip)[0]);
+    const test::AhapPattern played = test::parseAhap(writtenFiles(clip)[0]);
     for (double time = 0.0; time < 2.99; time += 0.003)
     {
         CAPTURE(time);
@@ -98,7 +98,7 @@ TEST_CASE("AHAP: curves do not run late after their sixteenth point", "[io][form
 
 TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and share their ends", "[io][formats]")
 {
-    const Json file = Json::parse(written(moving(3.0, 200, 5))[0]);
+    const Json file = Json::parse(writtenFiles(moving(3.0, 200, 5))[0]);
     std::map<std::string, std::pair<double, double>> ends;
     for (const Json& entry : file["Pattern"])
     {
@@ -123,7 +123,7 @@ TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and shar
 
 TEST_CASE("AHAP: continuous events last at most 30 s and leave no gap", "[io][formats]")
 {
-    const test::AhapPattern played = test::parseAhap(written(moving(95.0, 300, 0))[0]);
+    const test::AhapPattern played = test::parseAhap(writtenFiles(moving(95.0, 300, 0))[0]);
     REQUIRE(played.events.size() == 4);
     double end = 0.0;
     for (const test::AhapEvent& event : played.events)
@@ -144,7 +144,7 @@ TEST_CASE("AHAP: an event on the first point stays, and silence does not swallow
     for (const bool split : {false, true})
     {
         CAPTURE(split);
-        const test::AhapPattern played = test::parseAhap(written(clip, split).back());
+        const test::AhapPattern played = test::parseAhap(writtenFiles(clip, split).back());
         std::vector<double> strengths;
         for (const test::AhapEvent& event : played.events)
             if (event.transient)
@@ -158,7 +158,7 @@ TEST_CASE("AHAP: an event on the first point stays, and silence does not swallow
 TEST_CASE("AHAP: in one file transients feel as if there were no curves", "[io][formats]")
 {
     const Clip clip = moving(4.0, 60, 37);
-    const test::AhapPattern played = test::parseAhap(written(clip)[0]);
+    const test::AhapPattern played = test::parseAhap(writtenFiles(clip)[0]);
     std::size_t next = 0;
     for (const test::AhapEvent& event : played.events)
     {
@@ -177,7 +177,7 @@ TEST_CASE("AHAP: in one file transients feel as if there were no curves", "[io][
 
 TEST_CASE("AHAP: two files keep events out of the curves' way", "[io][formats]")
 {
-    const auto texts = written(moving(2.0, 30, 9), true);
+    const auto texts = writtenFiles(moving(2.0, 30, 9), true);
     REQUIRE(texts.size() == 2);
     REQUIRE(texts[0].find("HapticTransient") == std::string::npos);
     REQUIRE(texts[1].find("ParameterCurve") == std::string::npos);
@@ -193,7 +193,7 @@ TEST_CASE("AHAP: a .haptic clip without frequencies has no curve of them", "[io]
             [{"time":0,"amplitude":0.2},{"time":1,"amplitude":0.5}])" +
                                      std::string(frequency) + "}}}}");
         REQUIRE(read.ok());
-        REQUIRE(written(read->clip)[0].find("HapticSharpnessControl") == std::string::npos);
+        REQUIRE(writtenFiles(read->clip)[0].find("HapticSharpnessControl") == std::string::npos);
     }
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("AHAP: .haptic clips come back with every emphasis", "[io][formats]")
         const Clip made = moving(5.0, 100, 7 * (seed % 11), seed);
         const auto haptic = readHaptic(writeHaptic(made, {})->files[0].bytes);
         REQUIRE(haptic.ok());
-        const auto back = readAhap(written(haptic->clip)[0]);
+        const auto back = readAhap(writtenFiles(haptic->clip)[0]);
         REQUIRE(back.ok());
         const auto text = writeHaptic(back->clip, {})->files[0].bytes;
         std::size_t emphases = 0;
@@ -221,12 +221,12 @@ TEST_CASE("AHAP: a file comes back from its clip as it is felt", "[io][formats]"
     for (std::uint64_t seed = 1; seed <= 30; ++seed)
     {
         CAPTURE(seed);
-        const std::string first = written(moving(4.0, 80, seed % 20, seed))[0];
+        const std::string first = writtenFiles(moving(4.0, 80, seed % 20, seed))[0];
         const auto clip = readAhap(first);
         REQUIRE((clip.ok() ? "" : clip.error().text()) == "");
         REQUIRE(clip->warnings.empty());
         REQUIRE(clip->clip.bands.size() == 1);
-        const std::string second = written(clip->clip)[0];
+        const std::string second = writtenFiles(clip->clip)[0];
         const test::AhapPattern a = test::parseAhap(first), b = test::parseAhap(second);
         for (double time = 0.0005; time < 3.99; time += 0.0037)
         {
@@ -250,15 +250,15 @@ TEST_CASE("AHAP: any clip is written and read again", "[io][formats]")
     {
         CAPTURE(seed);
         const Clip clip = test::randomFullClip(seed);
-        const std::string text = written(clip)[0];
+        const std::string text = writtenFiles(clip)[0];
         const auto back = readAhap(text);
         REQUIRE((back.ok() ? "" : back.error().text()) == "");
         REQUIRE(back->warnings.empty());
         REQUIRE(back->clip.transients.size() == clip.transients.size());
-        REQUIRE(written(clip)[0] == text);
+        REQUIRE(writtenFiles(clip)[0] == text);
     }
     Clip empty;
-    REQUIRE(readAhap(written(empty)[0]).ok());
+    REQUIRE(readAhap(writtenFiles(empty)[0]).ok());
 }
 
 TEST_CASE("AHAP: parameters step, curves move, and both scale and shift events", "[io][formats]")
