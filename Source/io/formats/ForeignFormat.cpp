@@ -28,6 +28,7 @@ std::span<const ForeignFormat> foreignFormats()
 const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes)
 {
     const ForeignFormat* found = nullptr;
+    const ForeignFormat* byName = nullptr;
     for (const ForeignFormat& format : foreignFormats())
     {
         if (format.read == nullptr)
@@ -36,11 +37,13 @@ const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_vie
         const bool recognised = format.recognises != nullptr && format.recognises(bytes);
         if (recognised && named)
             return &format;
-        if (recognised && (found == nullptr || found->recognises == nullptr))
+        if (recognised && found == nullptr)
             found = &format;
-        if (format.recognises == nullptr && named && found == nullptr)
-            found = &format;
+        if (named && byName == nullptr)
+            byName = &format;
     }
+    if (found == nullptr && extension != ".json")
+        found = byName;
     return found;
 }
 
