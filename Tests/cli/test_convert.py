@@ -90,11 +90,11 @@ class Convert(CommandTest):
         self.assertFalse(any(f["upToDate"] for f in self.report(*arguments, "--split", "--force")["files"]))
 
     def test_the_same_folder_gives_the_same_bytes(self):
-        for name in ("a", "b", "c"):
-            self.clip(f"in/{name}.json", name=name)
+        for name in ("a", "bb", "ccc"):
+            self.clip(f"in/{name}.json", seconds=1 + len(name))
         for out, jobs in (("one", "1"), ("two", "3")):
             self.succeeds("convert", "in", out, "--format", "ahap", "-j", jobs)
-        for name in ("a.ahap", "b.ahap", "c.ahap", "pacini.manifest.json"):
+        for name in ("a.ahap", "bb.ahap", "ccc.ahap", "pacini.manifest.json"):
             self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "two" / name).read_bytes())
 
     def test_wrong_usage_is_said(self):

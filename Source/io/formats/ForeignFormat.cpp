@@ -28,7 +28,7 @@ std::span<const ForeignFormat> foreignFormats()
 const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes)
 {
     const ForeignFormat* found = nullptr;
-    const ForeignFormat* called = nullptr;
+    const ForeignFormat* byName = nullptr;
     for (const ForeignFormat& format : foreignFormats())
     {
         if (format.read == nullptr)
@@ -37,15 +37,14 @@ const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_vie
         const bool recognised = format.recognises != nullptr && format.recognises(bytes);
         if (recognised && named)
             return &format;
-        if (named && called == nullptr)
-            called = &format;
-        if (recognised && (found == nullptr || found->recognises == nullptr))
+        if (recognised && found == nullptr)
             found = &format;
-        if (format.recognises == nullptr && named && found == nullptr)
-            found = &format;
+        if (named && byName == nullptr)
+            byName = &format;
     }
-    // Its reader says best what is wrong with a file that only has the name; a .json may be a clip of our own.
-    return found != nullptr || extension == ".json" ? found : called;
+    if (found == nullptr && extension != ".json")
+        found = byName;
+    return found;
 }
 
 const ForeignFormat* foreignFormatNamed(std::string_view name)

@@ -90,8 +90,8 @@ struct ForeignFormat
 [[nodiscard]] std::span<const ForeignFormat> foreignFormats();
 
 /// The format of a file with this extension (with dot, lower case) and content; null when it is none of these. Of
-/// several that recognise the content the one with the extension counts; what is recognised by extension only comes
-/// next, and last what has the extension but other content, unless that is .json.
+/// several that recognise the content the one with the extension counts. What none recognises is of the format with
+/// the extension, whose reader then says what is wrong with it; but any program's file can be called .json.
 [[nodiscard]] const ForeignFormat* foreignFormatOf(std::string_view extension, std::string_view bytes);
 
 /// The format of this name; null when there is none.
