@@ -8,7 +8,7 @@ using namespace pacini::test;
 
 namespace
 {
-Profile coil()
+Profile coilProfile()
 {
     Profile profile;
     profile.resonance = {67.0, 4.0};
@@ -23,7 +23,7 @@ Profile coil()
 
 TEST_CASE("No equaliser costs nothing", "[linearize]")
 {
-    const EqualizerCost cost = equalizerCost(coil(), {}, 48000.0);
+    const EqualizerCost cost = equalizerCost(coilProfile(), {}, 48000.0);
     CHECK(cost.powerChange == Approx(0.0).margin(1e-12));
     CHECK(cost.excursionChange == Approx(0.0).margin(1e-12));
     REQUIRE(cost.power.has_value());
@@ -48,7 +48,7 @@ TEST_CASE("The power of an equaliser is that of its response over the spectrum",
             plain += density;
             equalized += density * std::pow(10.0, cookbookLevel(sections, f, 48000.0) / 10.0);
         }
-        const EqualizerCost cost = equalizerCost(coil(), sections, 48000.0, reference);
+        const EqualizerCost cost = equalizerCost(coilProfile(), sections, 48000.0, reference);
         CHECK(cost.powerChange == Approx(10.0 * std::log10(equalized / plain)).margin(1e-3));
         CHECK(*cost.power == Approx(equalized / plain / 8.8).epsilon(1e-3));
     }
@@ -56,18 +56,18 @@ TEST_CASE("The power of an equaliser is that of its response over the spectrum",
 
 TEST_CASE("A boost below the resonance costs travel, a cut at it gives some back", "[linearize]")
 {
-    const EqualizerCost boosted = equalizerCost(coil(), {{EqualizerType::peak, 30.0, 16.0, 1.5, 2}}, 48000.0);
+    const EqualizerCost boosted = equalizerCost(coilProfile(), {{EqualizerType::peak, 30.0, 16.0, 1.5, 2}}, 48000.0);
     CHECK(boosted.powerChange > 4.0);
     CHECK(boosted.excursionChange > 3.0);
     CHECK(boosted.excursionFrequency < 60.0);
-    const EqualizerCost cut = equalizerCost(coil(), {{EqualizerType::peak, 67.0, -12.0, 2.0, 2}}, 48000.0);
+    const EqualizerCost cut = equalizerCost(coilProfile(), {{EqualizerType::peak, 67.0, -12.0, 2.0, 2}}, 48000.0);
     CHECK(cut.powerChange < 0.0);
     CHECK(cut.excursionChange < -8.0);
 }
 
 TEST_CASE("What a profile does not say is not predicted", "[linearize]")
 {
-    Profile profile = coil();
+    Profile profile = coilProfile();
     profile.drive = {};
     const EqualizerCost cost = equalizerCost(profile, {{EqualizerType::peak, 30.0, 6.0, 1.0, 2}}, 48000.0);
     CHECK_FALSE(cost.power.has_value());

@@ -53,7 +53,7 @@ EqualizerFitParams at(double fs)
 
 TEST_CASE("A FIR equaliser comes nearer to flat the longer it is", "[linearize]")
 {
-    const FrequencyResponse response = voiceCoil();
+    const FrequencyResponse response = coil();
     double before = 100.0;
     for (const int taps : {64, 128, 256, 512, 1024})
     {
@@ -71,7 +71,7 @@ TEST_CASE("A FIR equaliser comes nearer to flat the longer it is", "[linearize]"
 
 TEST_CASE("A linear-phase equaliser is symmetric and delays by half its length", "[linearize]")
 {
-    const FirFit fit = fitOf(voiceCoil(), 512, at(8000.0));
+    const FirFit fit = fitOf(coil(), 512, at(8000.0));
     REQUIRE(fit.taps.size() == 511); // odd
     for (std::size_t n = 0; n < fit.taps.size(); ++n)
         CHECK(fit.taps[n] == fit.taps[fit.taps.size() - 1 - n]);
@@ -80,7 +80,7 @@ TEST_CASE("A linear-phase equaliser is symmetric and delays by half its length",
 
 TEST_CASE("A minimum-phase equaliser has its energy at its start and the same magnitude", "[linearize]")
 {
-    const FrequencyResponse response = voiceCoil();
+    const FrequencyResponse response = coil();
     const FirFit fit = fitOf(response, 2048, at(4000.0), FirPhase::minimum);
     CHECK(fit.latency == 0.0);
     CHECK(deviationWith(response, fit, 4000.0).rms <= 0.1);
@@ -98,7 +98,7 @@ TEST_CASE("The least-squares taps cannot be improved by changing one of them", "
 {
     // The weighted sum of squares that is said to be least, by its definition.
     const double fs = 4000.0;
-    const auto problem = makeEqualizerFitProblem(voiceCoil(), at(fs));
+    const auto problem = makeEqualizerFitProblem(coil(), at(fs));
     REQUIRE(problem.ok());
     const std::size_t size = 4096;
     const std::vector<double> amplitude = amplitudesOf(EqualizerTarget(*problem), size, fs);
@@ -146,7 +146,7 @@ TEST_CASE("A FIR equaliser keeps the limit of the boost at every frequency", "[l
 
 TEST_CASE("What a FIR equaliser cannot be made of is refused by name", "[linearize]")
 {
-    const FrequencyResponse good = voiceCoil();
+    const FrequencyResponse good = coil();
     for (const int wrong : {-1, 0, 14, 4098})
     {
         const auto fit = fitFir(good, wrong);
