@@ -50,7 +50,7 @@ std::vector<float> tones()
     return x;
 }
 
-void putSound(const std::filesystem::path& path, std::span<const float> interleaved, int channels = 1)
+void putSoundFile(const std::filesystem::path& path, std::span<const float> interleaved, int channels = 1)
 {
     REQUIRE(writeAudio(path, interleaved, {.sampleRate = 16000, .channels = channels}).ok());
 }
@@ -76,7 +76,7 @@ TEST_CASE("encode lists every method with its description", "[cli]")
 TEST_CASE("encode makes the clip of every method in both formats", "[cli]")
 {
     const TempFolder folder;
-    putSound(folder / "door.wav", tones());
+    putSoundFile(folder / "door.wav", tones());
     for (const MethodInfo& info : methodTable)
         if (info.output == MethodOutput::clip)
         {
@@ -101,7 +101,7 @@ TEST_CASE("encode writes the signal of a method as a WAV that never replaces the
 {
     const TempFolder folder;
     const auto x = tones();
-    putSound(folder / "door.wav", x);
+    putSoundFile(folder / "door.wav", x);
     const auto recording = bytesOf(folder / "door.wav");
     for (const auto& [method, name] :
          {std::pair(Method::lowpass, "lowpass"), std::pair(Method::pitchShift, "pitch-shift")})
@@ -125,7 +125,7 @@ TEST_CASE("encode writes the signal of a method as a WAV that never replaces the
 TEST_CASE("encode refuses options that a method does not have", "[cli]")
 {
     const TempFolder folder;
-    putSound(folder / "door.wav", tones());
+    putSoundFile(folder / "door.wav", tones());
     const std::size_t before = folder.entries();
     for (const char* arguments :
          {"--method envelope-sine --bands 3", "--method envelope-sine --low 50", "--method vocoder16 --quantise 8",
@@ -147,7 +147,7 @@ TEST_CASE("encode refuses options that a method does not have", "[cli]")
 TEST_CASE("encode passes on to a method what the user chose, and only that", "[cli]")
 {
     const TempFolder folder;
-    putSound(folder / "door.wav", tones());
+    putSoundFile(folder / "door.wav", tones());
     const auto clipOf = [&folder](const std::string& arguments)
     {
         CHECK(encode(folder, "door.wav -f -o x.json " + arguments).status == 0);
@@ -175,7 +175,7 @@ TEST_CASE("More sensitivity gives more transients", "[cli]")
     auto x = noise(48000, 4);
     for (std::size_t i = 0; i < x.size(); ++i)
         x[i] *= (i / 3200) % 2 != 0 ? 0.5f : 0.25f;
-    putSound(folder / "door.wav", x);
+    putSoundFile(folder / "door.wav", x);
     const auto transients = [&folder](const std::string& sensitivity)
     {
         CHECK(encode(folder, "door.wav -f -o x.json --sensitivity " + sensitivity).status == 0);
@@ -188,7 +188,7 @@ TEST_CASE("More sensitivity gives more transients", "[cli]")
 TEST_CASE("A clip is up to date only for the method and options that made it", "[cli]")
 {
     const TempFolder folder;
-    putSound(folder / "door.wav", tones());
+    putSoundFile(folder / "door.wav", tones());
     const std::vector<std::string> ways{"",
                                         "--low 50",
                                         "--spacing linear",
@@ -223,8 +223,8 @@ TEST_CASE("No method loses channels in antiphase", "[cli]")
     std::vector<float> stereo;
     for (const float v : x)
         stereo.insert(stereo.end(), {v, -v});
-    putSound(folder / "mono.wav", x);
-    putSound(folder / "stereo.wav", stereo, 2);
+    putSoundFile(folder / "mono.wav", x);
+    putSoundFile(folder / "stereo.wav", stereo, 2);
     for (const char* method : {"thesis", "envelope-sine"})
     {
         CHECK(encode(folder, std::string("mono.wav stereo.wav -o out/ -f --method ") + method).status == 0);
