@@ -159,7 +159,8 @@ private:
                 warn(where, "has neither a type nor an amplitude; taken for a transient");
             constexpr double plain = 0.5;
             clip.transients.push_back({note.start, gain, plain});
-            clip.duration = std::max(clip.duration, note.start + note.length);
+            const double end = note.start + std::max(note.length, transientLength); // players know one length only
+            clip.duration = std::max(clip.duration, std::min(end, limits::duration));
             return;
         }
         Curve amplitude, pitch;
