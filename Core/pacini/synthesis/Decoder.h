@@ -9,6 +9,7 @@
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/NoiseBank.h>
 #include <pacini/synthesis/PlayClock.h>
+#include <pacini/synthesis/PulseLevel.h>
 #include <pacini/synthesis/PulseTrain.h>
 #include <pacini/synthesis/Variation.h>
 
@@ -252,16 +253,7 @@ private:
             if (i + 1 < clip.transients.size())
                 gap = std::min(gap, clip.transients[i + 1].time - transient.time);
             gap *= params.stretch;
-            double level = transient.amplitude;
-            if (leveller)
-            {
-                // What the bands reach by themselves around the event needs no pulse. The envelope is a mean over 10
-                // ms: they peak at up to twice its value.
-                double reached = 0.0;
-                for (const double after : {0.0, 0.005, 0.010})
-                    reached = std::max(reached, 2.0 * valueAt(clip.envelope, transient.time + after));
-                level = std::sqrt(std::max(level * level - reached * reached, 0.0));
-            }
+            const double level = leveller ? pulseLevel(clip.envelope, transient) : transient.amplitude;
             if (level <= 0.0)
             {
                 ++plan.maskedTransients;

@@ -1,0 +1,369 @@
+#include "io/formats/AndroidEffects.h"
+
+#include "io/formats/ForeignText.h"
+#include "io/formats/FormatLosses.h"
+#include "io/formats/LossList.h"
+#include "io/formats/NormalisedFrequency.h"
+#include "io/formats/PlayedClip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr double ticksPerSecond = 1000.0;
+constexpr double steepest = 0.020;        // s: a segment that every device plays
+constexpr double usualPoints = 40.0;      // per second
+constexpr std::int64_t longest = 1000;    // ms: likewise
+constexpr std::int64_t shortestStep = 10; // ms beside bursts
+constexpr std::int64_t motorStop = 50;    // ms: in less a motor does not stop and start again
+constexpr double burst = 0.020;           // s
+
+std::int64_t tickOf(double time)
+{
+    return std::llround(time * ticksPerSecond);
+}
+
+double timeOf(std::int64_t tick)
+{
+    return static_cast<double>(tick) / ticksPerSecond;
+}
+
+/// The integral of a curve from 0 to each of its points and on.
+class CurveIntegral
+{
+public:
+    explicit CurveIntegral(const Curve& curveToRead) : curve(curveToRead)
+    {
+        double sum = 0.0, before = 0.0;
+        for (std::size_t i = 0; i < curve.size(); ++i)
+        {
+            const double left = i == 0 ? curve[i].value : curve[i - 1].value;
+            sum += 0.5 * (left + curve[i].value) * (curve[i].time - before);
+            before = curve[i].time;
+            sums.push_back(sum);
+        }
+    }
+
+    [[nodiscard]] double mean(double from, double to) const { return (until(to) - until(from)) / (to - from); }
+
+private:
+    [[nodiscard]] double until(double time) const
+    {
+        const auto next = std::upper_bound(curve.begin(), curve.end(), time,
+                                           [](double t, const Breakpoint& point) { return t < point.time; });
+        if (next == curve.begin())
+            return curve.empty() ? 0.0 : curve.front().value * time;
+        const auto i = static_cast<std::size_t>(next - curve.begin()) - 1;
+        return sums[i] + 0.5 * (curve[i].value + valueAt(curve, time)) * (time - curve[i].time);
+    }
+
+    const Curve& curve;
+    std::vector<double> sums;
+};
+
+/// Where the steps of a waveform meet, in ms.
+std::set<std::int64_t> stepTimes(const SingleVoice& voice, std::int64_t end, std::int64_t step, bool keepsPoints)
+{
+    std::set<std::int64_t> times{0, end};
+    if (keepsPoints)
+        for (std::size_t i = 0; i < voice.amplitude.size(); ++i)
+        {
+            const Breakpoint& point = voice.amplitude[i];
+            times.insert(std::clamp<std::int64_t>(tickOf(point.time), 0, end));
+            if (i > 0 && voice.amplitude[i - 1].value != point.value)
+                for (std::int64_t t = tickOf(voice.amplitude[i - 1].time) + step;
+                     t + shortestStep <= tickOf(point.time); t += step)
+                    times.insert(t);
+        }
+    else
+        for (std::int64_t t = step; t + shortestStep <= end; t += step)
+            times.insert(t);
+    for (std::size_t i = 0; i < voice.events.size(); ++i)
+    {
+        const std::int64_t from = std::min(tickOf(voice.events[i].time), end);
+        const auto length = std::max<std::int64_t>(1, tickOf(burstLength(voice.events, i, burst)));
+        const std::int64_t to = std::min(from + length, end);
+        times.erase(times.upper_bound(std::max<std::int64_t>(from - shortestStep, 0)),
+                    times.lower_bound(std::min(to + shortestStep, end)));
+        times.insert(from);
+        times.insert(to);
+    }
+    return times;
+}
+
+std::vector<AndroidStep> waveformOf(const SingleVoice& voice, std::int64_t end, std::int64_t step, bool keepsPoints)
+{
+    const CurveIntegral amplitude(voice.amplitude);
+    const auto times = stepTimes(voice, end, step, keepsPoints);
+    std::vector<AndroidStep> steps;
+    std::size_t event = 0;
+    for (auto from = times.begin(), to = std::next(from); to != times.end(); ++from, ++to)
+    {
+        double level = amplitude.mean(timeOf(*from), timeOf(*to));
+        while (event < voice.events.size() && tickOf(voice.events[event].time) < *from)
+            ++event;
+        for (std::size_t i = event; i < voice.events.size() && tickOf(voice.events[i].time) == *from; ++i)
+            level = std::hypot(level, voice.events[i].amplitude);
+        steps.push_back({*to - *from, static_cast<int>(std::lround(255.0 * std::clamp(level, 0.0, 1.0)))});
+    }
+    // Silence too short to be felt as such only makes the motor stop.
+    for (std::size_t i = 1; i + 1 < steps.size(); ++i)
+    {
+        std::size_t after = i;
+        std::int64_t silence = 0;
+        for (; after < steps.size() && steps[after].amplitude == 0; ++after)
+            silence += steps[after].duration;
+        if (silence > 0 && silence < motorStop && after < steps.size())
+            for (; i < after; ++i)
+                steps[i].amplitude = 1;
+        i = std::max(i, after);
+    }
+    std::vector<AndroidStep> merged;
+    for (const AndroidStep& next : steps)
+    {
+        if (!merged.empty() && merged.back().amplitude == next.amplitude)
+            merged.back().duration += next.duration;
+        else
+            merged.push_back(next);
+    }
+    return merged;
+}
+
+/// The amplitude with events as peaks: up within 20 ms around the event's time and down again. Peaks that meet share
+/// their valley.
+Curve withPeaks(const SingleVoice& voice)
+{
+    Curve curve = voice.amplitude;
+    for (std::size_t i = 0; i < voice.events.size(); ++i)
+    {
+        const Transient& event = voice.events[i];
+        const double last = i > 0 ? voice.events[i - 1].time : -1.0;
+        const double next = i + 1 < voice.events.size() ? voice.events[i + 1].time : limits::duration;
+        const double from = std::max({0.0, event.time - 0.5 * steepest, 0.5 * (event.time + last)});
+        const double to = std::min({event.time + 1.5 * steepest, 0.5 * (event.time + next), voice.duration});
+        const double top = std::min(event.time + 0.5 * steepest, 0.5 * (from + to));
+        const double level = std::hypot(valueAt(voice.amplitude, top), event.amplitude);
+        const Breakpoint before{from, valueAt(curve, from)}, after{to, valueAt(voice.amplitude, to)};
+        std::erase_if(curve, [&](const Breakpoint& point) { return point.time >= from && point.time <= to; });
+        const auto place = std::upper_bound(curve.begin(), curve.end(), from,
+                                            [](double t, const Breakpoint& point) { return t < point.time; });
+        curve.insert(place, {before, {top, level}, after});
+    }
+    return curve;
+}
+
+struct Target
+{
+    double amplitude = 0.0, frequency = 0.0;
+};
+
+/// Both curves at the ms at which either bends; a step takes one ms.
+std::map<std::int64_t, Target> targetsOf(const Curve& amplitude, const Curve& frequency, bool keepsPoints)
+{
+    std::map<std::int64_t, Target> targets;
+    std::int64_t last = -1;
+    for (const Breakpoint& point : amplitude)
+    {
+        const std::int64_t tick = std::max(tickOf(point.time), last + 1);
+        targets[tick] = {point.value, valueAt(frequency, point.time)};
+        last = tick;
+    }
+    const std::int64_t room = keepsPoints ? 1 : tickOf(steepest);
+    for (const Breakpoint& point : frequency)
+    {
+        const std::int64_t tick = tickOf(point.time);
+        const auto next = targets.lower_bound(tick);
+        if ((next == targets.end() || next->first >= tick + room) &&
+            (next == targets.begin() || std::prev(next)->first + room <= tick))
+            targets[tick] = {valueAt(amplitude, point.time), point.value};
+    }
+    return targets;
+}
+
+/// Control points from 0 to 0; none is nearer than 1 ms or further than 1 s.
+AndroidEnvelope envelopeOf(const std::map<std::int64_t, Target>& targets, std::int64_t end)
+{
+    AndroidEnvelope envelope;
+    envelope.initialFrequency = targets.begin()->second.frequency;
+    std::int64_t at = 0;
+    Target before{0.0, envelope.initialFrequency};
+    const auto moveTo = [&](std::int64_t tick, const Target& target)
+    {
+        const std::int64_t length = tick - at;
+        const std::int64_t pieces = (length + longest - 1) / longest;
+        for (std::int64_t i = 1; i <= pieces; ++i)
+        {
+            const std::int64_t until = at + (length * i) / pieces;
+            const double place = static_cast<double>(i) / static_cast<double>(pieces);
+            const std::int64_t from = at + (length * (i - 1)) / pieces;
+            envelope.points.push_back({until - from, before.amplitude + place * (target.amplitude - before.amplitude),
+                                       before.frequency + place * (target.frequency - before.frequency)});
+        }
+        at = tick;
+        before = target;
+    };
+    for (const auto& [tick, target] : targets)
+        if (tick > 0 || target.amplitude > 0.0)
+            moveTo(std::max(tick, at + 1), target);
+    if (before.amplitude > 0.0 || envelope.points.empty())
+        moveTo(std::max(end, at + 1), {0.0, before.frequency});
+    return envelope;
+}
+
+void addStepLoss(LossList& losses, const SingleVoice& voice, const std::vector<AndroidStep>& steps)
+{
+    std::int64_t from = 0;
+    for (const AndroidStep& step : steps)
+    {
+        double worst = 0.0;
+        const double level = step.amplitude / 255.0;
+        for (const double place : {0.0, 0.5, 1.0})
+        {
+            const double time = timeOf(from) + place * timeOf(step.duration) - (place == 1.0 ? 1e-4 : 0.0);
+            worst = std::max(worst, std::abs(std::min(valueAt(voice.amplitude, time), 1.0) - level));
+        }
+        if (worst > leastAmplitude)
+            losses.add(LossKind::points, timeOf(from), timeOf(step.duration), worst,
+                       "waveform: amplitudes and events become steps");
+        from += step.duration;
+    }
+}
+
+double largestRounding(const SingleVoice& voice)
+{
+    double worst = 0.0;
+    const auto look = [&](double time)
+    {
+        worst = std::max(worst, std::abs(timeOf(tickOf(time)) - time));
+    };
+    for (const Breakpoint& point : voice.amplitude)
+        look(point.time);
+    for (const Transient& event : voice.events)
+        look(event.time);
+    return worst;
+}
+} // namespace
+
+AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
+{
+    LossList losses;
+    SingleVoice voice = oneVoice(clip, params.profile, androidMotorFrequency);
+    losses.addOneVoice(clip, voice, true);
+    losses.addAbove(voice.amplitude, 1.0);
+    for (Breakpoint& point : voice.amplitude)
+        point.value = std::min(point.value, 1.0);
+    for (Transient& event : voice.events)
+    {
+        if (event.amplitude > 1.0)
+            losses.add(LossKind::amplitude, event.time, 0.0, event.amplitude - 1.0, "events above 1 are cut");
+        event.amplitude = std::min(event.amplitude, 1.0);
+    }
+    losses.addCrowding(voice.events, 2.0 * steepest);
+    for (const Transient& event : voice.events)
+        losses.add(LossKind::event, event.time, 0.0, 0.0,
+                   "events become bursts in the waveform and peaks in the envelopes");
+
+    AndroidExport result;
+    const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
+    const double rate = params.amplitudePoints.value_or(usualPoints);
+    const auto end = std::max<std::int64_t>(1, tickOf(voice.duration));
+    const auto step =
+        std::max<std::int64_t>(shortestStep, std::llround(ticksPerSecond / params.amplitudePoints.value_or(50.0)));
+    result.effects.waveform = waveformOf(voice, end, step, keepsPoints);
+    addStepLoss(losses, voice, result.effects.waveform);
+    if (const double moved = largestRounding(voice); moved > 1e-9)
+        losses.add(LossKind::timeStep, 0.0, voice.duration, moved, "times are rounded to milliseconds");
+    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
+
+    if (!keepsPoints)
+    {
+        const Curve before = voice.amplitude;
+        voice.amplitude = thinned(voice.amplitude, rate, voice.duration);
+        voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(5.0), voice.duration);
+        losses.addThinned(before, voice.amplitude, voice.duration);
+    }
+    const Curve amplitude = withPeaks(voice);
+    const auto targets = targetsOf(amplitude, voice.frequency, keepsPoints);
+    result.effects.envelope = envelopeOf(targets, end);
+    result.effects.basic = result.effects.envelope;
+    const NormalisedRange range = normalisedRangeOf(params.profile, sharpnessRange);
+    double bent = 0.0;
+    const auto sharpnessOf = [&](double hertz)
+    {
+        const double sharpness = range.normalisedOf(hertz);
+        bent = std::max(bent, std::abs(std::log2(range.hertzOf(sharpness) / hertz)));
+        return sharpness;
+    };
+    result.effects.basic.initialFrequency = sharpnessOf(result.effects.basic.initialFrequency);
+    for (AndroidPoint& point : result.effects.basic.points)
+        point.frequency = sharpnessOf(point.frequency);
+    if (bent > 1e-9)
+        losses.add(LossKind::frequency, 0.0, voice.duration, bent,
+                   fmt::format("basic envelope: frequencies outside {} to {} Hz become the ends of the range",
+                               decimal(range.low, 0), decimal(range.high, 0)));
+    constexpr std::size_t advised = 16;
+    const auto& points = result.effects.envelope.points;
+    if (points.size() > advised)
+        losses.add(LossKind::points, 0.0, voice.duration, 0.0,
+                   fmt::format("envelopes: {} control points; devices need not play more than 16 at once, Android "
+                               "splits the effect",
+                               points.size()));
+    std::int64_t at = 0;
+    for (const AndroidPoint& point : points)
+    {
+        if (timeOf(point.duration) < steepest - 1e-9)
+            losses.add(LossKind::crowding, timeOf(at), timeOf(point.duration), 0.0,
+                       "envelopes: segments of less than 20 ms, which some devices do not play");
+        at += point.duration;
+    }
+    result.losses = std::move(losses).sorted();
+    return result;
+}
+
+Clip clipOfWaveform(const std::vector<AndroidStep>& steps)
+{
+    SingleVoice voice;
+    std::int64_t at = 0;
+    for (const AndroidStep& step : steps)
+    {
+        const double level = step.amplitude / 255.0;
+        voice.amplitude.push_back({timeOf(at), level});
+        at += step.duration;
+        voice.amplitude.push_back({timeOf(at), level});
+    }
+    voice.duration = timeOf(at);
+    voice.frequency = {{0.0, androidMotorFrequency}};
+    return clipOfVoice(std::move(voice));
+}
+
+Clip clipOfEnvelope(const AndroidEnvelope& envelope, bool isBasic)
+{
+    const auto hertz = [&](double said)
+    {
+        return isBasic ? sharpnessRange.hertzOf(said) : said;
+    };
+    SingleVoice voice;
+    std::int64_t at = 0;
+    voice.amplitude = {{0.0, 0.0}};
+    voice.frequency = {{0.0, hertz(envelope.initialFrequency)}};
+    for (const AndroidPoint& point : envelope.points)
+    {
+        at += point.duration;
+        voice.amplitude.push_back({timeOf(at), point.amplitude});
+        voice.frequency.push_back({timeOf(at), hertz(point.frequency)});
+    }
+    voice.duration = timeOf(at);
+    return clipOfVoice(std::move(voice));
+}
+
+} // namespace pacini

@@ -1,0 +1,74 @@
+#pragma once
+
+// A clip as the vibration effects of Android.
+
+#include "io/formats/ForeignFormat.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pacini
+{
+
+/// VibrationEffect.createWaveform (API 26): steps of constant amplitude.
+struct AndroidStep
+{
+    std::int64_t duration = 0; ///< ms, above 0
+    int amplitude = 0;         ///< 0 (motor off) to 255
+    bool operator==(const AndroidStep&) const = default;
+};
+
+/// A control point of an envelope effect (API 36): the effect moves to it in a straight line within `duration`.
+struct AndroidPoint
+{
+    std::int64_t duration = 0; ///< ms, above 0
+    double amplitude = 0.0;    ///< 0 to 1; `intensity` in a basic envelope
+    double frequency = 0.0;    ///< Hz; `sharpness` of 0 to 1 in a basic envelope
+    bool operator==(const AndroidPoint&) const = default;
+};
+
+struct AndroidEnvelope
+{
+    double initialFrequency = 0.0; ///< Hz or sharpness; the amplitude starts at 0
+    std::vector<AndroidPoint> points;
+    bool operator==(const AndroidEnvelope&) const = default;
+};
+
+/// The three ways to say a clip, from the oldest.
+struct AndroidEffects
+{
+    std::vector<AndroidStep> waveform;
+    AndroidEnvelope basic;    ///< intensity and sharpness, of BasicEnvelopeBuilder
+    AndroidEnvelope envelope; ///< amplitude and Hz, of WaveformEnvelopeBuilder
+    bool operator==(const AndroidEffects&) const = default;
+};
+
+/// Frequency of the sinusoid that stands for an amplitude without frequency, Hz: that of a phone's resonant actuator.
+inline constexpr double androidMotorFrequency = 150.0;
+
+struct AndroidExport
+{
+    AndroidEffects effects;
+    std::vector<FormatLoss> losses;
+};
+
+/// The effects of a valid clip:
+///
+/// - the waveform has no 0 within a texture, where it would stop the motor: silence shorter than 50 ms is 1 of 255;
+///   events are bursts of 20 ms; steps last at least 10 ms beside them;
+/// - the sharpness of basic envelopes covers the profile's range or else sharpnessRange: Android leaves it to the
+/// device;
+/// - envelopes start and end at 0, every segment lasts 1 ms to 1 s, which all devices can play; segments of less than
+///   20 ms, which some cannot, and more than 16 points, which Android may split, are named in the losses. Events are
+///   peaks that rise and fall in 20 ms each.
+///
+/// `amplitudePoints` (20 per second where it is not given) counts steps and control points.
+[[nodiscard]] AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params);
+
+/// The clip of a waveform: steps at androidMotorFrequency.
+[[nodiscard]] Clip clipOfWaveform(const std::vector<AndroidStep>& steps);
+
+/// The clip of an envelope; a basic one has its sharpness as frequency by sharpnessRange.
+[[nodiscard]] Clip clipOfEnvelope(const AndroidEnvelope& envelope, bool isBasic);
+
+} // namespace pacini

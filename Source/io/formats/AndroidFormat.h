@@ -1,0 +1,33 @@
+#pragma once
+
+// Vibration effects of Android as JSON, XML, Kotlin and Java.
+
+#include "io/formats/ForeignFormat.h"
+
+namespace pacini
+{
+
+/// Reads the JSON that writeAndroidJson() writes: of its effects `waveformEnvelope`, else `basicEnvelope`, else
+/// `waveform`. A warning says what is not read: amplitudes of -1 (the device's default) become 255, repetition is left
+/// out. Errors: invalidData with a place such as `waveform.timings[3]`; lists of unequal length, durations that are no
+/// whole ms from 0 (of a waveform) or 1 on, values outside their ranges.
+[[nodiscard]] Result<ImportedClip> readAndroidJson(std::string_view bytes);
+
+/// One object with the effects of androidEffectsOf(): `waveform` {timings, amplitudes, repeat}, `basicEnvelope`
+/// {initialSharpness, controlPoints} and `waveformEnvelope` {initialFrequencyHz, controlPoints}, all with the names and
+/// units of the functions that they are for.
+[[nodiscard]] Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& params);
+
+/// The waveform as a `vibration-effect` document; with `split` the envelopes too, each in its file.
+[[nodiscard]] Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params);
+
+/// A function that returns the effect: the envelope from API 36 on where the device plays it, before the waveform.
+[[nodiscard]] Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params);
+[[nodiscard]] Result<ExportedClip> writeAndroidJava(const Clip& clip, const ExportParams& params);
+
+[[nodiscard]] const ForeignFormat& androidJsonFormat();
+[[nodiscard]] const ForeignFormat& androidXmlFormat();
+[[nodiscard]] const ForeignFormat& androidKotlinFormat();
+[[nodiscard]] const ForeignFormat& androidJavaFormat();
+
+} // namespace pacini

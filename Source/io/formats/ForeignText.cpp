@@ -1,0 +1,85 @@
+#include "io/formats/ForeignText.h"
+
+#include "io/JsonTree.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pacini
+{
+
+Result<std::string_view> foreignText(std::string_view bytes, std::vector<std::string>& warnings)
+{
+    using namespace std::string_view_literals;
+    if (bytes.size() > largestForeignText)
+        return Error{ErrorCode::tooLarge, "", "is longer than 64 MiB"};
+    // The first character of all these texts is ASCII: with a zero beside it the text is UTF-16 (or -32).
+    const bool hasMark = bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv);
+    if (hasMark || (bytes.size() >= 2 && (bytes[0] == '\0') != (bytes[1] == '\0')))
+        return Error{ErrorCode::invalidData, "line 1, column 1", "is UTF-16; save the file as UTF-8"};
+    if (bytes.starts_with("\xEF\xBB\xBF"sv))
+    {
+        warnings.push_back("line 1, column 1: the byte order mark is ignored");
+        bytes.remove_prefix(3);
+    }
+    return bytes;
+}
+
+Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings)
+{
+    const auto text = foreignText(bytes, warnings);
+    if (!text)
+        return text.error();
+    auto tree = readJsonTree(*text, largestForeignText);
+    if (tree && !tree->is_object())
+        return Error{ErrorCode::invalidData, "", "is not an object in braces"};
+    return tree;
+}
+
+std::string inQuotes(std::string_view text)
+{
+    using nlohmann::json;
+    return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string decimal(double value, int decimals)
+{
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find('.') != std::string::npos)
+    {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.')
+            text.pop_back();
+    }
+    return text == "-0" ? "0" : text;
+}
+
+std::string identifierOf(std::string_view text)
+{
+    std::string name;
+    for (const char c : text)
+    {
+        const bool upper = c >= 'A' && c <= 'Z';
+        const bool digit = c >= '0' && c <= '9';
+        if (upper || digit || (c >= 'a' && c <= 'z'))
+            name += upper ? static_cast<char>(c - 'A' + 'a') : c;
+        else if (!name.empty() && name.back() != '_')
+            name += '_';
+    }
+    while (!name.empty() && name.back() == '_')
+        name.pop_back();
+    if (name.empty())
+        return "clip";
+    return name.front() >= '0' && name.front() <= '9' ? "clip_" + name : name;
+}
+
+std::string nameOfClip(const Clip& clip, std::string_view wanted)
+{
+    for (const std::string_view name : {wanted, std::string_view(clip.name), std::string_view(clip.source.file)})
+        if (!name.empty())
+            return std::string(name);
+    return "clip";
+}
+
+} // namespace pacini

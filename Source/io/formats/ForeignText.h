@@ -1,0 +1,41 @@
+#pragma once
+
+// What readers and writers of other programs' texts share.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+/// Longer files are refused: an hour of dense keyframes is a tenth of it.
+inline constexpr std::size_t largestForeignText = std::size_t(64) << 20;
+
+/// `bytes` without a byte order mark of UTF-8, which some editors put first; a warning says so. Errors: invalidData
+/// for UTF-16, tooLarge.
+[[nodiscard]] Result<std::string_view> foreignText(std::string_view bytes, std::vector<std::string>& warnings);
+
+/// The tree of a JSON file. Errors: as in foreignText() and readJsonTree().
+[[nodiscard]] Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings);
+
+/// `text` as a JSON string with its quotes; ill-formed UTF-8 becomes U+FFFD.
+[[nodiscard]] std::string inQuotes(std::string_view text);
+
+/// `value` in decimal, rounded to `decimals` digits after the point, without needless zeros; never `-0`.
+[[nodiscard]] std::string decimal(double value, int decimals);
+
+/// A name for code made of `text`: letters, digits and underscores in snake case, not starting with a digit; `clip`
+/// when nothing is left.
+[[nodiscard]] std::string identifierOf(std::string_view text);
+
+/// `wanted` when it says something, else the clip's own name, else that of its sound, else `clip`.
+[[nodiscard]] std::string nameOfClip(const Clip& clip, std::string_view wanted);
+
+} // namespace pacini

@@ -1,0 +1,424 @@
+#include "io/formats/ForeignText.h"
+#include "io/formats/HjifFormat.h"
+#include "io/formats/LossList.h"
+#include "io/formats/PlayedClip.h"
+
+#include <pacini/synthesis/TransientPulse.h>
+#include <pacini/synthesis/VoiceMerge.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr double ticksPerSecond = 1000.0;
+constexpr std::size_t bandsOfLevel1 = 7;
+constexpr std::size_t bandsOfLevel2 = 63;
+
+struct Keyframe
+{
+    std::optional<double> amplitude;
+    std::optional<int> frequency;
+};
+using Keyframes = std::map<std::int64_t, Keyframe>;
+
+std::int64_t tickOf(double time)
+{
+    return std::llround(time * ticksPerSecond);
+}
+
+/// Puts a curve on the ticks. A step takes one tick, since a player divides by the distance of its keyframes.
+template <typename Put>
+double putOnTicks(const Curve& curve, Put put)
+{
+    double moved = 0.0;
+    std::int64_t last = -1;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+    {
+        std::int64_t tick = std::max(tickOf(curve[i].time), std::int64_t{0});
+        const bool isLastHere = i + 1 == curve.size() || tickOf(curve[i + 1].time) > tick;
+        if (tick <= last)
+        {
+            if (!isLastHere && last > tick)
+                continue;
+            tick = last + (isLastHere ? 1 : 0);
+        }
+        put(tick, curve[i].value);
+        moved = std::max(moved, std::abs(static_cast<double>(tick) / ticksPerSecond - curve[i].time));
+        last = tick;
+    }
+    return moved;
+}
+
+/// As few points as a walk along the curve finds that keep every point within `share` of its value, or within
+/// `floor`: a limit that follows the level keeps the rise of an event out of silence. The cone of slopes from the last
+/// kept point to all points since is that of J. O'Rourke, "An on-line algorithm for fitting straight lines between data
+/// ranges" (1981), with the line starting at a point.
+Curve withinShare(const Curve& curve, double share, double floor)
+{
+    if (curve.size() < 3)
+        return curve;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    Curve kept{curve.front()};
+    double least = -any, most = any;
+    for (std::size_t i = 1; i < curve.size(); ++i)
+    {
+        const Breakpoint& from = kept.back();
+        const auto slopeTo = [&](double value, const Breakpoint& point)
+        {
+            return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
+        };
+        const double slope = slopeTo(curve[i].value, curve[i]);
+        if (curve[i].time <= from.time || slope < least || slope > most)
+        {
+            if (!(kept.back() == curve[i - 1]))
+                kept.push_back(curve[i - 1]);
+            least = -any;
+            most = any;
+            if (curve[i].time <= kept.back().time)
+            {
+                kept.push_back(curve[i]);
+                continue;
+            }
+        }
+        const double tolerance = std::max(floor, share * curve[i].value);
+        least = std::max(least, slopeTo(curve[i].value - tolerance, curve[i]));
+        most = std::min(most, slopeTo(curve[i].value + tolerance, curve[i]));
+    }
+    if (!(kept.back() == curve.back()))
+        kept.push_back(curve.back());
+    return kept;
+}
+
+double highestAmplitude(const Clip& clip)
+{
+    double highest = 0.0;
+    for (const Band& band : clip.bands)
+        for (const Breakpoint& point : band.amplitude)
+            highest = std::max(highest, point.value);
+    return highest;
+}
+
+double highestSum(const Clip& clip)
+{
+    std::vector<double> times;
+    for (const Band& band : clip.bands)
+        for (const Breakpoint& point : band.amplitude)
+            times.push_back(point.time);
+    std::sort(times.begin(), times.end());
+    std::vector<CurveReader> readers;
+    for (const Band& band : clip.bands)
+        readers.emplace_back(band.amplitude);
+    double highest = 0.0;
+    for (const double time : times)
+    {
+        double sum = 0.0;
+        for (CurveReader& reader : readers)
+            sum += reader.at(time);
+        highest = std::max(highest, sum);
+    }
+    highest = std::max(highest, highestAmplitude(clip)); // on a step the earlier value may be the larger one
+    for (const Transient& event : clip.transients)
+        highest = std::max(highest, event.amplitude);
+    return highest;
+}
+
+class Writer
+{
+public:
+    Writer(const Clip& clipToWrite, const ExportParams& wanted, bool bandsAreBaked)
+        : clip(clipToWrite),
+          params(wanted),
+          baked(bandsAreBaked),
+          loudest(highestAmplitude(clip)),
+          gain(std::max(1.0, std::ceil(highestSum(clip) * 1000.0) / 1000.0))
+    {
+    }
+
+    std::string write(const std::string& name)
+    {
+        std::vector<std::string> bands;
+        for (const Band& band : clip.bands)
+            if (std::any_of(band.amplitude.begin(), band.amplitude.end(), [](const auto& p) { return p.value > 0.0; }))
+                bands.push_back(vectorialBand(band));
+        addEvents(bands);
+        if (bands.empty())
+            losses.add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
+        if (movedTime > 1e-9)
+            losses.add(LossKind::timeStep, 0.0, clip.duration, movedTime, "times are rounded to milliseconds");
+        if (bentPitch > 1e-9)
+            losses.add(LossKind::frequency, 0.0, clip.duration, bentPitch, "frequencies are rounded to 1 Hz");
+
+        const bool simple = bands.size() <= bandsOfLevel1;
+        return fmt::format(R"({{
+  "version": "2023",
+  "profile": {},
+  "level": {},
+  "date": "2023-01-01",
+  "description": {},
+  "timescale": {},
+  "avatars": [],
+  "syncs": [],
+  "perceptions": [
+    {{
+      "id": 0,
+      "avatar_id": 0,
+      "description": {},
+      "perception_modality": "Vibrotactile",
+      "effect_library": [],
+      "channels": [
+        {{
+          "id": 0,
+          "description": {},
+          "gain": {},
+          "mixing_coefficient": 1,
+          "body_part_mask": 0,
+          "frequency_sampling": {},
+          "sample_count": {},
+          "bands": [{}{}]
+        }}
+      ]
+    }}
+  ]
+}}
+)",
+                           inQuotes(simple ? "Simple Parametric" : "Main"), simple ? 1 : 2, inQuotes(name),
+                           ticksPerSecond, inQuotes(name), inQuotes(name), decimal(gain, 3), outputRate,
+                           std::llround(clip.duration * outputRate), fmt::join(bands, ","),
+                           bands.empty() ? "" : "\n          ");
+    }
+
+    LossList losses;
+
+private:
+    static constexpr int outputRate = 8000; // Hz, of players that ask the file
+
+    std::string vectorialBand(const Band& band)
+    {
+        // A quarter of a dB, and -74 dB below the loudest.
+        const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
+                                : baked                ? withinShare(band.amplitude, 0.06, 5e-4 * loudest)
+                                                       : band.amplitude;
+        losses.addThinned(band.amplitude, amplitude, clip.duration);
+        Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
+        if (pitch.empty())
+            pitch = {{0.0, std::max(band.centreFrequency, 1.0)}};
+        double lowest = band.lowFrequency, highest = band.highFrequency;
+        for (Breakpoint& point : pitch)
+        {
+            const double rounded = std::max(1.0, std::round(point.value));
+            bentPitch = std::max(bentPitch, std::abs(std::log2(rounded / point.value)));
+            lowest = std::min(lowest, rounded);
+            highest = std::max(highest, rounded);
+        }
+        std::string text = fmt::format(R"(
+            {{"band_type": "VectorialWave", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [)",
+                                       std::floor(lowest), std::ceil(highest));
+        const char* separator = "";
+        for (const Curve& sound : soundsOf(amplitude))
+        {
+            text += separator + effect(sound, pitch);
+            separator = ",";
+        }
+        return text + "\n            ]}";
+    }
+
+    /// The parts of an amplitude between silences, each with its first and last value; before its first point and after
+    /// its last a curve holds their values.
+    [[nodiscard]] std::vector<Curve> soundsOf(Curve curve) const
+    {
+        if (curve.front().time > 0.0)
+            curve.insert(curve.begin(), {0.0, curve.front().value});
+        if (curve.back().time < clip.duration)
+            curve.push_back({clip.duration, curve.back().value});
+        std::vector<Curve> sounds(1);
+        for (std::size_t i = 0; i < curve.size(); ++i)
+        {
+            const bool rests = i + 1 < curve.size() && curve[i].value == 0.0 && curve[i + 1].value == 0.0;
+            const bool jumpsUp = i + 1 < curve.size() && curve[i].value == 0.0 && curve[i + 1].time == curve[i].time;
+            const bool fallen = i > 0 && curve[i].value == 0.0 && curve[i - 1].time == curve[i].time;
+            if (!(sounds.back().empty() && (rests || jumpsUp)) && !fallen)
+                sounds.back().push_back(curve[i]);
+            if ((rests || jumpsUp || fallen) && !sounds.back().empty())
+                sounds.emplace_back();
+        }
+        std::erase_if(sounds,
+                      [](const Curve& sound) {
+                          return std::all_of(sound.begin(), sound.end(), [](const auto& p) { return p.value == 0.0; });
+                      });
+        return sounds;
+    }
+
+    /// One effect, whose wave goes on from where a wave from the start of the clip would be.
+    std::string effect(const Curve& sound, const Curve& pitch)
+    {
+        Keyframes keyframes;
+        movedTime = std::max(movedTime, putOnTicks(sound, [&](std::int64_t tick, double value)
+                                                   { keyframes[tick].amplitude = value / gain; }));
+        const std::int64_t start = keyframes.begin()->first;
+        const std::int64_t end = keyframes.rbegin()->first;
+        const auto hertz = [&](double value)
+        {
+            return static_cast<int>(std::max(1.0, std::round(value)));
+        };
+        movedTime = std::max(movedTime, putOnTicks(pitch,
+                                                   [&](std::int64_t tick, double value)
+                                                   {
+                                                       if (tick > start && tick < end)
+                                                           keyframes[tick].frequency = hertz(value);
+                                                   }));
+        keyframes[start].frequency = hertz(valueAt(pitch, sound.front().time));
+        if (pitch.size() > 1)
+            keyframes[end].frequency = hertz(valueAt(pitch, sound.back().time));
+        const double phase = 2.0 * std::numbers::pi * cyclesUntil(pitch, sound.front().time);
+        std::string text = fmt::format(R"(
+              {{"effect_type": "Basis", "position": {}, "phase": {}, "base_signal": "Sine", "keyframes": [)",
+                                       start, decimal(phase, 4));
+        const char* separator = "";
+        for (const auto& [tick, keyframe] : keyframes)
+        {
+            text += fmt::format("{}{{\"relative_position\": {}", separator, tick - start);
+            if (keyframe.amplitude)
+                text += fmt::format(", \"amplitude_modulation\": {}", decimal(*keyframe.amplitude, 5));
+            if (keyframe.frequency)
+                text += fmt::format(", \"frequency_modulation\": {}", *keyframe.frequency);
+            text += '}';
+            separator = ", ";
+        }
+        return text + "]}";
+    }
+
+    /// Fraction of a cycle at `time` of a wave that starts at phase 0.
+    static double cyclesUntil(const Curve& pitch, double time)
+    {
+        double cycles = 0.0, before = 0.0;
+        for (std::size_t i = 0; i <= pitch.size() && before < time; ++i)
+        {
+            const double until = i < pitch.size() ? std::min(pitch[i].time, time) : time;
+            cycles += 0.5 * (valueAt(pitch, before) + valueAt(pitch, until)) * (until - before);
+            before = std::max(before, until);
+        }
+        return cycles - std::floor(cycles);
+    }
+
+    /// A place in the file as text, and the frequencies in it.
+    struct EventBand
+    {
+        std::string effects;
+        double lowest = limits::frequency, highest = 0.0;
+
+        void add(const std::string& effect, double low, double high)
+        {
+            effects += (effects.empty() ? "" : ",") + effect;
+            lowest = std::min(lowest, low);
+            highest = std::max(highest, high);
+        }
+        [[nodiscard]] std::string band(std::string_view type) const
+        {
+            return fmt::format(R"(
+            {{"band_type": "{}", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [{}
+            ]}})",
+                               type, std::floor(lowest), std::ceil(highest), effects);
+        }
+    };
+
+    void addEvents(std::vector<std::string>& bands)
+    {
+        EventBand transients, waves;
+        for (std::size_t i = 0; i < clip.transients.size(); ++i)
+        {
+            const Transient& event = clip.transients[i];
+            if (event.amplitude <= 0.0)
+                continue;
+            double gap = limits::duration;
+            if (i > 0)
+                gap = event.time - clip.transients[i - 1].time;
+            if (i + 1 < clip.transients.size())
+                gap = std::min(gap, clip.transients[i + 1].time - event.time);
+            constexpr double fine = 1e6; // Hz: the pulse as if continuous
+            const Pulse pulse = makePulse({}, event.sharpness, gap, fine, 1.0);
+            const double frequency = pulse.cyclesPerFrame * fine;
+            const double length = static_cast<double>(pulse.frames) / fine;
+            const std::int64_t tick = tickOf(event.time);
+            movedTime = std::max(movedTime, std::abs(static_cast<double>(tick) / ticksPerSecond - event.time));
+            if (hjifIsTransient(event.sharpness, gap))
+            {
+                const double told = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
+                transients.add(transient(tick, event.amplitude, told), hjifDullFrequency, hjifSharpFrequency);
+                continue;
+            }
+            losses.add(LossKind::event, event.time, length, 0.0,
+                       "a transient is always dull and 22 ms long here: other events are written as short waves");
+            waves.add(wavePulse(tick, length, event.amplitude, std::round(frequency)), frequency, frequency);
+        }
+        if (!transients.effects.empty())
+            bands.push_back(transients.band("Transient"));
+        if (!waves.effects.empty())
+            bands.push_back(waves.band("VectorialWave"));
+    }
+
+    [[nodiscard]] std::string transient(std::int64_t tick, double amplitude, double frequency) const
+    {
+        return fmt::format(R"(
+              {{"effect_type": "Basis", "position": {}, "keyframes": [{{"relative_position": 0, )"
+                           R"("amplitude_modulation": {}, "frequency_modulation": {}}}]}})",
+                           tick, decimal(hjifTransientLevel * amplitude / gain, 5), std::llround(frequency));
+    }
+
+    /// A few periods under a Hann window, as the decoder plays an event: a keyframe on every tick.
+    [[nodiscard]] std::string wavePulse(std::int64_t tick, double length, double amplitude, double frequency) const
+    {
+        const auto ticks = std::max<std::int64_t>(2, std::llround(length * ticksPerSecond));
+        std::string text = fmt::format(
+            R"(
+              {{"effect_type": "Basis", "position": {}, "phase": 0, "base_signal": "Sine", "keyframes": [)",
+            tick);
+        for (std::int64_t n = 0; n <= ticks; ++n)
+            text +=
+                fmt::format(R"({}{{"relative_position": {}, "amplitude_modulation": {}{}}})", n == 0 ? "" : ", ", n,
+                            decimal(hannAt(static_cast<double>(n) / static_cast<double>(ticks)) * amplitude / gain, 5),
+                            n == 0 ? fmt::format(", \"frequency_modulation\": {}", frequency) : "");
+        return text + "]}";
+    }
+
+    const Clip& clip;
+    const ExportParams& params;
+    bool baked;
+    double loudest; ///< amplitude of any band
+    double gain;    ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
+    double movedTime = 0.0, bentPitch = 0.0;
+};
+} // namespace
+
+Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
+{
+    Clip played = playedClip(clip, 1.0, 1.0 / ticksPerSecond);
+    LossList losses;
+    losses.addNoise(clip);
+    losses.addText(clip, true);
+    const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
+    if (played.bands.size() > room)
+    {
+        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
+                   fmt::format("{} bands share {}", played.bands.size(), room));
+        mergeVoices(played, room);
+    }
+    Writer writer(played, params, !clip.envelope.empty());
+    writer.losses = std::move(losses);
+    ExportedClip result;
+    result.files.push_back({"", writer.write(nameOfClip(clip, params.name))});
+    result.losses = std::move(writer.losses).sorted();
+    return result;
+}
+
+} // namespace pacini
