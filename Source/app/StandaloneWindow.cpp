@@ -74,7 +74,7 @@ StandaloneWindow::StandaloneWindow(plugin::PluginProcessor& processor, AudioRig&
     setUsingNativeTitleBar(true);
     setContentOwned(new Content(processor, rig), true);
     setResizable(true, false);
-    setResizeLimits(936, 544 + barHeight, 2400, 1700);
+    setResizeLimits(936, 608 + barHeight, 2400, 1700);
     centreWithSize(getWidth(), getHeight());
     setVisible(true);
 }

@@ -12,7 +12,7 @@
 namespace pacini::app
 {
 
-/// Four seconds that repeat: a slow sweep over the range of touch, clicks, and rough noise that comes and goes.
+/// Six seconds that repeat: a sweep over the range of touch, clicks in silence, rough noise that comes and goes.
 class TestSignal
 {
 public:
@@ -25,13 +25,18 @@ public:
 
     [[nodiscard]] float next() noexcept
     {
-        const double t = std::fmod(static_cast<double>(frame++) / fs, 4.0);
-        const double frequency = 40.0 * std::exp2(2.5 * (0.5 - 0.5 * std::cos(0.5 * std::numbers::pi * t)));
-        phase = std::fmod(phase + frequency / fs, 1.0);
-        const double sweep = 0.35 * std::sin(2.0 * std::numbers::pi * phase);
-        const double click = t > 1.0 && t < 3.0 ? 0.5 * std::exp(-150.0 * std::fmod(t, 0.2)) : 0.0;
-        const double rough = 0.15 * std::max(0.0, std::sin(std::numbers::pi * (t - 2.0)));
-        return static_cast<float>(sweep + (click + rough) * random.uniform(-1.0, 1.0));
+        const double t = std::fmod(static_cast<double>(frame++) / fs, 6.0);
+        const double noise = random.uniform(-1.0, 1.0);
+        if (t < 2.0)
+        {
+            phase = std::fmod(phase + 40.0 * std::exp2(2.0 * t) / fs, 1.0);
+            return static_cast<float>(0.5 * std::sin(0.5 * std::numbers::pi * t) *
+                                      std::sin(2.0 * std::numbers::pi * phase));
+        }
+        if (t < 4.0)
+            return static_cast<float>(0.7 * std::exp(-120.0 * std::fmod(t, 0.2)) * noise);
+        const double swell = std::sin(std::numbers::pi * (t - 4.0));
+        return static_cast<float>(0.4 * swell * swell * noise);
     }
 
 private:

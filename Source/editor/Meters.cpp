@@ -112,17 +112,13 @@ void EventLamp::show(unsigned events, double level)
 void EventLamp::paint(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    const auto lamp = area.removeFromLeft(2 * grid).toFloat().withSizeKeepingCentre(10.0f, 10.0f);
+    const auto lamp = getLocalBounds().toFloat().withSizeKeepingCentre(12.0f, 12.0f);
     g.setColour(p.well);
     g.fillEllipse(lamp);
     g.setColour(p.warning.withAlpha(0.1f * static_cast<float>(glow)));
     g.fillEllipse(lamp);
     g.setColour(p.line);
     g.drawEllipse(lamp, 1.0f);
-    g.setColour(p.dim);
-    g.setFont(smallFont());
-    g.drawText("Events", area.withTrimmedLeft(grid / 2), juce::Justification::centredLeft, false);
 }
 
 } // namespace pacini::editor

@@ -9,10 +9,16 @@ namespace pacini::editor
 namespace
 {
 const juce::Identifier quietProperty("quiet");
+constexpr float largestKnob = 32.0f; // radius
 
 juce::Font fontOf(float height, bool bold)
 {
-    return juce::Font(height, bold ? juce::Font::bold : juce::Font::plain);
+    const int style = bold ? juce::Font::bold : juce::Font::plain;
+#if JUCE_MAJOR_VERSION >= 8
+    return juce::Font(juce::FontOptions(height, style));
+#else
+    return juce::Font(height, style);
+#endif
 }
 } // namespace
 
@@ -76,7 +82,7 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
 {
     const Palette& p = palette();
     const auto area = juce::Rectangle<int>(x, y, width, height).toFloat().reduced(3.0f);
-    const float radius = 0.5f * std::min(area.getWidth(), area.getHeight());
+    const float radius = std::min(0.5f * std::min(area.getWidth(), area.getHeight()), largestKnob);
     const auto centre = area.getCentre();
     const float thickness = std::max(2.5f, 0.13f * radius);
     const float ring = radius - 0.5f * thickness;
@@ -180,7 +186,7 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label)
 {
-    label.setBounds(4, 1, box.getWidth() - 28, box.getHeight() - 2);
+    label.setBounds(grid, 1, box.getWidth() - 4 * grid, box.getHeight() - 2);
     label.setFont(getComboBoxFont(box));
 }
 

@@ -14,10 +14,11 @@ namespace
 using editor::grid;
 
 constexpr int usualWidth = 1024;
-constexpr int usualHeight = 616;
+constexpr int usualHeight = 648;
 constexpr int leastWidth = 936;
-constexpr int leastHeight = 544;
+constexpr int leastHeight = 608;
 constexpr int rowHeight = 3 * grid + 2;
+constexpr int topCard = 28 * grid;
 constexpr int framesPerSecond = 30;
 
 juce::String nameOf(ParameterId parameter)
@@ -293,53 +294,53 @@ void PluginWindow::resized()
     status.setBounds(footer.removeFromRight(footer.getWidth() * 2 / 5));
     capture.setBounds(footer.withTrimmedRight(2 * grid));
 
-    auto lower = area.removeFromBottom(20 * grid);
+    auto lower = area.removeFromBottom(19 * grid);
     area.removeFromBottom(grid);
 
-    // Sound, bands, touch
-    auto left = card(area.removeFromLeft(31 * grid), "Sound");
+    auto left = area.removeFromLeft(31 * grid);
     area.removeFromLeft(grid);
-    auto right = card(area.removeFromRight(31 * grid), "Touch");
+    auto right = area.removeFromRight(31 * grid);
     area.removeFromRight(grid);
     bands.setBounds(card(area, "Bands"));
-    const auto row = [](juce::Rectangle<int>& from, int height = rowHeight)
+    const auto row = [](juce::Rectangle<int>& from)
     {
-        const auto taken = from.removeFromTop(height);
+        const auto taken = from.removeFromTop(rowHeight);
         from.removeFromTop(grid);
         return taken;
     };
-    sourceChoice->setBounds(row(left));
-    sourceMix->setBounds(row(left));
-    inputGain->setBounds(row(left));
-    left.removeFromTop(grid);
-    inputMeter.setBounds(row(left));
-    lamp.setBounds(row(left));
-    outputMode->setBounds(row(right));
-    outputChannel->setBounds(row(right));
-    right.removeFromTop(grid);
-    outputMeter.setBounds(row(right));
-    reductionMeter.setBounds(row(right));
-    feltMeter.setBounds(row(right));
 
-    // Roles, character, events, gate
-    auto roles = card(lower.removeFromLeft(36 * grid), "What is felt");
+    auto sound = card(left.removeFromTop(topCard), "Sound");
+    left.removeFromTop(grid);
+    sourceChoice->setBounds(row(sound));
+    sourceMix->setBounds(row(sound));
+    inputGain->setBounds(row(sound));
+    sound.removeFromTop(grid);
+    inputMeter.setBounds(row(sound));
+    lamp.setBounds(left.withHeight(4 * grid).withTrimmedRight(2 * grid).removeFromRight(3 * grid));
+    placeKnobs(card(left, "Events"), {sensitivity.get(), sharpness.get()});
+
+    auto touch = card(right.removeFromTop(topCard), "Touch");
+    right.removeFromTop(grid);
+    outputMode->setBounds(row(touch));
+    outputChannel->setBounds(row(touch));
+    touch.removeFromTop(grid);
+    outputMeter.setBounds(row(touch));
+    reductionMeter.setBounds(row(touch));
+    feltMeter.setBounds(row(touch));
+    placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get()});
+
+    auto roles = card(lower.removeFromLeft(lower.getWidth() / 2 - grid / 2), "What is felt");
     lower.removeFromLeft(grid);
     for (std::size_t i = 0; i < roleLevels.size(); ++i)
     {
         auto line = roles.removeFromTop(roles.getHeight() / static_cast<int>(roleLevels.size() - i))
                         .withSizeKeepingCentre(roles.getWidth(), rowHeight);
-        roleMutes[i]->setBounds(line.removeFromRight(6 * grid));
+        roleMutes[i]->setBounds(line.removeFromRight(7 * grid));
         line.removeFromRight(grid);
         roleLevels[i]->setBounds(line);
     }
-    const int knobWidth = (lower.getWidth() - 14 * grid) / 9;
-    auto character = card(lower.removeFromLeft(5 * knobWidth + 4 * grid), "Character");
-    lower.removeFromLeft(grid);
-    placeKnobs(character, {intensity.get(), transposition.get(), direct.get(), attack.get(), release.get()});
-    auto events = card(lower.removeFromLeft(2 * knobWidth + 4 * grid), "Events");
-    lower.removeFromLeft(grid);
-    placeKnobs(events, {sensitivity.get(), sharpness.get()});
-    placeKnobs(card(lower, "Gate"), {gateThreshold.get(), gateRelease.get()});
+    placeKnobs(card(lower, "Character"),
+               {intensity.get(), transposition.get(), direct.get(), attack.get(), release.get()});
 
     processor.setWindowSize(getWidth(), getHeight());
 }

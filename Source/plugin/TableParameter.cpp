@@ -34,12 +34,28 @@ double tidied(double value) noexcept
 {
     return std::round(1e4 * value) / 1e4;
 }
+
+/// The same for hosts that want values in their unit.
+juce::NormalisableRange<float> rangeOf(const ParameterRow& row)
+{
+    const auto* of = &row;
+    return {static_cast<float>(row.low), static_cast<float>(row.high),
+            [of](float, float, float normal)
+            { return static_cast<float>(tidied(valueAt(*of, static_cast<double>(normal)))); },
+            [of](float, float, float value) { return static_cast<float>(normalOf(*of, static_cast<double>(value))); },
+            [of](float, float, float value)
+            {
+                const double limited = juce::jlimit(of->low, of->high, static_cast<double>(value));
+                return static_cast<float>(plugin::isDiscrete(*of) ? std::round(limited) : limited);
+            }};
+}
 } // namespace
 
 TableParameter::TableParameter(const ParameterRow& wanted)
-    : AudioProcessorParameterWithID(juce::ParameterID(wanted.id, wanted.since), wanted.name,
-                                    juce::AudioProcessorParameterWithIDAttributes().withLabel(labelOf(wanted))),
+    : RangedAudioParameter(juce::ParameterID(wanted.id, wanted.since), wanted.name,
+                           juce::AudioProcessorParameterWithIDAttributes().withLabel(labelOf(wanted))),
       tableRow(&wanted),
+      range(rangeOf(wanted)),
       normal(static_cast<float>(normalOf(wanted, wanted.standard))),
       plain(wanted.standard)
 {

@@ -13,7 +13,7 @@ namespace pacini::plugin
 {
 
 /// Any thread may read and write; there is no lock.
-class TableParameter final : public juce::AudioProcessorParameterWithID
+class TableParameter final : public juce::RangedAudioParameter
 {
 public:
     explicit TableParameter(const ParameterRow& wanted);
@@ -25,6 +25,7 @@ public:
     /// Tells the host and whoever listens. [message]
     void setPlainNotifyingHost(double wanted);
 
+    const juce::NormalisableRange<float>& getNormalisableRange() const override { return range; }
     float getValue() const override { return normal.load(std::memory_order_relaxed); }
     void setValue(float newValue) override;
     float getDefaultValue() const override;
@@ -36,6 +37,7 @@ public:
 
 private:
     const ParameterRow* tableRow;
+    juce::NormalisableRange<float> range;
     std::atomic<float> normal;
     std::atomic<double> plain;
 };

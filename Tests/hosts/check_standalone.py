@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""The standalone program on a screen that nobody sees and a sound server without a sound card.
+
+check_standalone.py PROGRAM [PICTURE]    PICTURE: where a picture of the window goes. Exit 0, 1 on a failed check, 77
+when Xvfb, ImageMagick or JACK is not there.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+try:
+    import numpy as np
+    import soundfile
+except ImportError as error:
+    print("SKIPPED:", error, "- cmake/bootstrap.sh test installs it")
+    sys.exit(77)
+for program in ("Xvfb", "import", "convert", "jackd", "jack_lsp", "jack_rec"):
+    if not shutil.which(program):
+        print("SKIPPED:", program, "is missing - cmake/bootstrap.sh test installs it")
+        sys.exit(77)
+
+RATE = 48000
+failures = []
+
+
+def check(claim, holds, detail=""):
+    print("ok  " if holds else "FAIL", claim, detail)
+    if not holds:
+        failures.append(claim)
+
+
+def until(condition, seconds=30):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.2)
+    return False
+
+
+class Processes:
+    """Ends what it started, the newest first."""
+
+    def __init__(self):
+        self.running = []
+
+    def __enter__(self):
+        return self
+
+    def start(self, *arguments, **options):
+        options.setdefault("stdout", subprocess.DEVNULL)
+        options.setdefault("stderr", subprocess.DEVNULL)
+        process = subprocess.Popen([str(a) for a in arguments], **options)
+        self.running.append(process)
+        return process
+
+    def __exit__(self, *_):
+        for process in reversed(self.running):
+            process.terminate()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+
+def start_screen(processes):
+    """Xvfb on the first free number, which it tells itself."""
+    read, write = os.pipe()
+    processes.start("Xvfb", "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
+    os.close(write)
+    with os.fdopen(read) as numbers:
+        return ":" + numbers.readline().strip()
+
+
+def picture(display, path):
+    return subprocess.run(["import", "-display", display, "-window", "root", str(path)], timeout=60).returncode == 0
+
+
+def pixels(path):
+    raw = subprocess.run(["convert", str(path), "-depth", "8", "gray:-"], capture_output=True, timeout=60, check=True).stdout
+    return np.frombuffer(raw, dtype=np.uint8).reshape(960, 1280).astype(int)
+
+
+def main():
+    program = sys.argv[1]
+    server = f"pacini{os.getpid()}"
+    with tempfile.TemporaryDirectory() as folder, Processes() as processes:
+        folder = Path(folder)
+        environment = dict(os.environ, JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1", HOME=str(folder))
+        display = start_screen(processes)
+        environment["DISPLAY"] = display
+        processes.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
+                        env=environment)
+
+        def ports():
+            listed = subprocess.run(["jack_lsp", "-c"], env=environment, capture_output=True, text=True)
+            return listed.stdout if listed.returncode == 0 else ""
+
+        check("the sound server runs", until(lambda: "system:playback_4" in ports()))
+        app = processes.start(program, "--fresh", "--device-type", "JACK", "--test-signal", "--haptic-output", "3",
+                              env=environment)
+        check("the program takes the interface", until(lambda: "JUCEJack:out_4" in ports(), 60))
+        check("its third output is wired to the third of the interface",
+              "system:playback_3\n   JUCEJack:out_3" in ports())
+        time.sleep(7)
+        for name in ("first.png", "second.png"):
+            check(f"{name} is taken", picture(display, folder / name))
+            time.sleep(1.5)
+        first, second = pixels(folder / "first.png"), pixels(folder / "second.png")
+        lit = (first > 20).mean()
+        check("the window is there and not black", lit > 0.3, f"{100 * lit:.0f} % of the screen")
+        check("it shows many things", len(np.unique(first)) > 40, f"{len(np.unique(first))} shades")
+        moved = (np.abs(first - second) > 10).sum()
+        check("its meters move", moved > 500, f"{moved} pixels")
+        if len(sys.argv) > 2:
+            subprocess.run(["convert", str(folder / "second.png"), "-trim", "+repage", sys.argv[2]], check=True)
+
+        for channel in (1, 3, 4):
+            subprocess.run(["jack_rec", "-f", str(folder / f"{channel}.wav"), "-d", "3", "-b", "24",
+                            f"JUCEJack:out_{channel}"], env=environment, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, timeout=60)
+        recorded = {}
+        for channel in (1, 3, 4):
+            path = folder / f"{channel}.wav"
+            recorded[channel] = soundfile.read(path)[0] if path.exists() else np.zeros(1)
+            print("   output", channel, "peak", np.abs(recorded[channel]).max())
+        check("the sound is on the first output", np.abs(recorded[1]).max() > 0.1)
+        check("the haptic signal is on the third", 0.05 < np.abs(recorded[3]).max() <= 1.0)
+        # A server without a clock drops frames now and then, so this asks for no more than where half of it lies.
+        spectrum = np.cumsum(np.abs(np.fft.rfft(recorded[3])) ** 2)
+        middle = np.searchsorted(spectrum, 0.5 * spectrum[-1]) * RATE / len(recorded[3])
+        check("and most of it can be felt", middle < 600, f"half of it below {middle:.0f} Hz")
+        check("the fourth is silent", np.abs(recorded[4]).max() == 0)
+        check("the program still runs", app.poll() is None)
+        app.terminate()
+        check("and ends when asked to", until(lambda: app.poll() is not None, 10))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,265 @@
+/* A host for one LV2 plugin, offline. Samples come from and go to files of raw 32-bit floats, frame by frame: as many
+   values as the plugin has audio ports of that direction, in their order.
+
+   lv2render URI RATE BLOCK IN OUT [--set PROPERTY=VALUE]... [--at FRAME] [--load STATE] [--save STATE] [--latency]
+
+   --at gives the frame at which the block begins that brings the --set that follow it (0 at first). States are Turtle
+   files. --latency prints the value of the latency port after the last block. */
+
+#include <lilv/lilv.h>
+#include <lv2/atom/atom.h>
+#include <lv2/atom/forge.h>
+#include <lv2/buf-size/buf-size.h>
+#include <lv2/core/lv2.h>
+#include <lv2/options/options.h>
+#include <lv2/parameters/parameters.h>
+#include <lv2/patch/patch.h>
+#include <lv2/urid/urid.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { mostUris = 4096, mostPorts = 128, atomBytes = 1 << 18 };
+
+static char* knownUris[mostUris];
+static uint32_t knownCount = 0;
+
+static LV2_URID mapUri(LV2_URID_Map_Handle handle, const char* uri)
+{
+    (void) handle;
+    for (uint32_t i = 0; i < knownCount; ++i)
+        if (strcmp(knownUris[i], uri) == 0)
+            return i + 1;
+    if (knownCount == mostUris)
+        return 0;
+    knownUris[knownCount] = malloc(strlen(uri) + 1);
+    strcpy(knownUris[knownCount], uri);
+    return ++knownCount;
+}
+
+static const char* unmapUri(LV2_URID_Unmap_Handle handle, LV2_URID urid)
+{
+    (void) handle;
+    return urid > 0 && urid <= knownCount ? knownUris[urid - 1] : NULL;
+}
+
+static int fail(const char* what, const char* which)
+{
+    fprintf(stderr, "lv2render: %s %s\n", what, which);
+    return 1;
+}
+
+/* The bytes of a file and a 0 behind them. */
+static char* readBytes(const char* path, size_t* count)
+{
+    FILE* file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    fseek(file, 0, SEEK_END);
+    *count = (size_t) ftell(file);
+    rewind(file);
+    char* bytes = calloc(*count + 1, 1);
+    const size_t got = fread(bytes, 1, *count, file);
+    fclose(file);
+    return got == *count ? bytes : NULL;
+}
+
+/* A patch:Set of one property in the sequence that is being forged. */
+static void forgeSet(LV2_Atom_Forge* forge, LV2_URID property, float value)
+{
+    LV2_Atom_Forge_Frame object;
+    lv2_atom_forge_frame_time(forge, 0);
+    lv2_atom_forge_object(forge, &object, 0, mapUri(NULL, LV2_PATCH__Set));
+    lv2_atom_forge_key(forge, mapUri(NULL, LV2_PATCH__property));
+    lv2_atom_forge_urid(forge, property);
+    lv2_atom_forge_key(forge, mapUri(NULL, LV2_PATCH__value));
+    lv2_atom_forge_float(forge, value);
+    lv2_atom_forge_pop(forge, &object);
+}
+
+int main(int argc, char** argv)
+{
+    if (argc < 6)
+        return fail("usage:", "URI RATE BLOCK IN OUT [options]");
+    const char* wantedUri = argv[1];
+    float rate = (float) atof(argv[2]);
+    int32_t block = atoi(argv[3]);
+    const char* loadPath = NULL;
+    const char* savePath = NULL;
+    int tellLatency = 0;
+    for (int a = 6; a < argc; ++a)
+    {
+        if (strcmp(argv[a], "--load") == 0 && a + 1 < argc)
+            loadPath = argv[++a];
+        else if (strcmp(argv[a], "--save") == 0 && a + 1 < argc)
+            savePath = argv[++a];
+        else if (strcmp(argv[a], "--latency") == 0)
+            tellLatency = 1;
+        else if ((strcmp(argv[a], "--set") == 0 || strcmp(argv[a], "--at") == 0) && a + 1 < argc)
+            ++a;
+        else
+            return fail("unknown option", argv[a]);
+    }
+
+    LilvWorld* world = lilv_world_new();
+    lilv_world_load_all(world);
+    LilvNode* uri = lilv_new_uri(world, wantedUri);
+    const LilvPlugin* plugin = lilv_plugins_get_by_uri(lilv_world_get_all_plugins(world), uri);
+    if (!plugin)
+        return fail("no plugin", wantedUri);
+
+    LV2_URID_Map map = {NULL, mapUri};
+    LV2_URID_Unmap unmap = {NULL, unmapUri};
+    const int32_t least = 1;
+    const LV2_URID intType = mapUri(NULL, LV2_ATOM__Int);
+    const LV2_Options_Option options[] = {
+        {LV2_OPTIONS_INSTANCE, 0, mapUri(NULL, LV2_PARAMETERS__sampleRate), sizeof(float), mapUri(NULL, LV2_ATOM__Float), &rate},
+        {LV2_OPTIONS_INSTANCE, 0, mapUri(NULL, LV2_BUF_SIZE__minBlockLength), sizeof(int32_t), intType, &least},
+        {LV2_OPTIONS_INSTANCE, 0, mapUri(NULL, LV2_BUF_SIZE__maxBlockLength), sizeof(int32_t), intType, &block},
+        {LV2_OPTIONS_INSTANCE, 0, 0, 0, 0, NULL}};
+    const LV2_Feature mapFeature = {LV2_URID__map, &map};
+    const LV2_Feature unmapFeature = {LV2_URID__unmap, &unmap};
+    const LV2_Feature optionsFeature = {LV2_OPTIONS__options, (void*) options};
+    const LV2_Feature boundedFeature = {LV2_BUF_SIZE__boundedBlockLength, NULL};
+    const LV2_Feature* features[] = {&mapFeature, &unmapFeature, &optionsFeature, &boundedFeature, NULL};
+    LilvInstance* instance = lilv_plugin_instantiate(plugin, (double) rate, features);
+    if (!instance)
+        return fail("cannot instantiate", wantedUri);
+
+    if (loadPath)
+    {
+        size_t length = 0;
+        char* text = readBytes(loadPath, &length);
+        LilvState* state = text ? lilv_state_new_from_string(world, &map, text) : NULL;
+        free(text);
+        if (!state)
+            return fail("no state in", loadPath);
+        lilv_state_restore(state, instance, NULL, NULL, 0, features);
+        lilv_state_free(state);
+    }
+
+    LilvNode* audioClass = lilv_new_uri(world, LV2_CORE__AudioPort);
+    LilvNode* controlClass = lilv_new_uri(world, LV2_CORE__ControlPort);
+    LilvNode* atomClass = lilv_new_uri(world, LV2_ATOM__AtomPort);
+    LilvNode* inputClass = lilv_new_uri(world, LV2_CORE__InputPort);
+    const uint32_t ports = lilv_plugin_get_num_ports(plugin);
+    if (ports > mostPorts)
+        return fail("too many ports:", wantedUri);
+    float* inPorts[mostPorts];
+    float* outPorts[mostPorts];
+    float controls[mostPorts] = {0};
+    LV2_Atom_Sequence* atomOuts[mostPorts];
+    LV2_Atom_Sequence* atomIn = NULL;
+    size_t ins = 0, outs = 0, atomOutCount = 0;
+    uint32_t latencyPort = mostPorts;
+    if (lilv_plugin_has_latency(plugin))
+        latencyPort = lilv_plugin_get_latency_port_index(plugin);
+    for (uint32_t p = 0; p < ports; ++p)
+    {
+        const LilvPort* port = lilv_plugin_get_port_by_index(plugin, p);
+        const int isInput = lilv_port_is_a(plugin, port, inputClass);
+        if (lilv_port_is_a(plugin, port, audioClass))
+        {
+            float* memory = calloc((size_t) block, sizeof(float));
+            *(isInput ? &inPorts[ins++] : &outPorts[outs++]) = memory;
+            lilv_instance_connect_port(instance, p, memory);
+        }
+        else if (lilv_port_is_a(plugin, port, controlClass))
+        {
+            LilvNode* standard = NULL;
+            lilv_port_get_range(plugin, port, &standard, NULL, NULL);
+            if (standard)
+                controls[p] = lilv_node_as_float(standard);
+            if (strcmp(lilv_node_as_string(lilv_port_get_symbol(plugin, port)), "freeWheeling") == 0)
+                controls[p] = 1.0f; /* there is all the time in the world */
+            lilv_node_free(standard);
+            lilv_instance_connect_port(instance, p, &controls[p]);
+        }
+        else if (lilv_port_is_a(plugin, port, atomClass))
+        {
+            LV2_Atom_Sequence* sequence = calloc(1, atomBytes);
+            if (isInput)
+                atomIn = sequence;
+            else
+                atomOuts[atomOutCount++] = sequence;
+            lilv_instance_connect_port(instance, p, sequence);
+        }
+        else
+            return fail("a port of an unknown kind in", wantedUri);
+    }
+
+    size_t bytes = 0;
+    float* in = (float*) (void*) readBytes(argv[4], &bytes); /* memory of calloc suits any type */
+    FILE* out = fopen(argv[5], "wb");
+    if (!in || !out)
+        return fail("cannot open", in ? argv[5] : argv[4]);
+    const size_t frames = bytes / sizeof(float) / (ins > 0 ? ins : 1);
+    lilv_instance_activate(instance);
+    LV2_Atom_Forge forge;
+    lv2_atom_forge_init(&forge, &map);
+    size_t done = 0;
+    size_t before = 0; /* frames that were done when the block before began */
+    int first = 1;
+    while (done < frames)
+    {
+        const size_t n = frames - done < (size_t) block ? frames - done : (size_t) block;
+        for (size_t c = 0; c < ins; ++c)
+            for (size_t i = 0; i < n; ++i)
+                inPorts[c][i] = in[(done + i) * ins + c];
+        if (atomIn)
+        {
+            LV2_Atom_Forge_Frame sequence;
+            lv2_atom_forge_set_buffer(&forge, (uint8_t*) atomIn, atomBytes);
+            lv2_atom_forge_sequence_head(&forge, &sequence, 0);
+            size_t at = 0;
+            for (int a = 6; a + 1 < argc; ++a)
+                if (strcmp(argv[a], "--at") == 0)
+                    at = (size_t) atol(argv[++a]);
+                else if (strcmp(argv[a], "--set") == 0)
+                {
+                    char property[512];
+                    const char* equals = strrchr(argv[++a], '=');
+                    const int due = at <= done && (first || at > before);
+                    if (!equals || !due || (size_t) (equals - argv[a]) >= sizeof property)
+                        continue;
+                    memcpy(property, argv[a], (size_t) (equals - argv[a]));
+                    property[equals - argv[a]] = 0;
+                    forgeSet(&forge, mapUri(NULL, property), (float) atof(equals + 1));
+                }
+            lv2_atom_forge_pop(&forge, &sequence);
+        }
+        for (size_t k = 0; k < atomOutCount; ++k)
+        {
+            atomOuts[k]->atom.type = mapUri(NULL, LV2_ATOM__Chunk);
+            atomOuts[k]->atom.size = atomBytes - sizeof(LV2_Atom);
+        }
+        lilv_instance_run(instance, (uint32_t) n);
+        for (size_t i = 0; i < n; ++i)
+            for (size_t c = 0; c < outs; ++c)
+                fwrite(&outPorts[c][i], sizeof(float), 1, out);
+        before = done;
+        done += n;
+        first = 0;
+    }
+    fclose(out);
+    if (tellLatency && latencyPort < mostPorts)
+        printf("%d\n", (int) controls[latencyPort]);
+    if (savePath)
+    {
+        LilvState* state = lilv_state_new_from_instance(plugin, instance, &map, NULL, NULL, NULL, NULL, NULL, NULL, 0, features);
+        char* text = state ? lilv_state_to_string(world, &map, &unmap, state, "urn:lv2render:state", NULL) : NULL;
+        FILE* file = text ? fopen(savePath, "w") : NULL;
+        if (!file)
+            return fail("cannot save the state to", savePath);
+        fputs(text, file);
+        fclose(file);
+        lilv_free(text);
+        lilv_state_free(state);
+    }
+    fprintf(stderr, "lv2render: %zu frames, %zu in, %zu out\n", frames, ins, outs);
+    lilv_instance_deactivate(instance);
+    lilv_instance_free(instance);
+    lilv_world_free(world);
+    return 0;
+}
