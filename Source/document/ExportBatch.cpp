@@ -71,7 +71,8 @@ const std::vector<ExportFormat>& exportFormats()
                 list.push_back({std::string(target.name), std::string(target.foreign->title),
                                 std::string(target.extension), target.name == "pcm"});
             else
-                list.push_back({std::string(target.name), target.name == "json" ? "Pacini clip (JSON)" : "Pacini clip (packed)",
+                list.push_back({std::string(target.name),
+                                target.name == "json" ? "Pacini clip (JSON)" : "Pacini clip (packed)",
                                 std::string(target.extension), false});
         }
         list.insert(list.begin() + 2, {"wav", "Drive signal (WAV)", ".wav", true});
@@ -95,7 +96,9 @@ std::string exportName(const Clip& clip, const ExportFormat& format)
 {
     std::string name;
     for (const char c : clip.name)
-        name += static_cast<unsigned char>(c) < 32 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos ? '_' : c;
+        name += static_cast<unsigned char>(c) < 32 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos
+                    ? '_'
+                    : c;
     while (!name.empty() && (name.front() == '.' || name.front() == ' '))
         name.erase(name.begin());
     return (name.empty() ? std::string("clip") : name) + format.extension;

@@ -34,11 +34,11 @@ struct ExportFormat
 
 struct ExportChoice
 {
-    std::string format = "json";             ///< name of an ExportFormat
-    std::optional<int> sampleRate;           ///< Hz, of rendered formats; none: the rate of the clip's sound, or 8 kHz
-    std::shared_ptr<const Profile> profile;  ///< null: none
-    std::filesystem::path folder;            ///< existing
-    std::filesystem::path file;              ///< of a single clip, in `folder`; empty: the clip's name
+    std::string format = "json";            ///< name of an ExportFormat
+    std::optional<int> sampleRate;          ///< Hz, of rendered formats; none: the rate of the clip's sound, or 8 kHz
+    std::shared_ptr<const Profile> profile; ///< null: none
+    std::filesystem::path folder;           ///< existing
+    std::filesystem::path file;             ///< of a single clip, in `folder`; empty: the clip's name
 };
 
 struct ExportReport

@@ -17,7 +17,8 @@ DevicesSheet::DevicesSheet(PreviewRig& wanted)
       rig(wanted),
       selector(wanted.devices(), 0, 0, 0, 256, false, false, false, false)
 {
-    const auto prepare = [this](juce::Label& label, juce::ComboBox& box, const juce::String& name, const juce::String& help)
+    const auto prepare =
+        [this](juce::Label& label, juce::ComboBox& box, const juce::String& name, const juce::String& help)
     {
         label.setText(name, juce::dontSendNotification);
         label.setFont(editor::usualFont());

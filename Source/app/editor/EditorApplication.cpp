@@ -28,8 +28,8 @@ std::vector<editor::NamedProfile> shelf()
     std::vector<editor::NamedProfile> profiles;
     for (std::size_t slot = 0; slot < profileSlots; ++slot)
         if (auto profile = plugin::shelfProfile(slot))
-            profiles.push_back({std::string(plugin::profileNameOf(slot)),
-                                std::make_shared<const Profile>(std::move(*profile))});
+            profiles.push_back(
+                {std::string(plugin::profileNameOf(slot)), std::make_shared<const Profile>(std::move(*profile))});
     return profiles;
 }
 
@@ -162,9 +162,4 @@ private:
 
 } // namespace pacini::app
 
-/// What JUCE's entry point calls; it owns the result.
-juce::JUCEApplicationBase* juce_CreateApplication();
-juce::JUCEApplicationBase* juce_CreateApplication()
-{
-    return new pacini::app::EditorApplication();
-}
+START_JUCE_APPLICATION(pacini::app::EditorApplication)

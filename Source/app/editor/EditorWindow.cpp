@@ -30,6 +30,11 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::ve
     setName(content.title());
 }
 
+EditorWindow::~EditorWindow()
+{
+    clearContentComponent();
+}
+
 void EditorWindow::closeButtonPressed()
 {
     juce::JUCEApplication::getInstance()->systemRequestedQuit();

@@ -18,6 +18,7 @@ class EditorWindow final : public juce::DocumentWindow
 {
 public:
     EditorWindow(editor::Session& session, PreviewRig& rig, std::vector<std::filesystem::path> demos);
+    ~EditorWindow() override;
 
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }
     void closeButtonPressed() override;

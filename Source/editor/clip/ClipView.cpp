@@ -192,8 +192,8 @@ void ClipView::layOut()
     for (std::size_t i = 0; i < lanes.size(); ++i)
     {
         const auto* curve = dynamic_cast<const CurveLane*>(lanes[i].get());
-        const bool small = curve != nullptr && curve->lane().kind != LaneKind::envelope &&
-                           curve->lane().kind != LaneKind::centroid;
+        const bool small =
+            curve != nullptr && curve->lane().kind != LaneKind::envelope && curve->lane().kind != LaneKind::centroid;
         const int height = i == 1 || small ? unit : unit + unit / 2;
         lanes[i]->setBounds(0, y, width, height);
         y += height;

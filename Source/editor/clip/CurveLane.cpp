@@ -13,9 +13,9 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float pickRadius = 7.0f;          // pixels
-constexpr double pixelsForHandles = 7.0;    // a point, on average
-constexpr double mostDrawnAsLine = 3000.0;  // points
+constexpr float pickRadius = 7.0f;         // pixels
+constexpr double pixelsForHandles = 7.0;   // a point, on average
+constexpr double mostDrawnAsLine = 3000.0; // points
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
 std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
@@ -83,8 +83,9 @@ CurveLane::CurveLane(Session& shared, Lane first)
     const juce::String name = clip ? laneName(*clip, shown) : juce::String();
     const bool band = shown.kind == LaneKind::amplitude;
     setTitle(band ? "Band at " + name : name);
-    setDescription(isFrequency(shown.kind) ? "Frequency over time. Double-click adds a point, Delete removes what is selected"
-                                           : "Level over time. Double-click adds a point, Delete removes what is selected");
+    setDescription(isFrequency(shown.kind)
+                       ? "Frequency over time. Double-click adds a point, Delete removes what is selected"
+                       : "Level over time. Double-click adds a point, Delete removes what is selected");
     if (!band)
         return;
     const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help)
@@ -99,6 +100,7 @@ CurveLane::CurveLane(Session& shared, Lane first)
     pitchButton.onClick = [this]
     {
         shown.kind = pitchButton.getToggleState() ? LaneKind::pitch : LaneKind::amplitude;
+        forgetScale();
         repaint();
     };
     const auto hearing = [this](std::set<std::size_t> Audition::*set, bool on)
@@ -171,9 +173,8 @@ PlotLane::Style CurveLane::style() const
     return result;
 }
 
-ValueAxis CurveLane::valueAxis() const
+ValueAxis CurveLane::valueAxis(double height) const
 {
-    const double height = std::max(1, plotArea().getHeight());
     const auto clip = session.clip();
     if (!isFrequency(shown.kind))
     {
@@ -221,7 +222,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     if (points == nullptr || points->empty())
         return;
     const juce::Colour colour = muted ? p.dim.withAlpha(0.5f) : style().colour;
-    const ValueAxis values = valueAxis();
+    const ValueAxis values = scale();
     const bool filled = !isFrequency(shown.kind);
     TimeAxis axis = session.axis();
     const auto [first, last] =
@@ -302,7 +303,7 @@ std::optional<std::size_t> CurveLane::thingAt(juce::Point<float> place) const
     if (points == nullptr || !showsHandles())
         return std::nullopt;
     const auto plot = plotArea();
-    return pointAt(*points, session.axis(), valueAxis(), static_cast<double>(place.x) - plot.getX(),
+    return pointAt(*points, session.axis(), scale(), static_cast<double>(place.x) - plot.getX(),
                    static_cast<double>(place.y) - plot.getY(), static_cast<double>(pickRadius));
 }
 
@@ -328,7 +329,7 @@ void CurveLane::addInside(Selection& selection, juce::Rectangle<float> area) con
     const auto plot = plotArea().toFloat();
     if (points == nullptr || !area.intersects(plot))
         return;
-    const ValueAxis values = valueAxis();
+    const ValueAxis values = scale();
     const auto valueAt = [&](float y)
     {
         return values.valueAtY(static_cast<double>(y - plot.getY()));

@@ -3,9 +3,8 @@
 
 // A curve of the clip as a row.
 
+#include "editor/Theme.h"
 #include "editor/clip/PlotLane.h"
-
-#include <vector>
 
 namespace pacini::editor
 {
@@ -37,7 +36,7 @@ private:
     void showHearing();
 
     Style style() const override;
-    ValueAxis valueAxis() const override;
+    ValueAxis valueAxis(double height) const override;
     void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
     std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
     std::size_t count() const override;

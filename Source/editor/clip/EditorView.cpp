@@ -183,8 +183,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
     };
     body.addAndMakeVisible(*sheetNow);
     sheetNow->setBounds(body.getLocalBounds());
-    if (sheetNow->isShowing())
-        sheetNow->grabKeyboardFocus();
+    sheetNow->takeFocus();
 }
 
 void EditorView::whenSaved(std::function<void()> next)
@@ -197,7 +196,11 @@ void EditorView::whenSaved(std::function<void()> next)
         (path.empty() ? juce::String("This project has never been saved.")
                       : juce::String::fromUTF8(path.filename().string().c_str()) + " has changes that are not saved.") +
             " Without saving they are lost.",
-        std::vector<Sheet::Answer>{{"Save", [this, next] { saveThen(next); }},
+        std::vector<Sheet::Answer>{{"Save",
+                                    [this, next]
+                                    {
+                                        saveThen(next);
+                                    }},
                                    {"Don't save",
                                     [this, next]
                                     {
@@ -264,15 +267,19 @@ void EditorView::offerRecovery()
             (usable->project.empty() ? juce::String("a project that was never saved")
                                      : juce::String::fromUTF8(usable->project.filename().string().c_str())) +
             " from " + when.toString(true, true, false) + " can be restored. Clips: " + names.joinIntoString(", "),
-        std::vector<Sheet::Answer>{
-            {"Restore",
-             [this, entry = *usable]
-             {
-                 if (const auto done = session.recover(entry); !done)
-                     session.onError("Not restored", juce::String::fromUTF8(done.error().text().c_str()));
-             }},
-            {"Discard", [entry = *usable] { discardRecoverable(entry); }},
-            {"Later", {}}}));
+        std::vector<Sheet::Answer>{{"Restore",
+                                    [this, entry = *usable]
+                                    {
+                                        if (const auto done = session.recover(entry); !done)
+                                            session.onError("Not restored",
+                                                            juce::String::fromUTF8(done.error().text().c_str()));
+                                    }},
+                                   {"Discard",
+                                    [entry = *usable]
+                                    {
+                                        discardRecoverable(entry);
+                                    }},
+                                   {"Later", {}}}));
 }
 
 // Files.

@@ -109,16 +109,18 @@ void EmptyState::paint(juce::Graphics& g)
     g.drawText("Drop a sound or a clip here", text.removeFromTop(4 * grid), juce::Justification::centred);
     g.setColour(p.dim);
     g.setFont(usualFont());
-    g.drawFittedText("It is analysed into curves and events that you can reshape, feel and export.", text.removeFromTop(3 * grid),
-                     juce::Justification::centred, 1);
+    g.drawFittedText("It is analysed into curves and events that you can reshape, feel and export.",
+                     text.removeFromTop(3 * grid), juce::Justification::centred, 1);
     if (progress.isVisible())
         return;
     g.setFont(smallFont());
     const auto heading = [&](const std::vector<std::unique_ptr<juce::TextButton>>& list, const juce::String& words)
     {
         if (!list.empty())
-            g.drawText(words, list.front()->getBounds().withWidth(area.getWidth()).translated(0, -3 * grid).withHeight(2 * grid),
-                       juce::Justification::centredLeft);
+            g.drawText(
+                words,
+                list.front()->getBounds().withWidth(area.getWidth()).translated(0, -3 * grid).withHeight(2 * grid),
+                juce::Justification::centredLeft);
     };
     heading(demoButtons, "Demo sounds");
     heading(recentButtons, "Recent projects");

@@ -12,7 +12,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float pickRadius = 8.0f;   // pixels
+constexpr float pickRadius = 8.0f; // pixels
 constexpr double usualSharpness = 0.5;
 constexpr double usualAmplitude = 0.7;
 
@@ -34,9 +34,10 @@ juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
 EventLane::EventLane(Session& shared, Shows wanted) : PlotLane(shared), shows(wanted)
 {
     setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
-    setDescription(shows == Shows::amplitude
-                       ? "Short events and their levels: round heads are dull, pointed ones crisp. Double-click adds one"
-                       : "How crisp events feel: 0 % dull, 100 % crisp");
+    setDescription(
+        shows == Shows::amplitude
+            ? "Short events and their levels: round heads are dull, pointed ones crisp. Double-click adds one"
+            : "How crisp events feel: 0 % dull, 100 % crisp");
 }
 
 PlotLane::Style EventLane::style() const
@@ -47,9 +48,8 @@ PlotLane::Style EventLane::style() const
     return {"Transients", juce::String(static_cast<int>(count())) + " events", colour};
 }
 
-ValueAxis EventLane::valueAxis() const
+ValueAxis EventLane::valueAxis(double height) const
 {
-    const double height = std::max(1, plotArea().getHeight());
     if (shows == Shows::sharpness)
         // A margin, so that heads at the ends can be seen.
         return {ValueScale::linear, -0.1, 1.1, height};

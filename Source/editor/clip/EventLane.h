@@ -22,7 +22,7 @@ public:
 
 private:
     Style style() const override;
-    ValueAxis valueAxis() const override;
+    ValueAxis valueAxis(double height) const override;
     void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
     std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
     std::size_t count() const override;

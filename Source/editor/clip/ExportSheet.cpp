@@ -57,7 +57,8 @@ ExportSheet::ExportSheet(Session& shared)
     format.setTitle("Format");
     format.setTooltip("The format of the files");
     for (std::size_t i = 0; i < exportFormats().size(); ++i)
-        format.addItem(fromUtf8(exportFormats()[i].title + "  " + exportFormats()[i].extension), 1 + static_cast<int>(i));
+        format.addItem(fromUtf8(exportFormats()[i].title + "  " + exportFormats()[i].extension),
+                       1 + static_cast<int>(i));
     format.setSelectedId(1, juce::dontSendNotification);
     format.onChange = [this]
     {
@@ -141,8 +142,9 @@ void ExportSheet::formatChanged()
     juce::File now(juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()));
     const juce::File folder = now.isDirectory() ? now : now.getParentDirectory();
     targetLabel.setText(all.getToggleState() ? "Folder" : "File", juce::dontSendNotification);
-    target.setText(all.getToggleState() ? folder.getFullPathName()
-                                        : folder.getChildFile(fromUtf8(exportName(*clip, chosenFormat()))).getFullPathName(),
+    target.setText(all.getToggleState()
+                       ? folder.getFullPathName()
+                       : folder.getChildFile(fromUtf8(exportName(*clip, chosenFormat()))).getFullPathName(),
                    false);
     rate.setEnabled(chosenFormat().rendered);
     rateLabel.setEnabled(chosenFormat().rendered);
@@ -159,7 +161,9 @@ void ExportSheet::showLosses()
              {
                  if (number != asked)
                      return;
-                 juce::StringArray lines{kept, {}};
+                 juce::StringArray lines;
+                 lines.add(kept);
+                 lines.add(juce::String());
                  if (!found)
                      lines.add("Cannot be written: " + fromUtf8(found.error().text()));
                  else if (found->empty())
@@ -180,10 +184,10 @@ void ExportSheet::browse()
 {
     using Browser = juce::FileBrowserComponent;
     const bool folder = all.getToggleState();
-    chooser = std::make_unique<juce::FileChooser>(
-        folder ? "Export into a folder" : "Export to a file",
-        juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
-        folder ? juce::String() : "*" + fromUtf8(chosenFormat().extension));
+    chooser =
+        std::make_unique<juce::FileChooser>(folder ? "Export into a folder" : "Export to a file",
+                                            juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
+                                            folder ? juce::String() : "*" + fromUtf8(chosenFormat().extension));
     chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
                                 : Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
                          [this](const juce::FileChooser& done)

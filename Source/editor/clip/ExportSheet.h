@@ -22,6 +22,7 @@ public:
 
 private:
     void layOut(juce::Rectangle<int> area) override;
+    juce::Component* firstFocus() override { return &target; }
     void formatChanged();
     void showLosses();
     void browse();

@@ -74,8 +74,10 @@ Inspector::Inspector(Session& shared)
         addAndMakeVisible(one);
     };
     field(timeField, "Time of what is selected", "Time in s of the first thing selected; the others move along");
-    field(valueField, "Value of what is selected", "Level in dB, or frequency in Hz, of the first thing selected; the others follow in proportion");
-    field(sharpField, "Sharpness of what is selected", "0 % dull to 100 % crisp, of the first transient selected; the others follow");
+    field(valueField, "Value of what is selected",
+          "Level in dB, or frequency in Hz, of the first thing selected; the others follow in proportion");
+    field(sharpField, "Sharpness of what is selected",
+          "0 % dull to 100 % crisp, of the first transient selected; the others follow");
     timeField.onTextChange = [this]
     {
         const auto clip = session.clip();

@@ -46,8 +46,7 @@ void Player::setSound(std::shared_ptr<const Sound> wanted)
 
 void Player::resample()
 {
-    jobs.run([from = sound, to = rate]
-             { return PreviewSource::of(from->audio, static_cast<int>(std::lround(to))); },
+    jobs.run([from = sound, to = rate] { return PreviewSource::of(from->audio, static_cast<int>(std::lround(to))); },
              [this, from = sound, to = rate](std::shared_ptr<const PreviewSource> made)
              {
                  if (from != sound || to != rate)

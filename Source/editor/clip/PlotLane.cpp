@@ -13,9 +13,9 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float snapReach = 6.0f;             // pixels
-constexpr juce::uint32 nudgePause = 700;      // ms: presses nearer than this are one step of undo
-constexpr double floorAmplitude = 0.001;      // -60 dB
+constexpr float snapReach = 6.0f;                                // pixels
+constexpr juce::uint32 nudgePause = 700;                         // ms: presses nearer than this are one step of undo
+constexpr double floorAmplitude = 0.001;                         // -60 dB
 constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
 
 std::vector<double> eventTimes(const Clip& clip)
@@ -46,6 +46,8 @@ bool PlotLane::concerns(unsigned changes) const
 
 void PlotLane::sessionChanged(unsigned changes)
 {
+    if ((changes & (Session::content | Session::look)) != 0)
+        forgetScale();
     follow(changes);
     if (!concerns(changes))
         return;
@@ -75,11 +77,19 @@ SelectionMove PlotLane::amplitudeMove(double from, double to)
     return move;
 }
 
+const ValueAxis& PlotLane::scale() const
+{
+    const double height = std::max(1, plotArea().getHeight());
+    if (!scaleNow || scaleNow->height != height)
+        scaleNow = valueAxis(height);
+    return *scaleNow;
+}
+
 juce::Point<float> PlotLane::pointOf(Breakpoint p) const
 {
     const auto area = plotArea();
     return {static_cast<float>(area.getX() + session.axis().xOf(p.time)),
-            static_cast<float>(area.getY() + valueAxis().yOf(p.value))};
+            static_cast<float>(area.getY() + scale().yOf(p.value))};
 }
 
 Breakpoint PlotLane::placeAt(juce::Point<float> position, bool snap) const
@@ -89,7 +99,7 @@ Breakpoint PlotLane::placeAt(juce::Point<float> position, bool snap) const
     double time = session.axis().timeAt(x);
     if (const auto clip = session.clip(); snap && clip)
         time = snapped(time, session.axis(), static_cast<double>(snapReach), eventTimes(*clip));
-    return {time, valueAxis().valueAtY(static_cast<double>(position.y) - area.getY())};
+    return {time, scale().valueAtY(static_cast<double>(position.y) - area.getY())};
 }
 
 // Painting.
@@ -119,7 +129,7 @@ void PlotLane::paint(juce::Graphics& g)
         g.fillRect(juce::Rectangle<float>(from, static_cast<float>(plot.getY()), to - from,
                                           static_cast<float>(plot.getHeight())));
     }
-    const ValueAxis axis = valueAxis();
+    const ValueAxis axis = scale();
     if (axis.scale == ValueScale::decibels)
     {
         g.setColour(p.line.withAlpha(0.6f));
@@ -285,7 +295,7 @@ void PlotLane::nudge(double pixels, double steps)
     nudgedPixels += pixels;
     nudgedSteps += steps;
     const auto start = session.gestureStart(nudging);
-    const ValueAxis axis = valueAxis();
+    const ValueAxis axis = scale();
     Breakpoint to = grabbed;
     // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.
     if (nudgedSteps != 0.0 && axis.scale == ValueScale::decibels)
@@ -331,7 +341,7 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
 {
     using K = juce::KeyPress;
     const auto modifiers = key.getModifiers();
-    const double far = modifiers.isShiftDown() ? 10.0 : 1.0;
+    const double amount = modifiers.isShiftDown() ? 10.0 : 1.0;
     const int code = key.getKeyCode();
     if (modifiers.isCommandDown() || modifiers.isAltDown())
         return false;
@@ -339,17 +349,16 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
     if (code == ',' || code == '.')
         step(code == '.' ? 1 : -1);
     else if (any && (code == K::leftKey || code == K::rightKey))
-        nudge(code == K::leftKey ? -far : far, 0.0);
+        nudge(code == K::leftKey ? -amount : amount, 0.0);
     else if (any && (code == K::upKey || code == K::downKey))
-        nudge(0.0, code == K::upKey ? far : -far);
+        nudge(0.0, code == K::upKey ? amount : -amount);
     else if (code == K::returnKey)
     {
         if (const auto clip = session.clip())
         {
             // Where the playhead is, on the curve as it is there or in the middle of the scale.
-            const ValueAxis axis = valueAxis();
-            session.setEdited("Add point",
-                              added(*clip, {session.playhead(), axis.valueAtY(0.5 * axis.height)}));
+            const ValueAxis axis = scale();
+            session.setEdited("Add point", added(*clip, {session.playhead(), axis.valueAtY(0.5 * axis.height)}));
         }
     }
     else if (code == K::escapeKey && !pacini::isEmpty(session.selected()))

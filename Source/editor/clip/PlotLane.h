@@ -54,7 +54,8 @@ protected:
     };
 
     [[nodiscard]] virtual Style style() const = 0;
-    [[nodiscard]] virtual ValueAxis valueAxis() const = 0;
+    /// Of a plot of `height` pixels; asked again when the content has changed.
+    [[nodiscard]] virtual ValueAxis valueAxis(double height) const = 0;
     virtual void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) = 0;
     [[nodiscard]] virtual std::optional<std::size_t> thingAt(juce::Point<float> place) const = 0;
     [[nodiscard]] virtual std::size_t count() const = 0;
@@ -70,6 +71,8 @@ protected:
     [[nodiscard]] virtual bool concerns(unsigned changes) const;
     virtual void follow(unsigned) {}
 
+    [[nodiscard]] const ValueAxis& scale() const;
+    void forgetScale() { scaleNow.reset(); }
     [[nodiscard]] juce::Point<float> pointOf(Breakpoint p) const;
     [[nodiscard]] Breakpoint placeAt(juce::Point<float> position, bool snap) const;
     [[nodiscard]] static ValueAxis amplitudeAxis(bool decibels, double highest, double height);
@@ -91,6 +94,7 @@ private:
         things,
         marquee
     };
+    mutable std::optional<ValueAxis> scaleNow;
     Drag drag = Drag::none;
     Gesture gesture = 0;
     Selection dragged; ///< at the start of the gesture

@@ -15,7 +15,12 @@ Session::Session(const Folders& folders, std::vector<NamedProfile> profiles)
         autosave = std::make_unique<Autosave>(recoveryFolder);
 }
 
-Session::~Session() = default;
+Session::~Session()
+{
+    // What was not saved can be restored the next time.
+    if (autosave)
+        autosave->flush();
+}
 
 void Session::report(const std::string& title, const Error& error)
 {

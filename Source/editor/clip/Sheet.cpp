@@ -22,10 +22,12 @@ Sheet::Sheet(const juce::String& title, int width, int height) : wantedWidth(wid
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
 }
 
-void Sheet::parentHierarchyChanged()
+void Sheet::takeFocus()
 {
-    if (isShowing())
-        grabKeyboardFocus();
+    if (!isShowing())
+        return;
+    auto* first = firstFocus();
+    (first != nullptr ? *first : static_cast<juce::Component&>(*this)).grabKeyboardFocus();
 }
 
 juce::Rectangle<int> Sheet::panel() const

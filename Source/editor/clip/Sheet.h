@@ -23,7 +23,8 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
     bool keyPressed(const juce::KeyPress& key) override;
-    void parentHierarchyChanged() override;
+    /// When it is shown.
+    void takeFocus();
 
     /// The first button is the usual answer (Return), the last closes without doing anything.
     struct Answer
@@ -40,6 +41,8 @@ protected:
     /// Where the content goes, without title and answers.
     [[nodiscard]] juce::Rectangle<int> inside() const;
     virtual void layOut(juce::Rectangle<int>) {}
+    /// What has the keyboard at first; null: the sheet itself.
+    virtual juce::Component* firstFocus() { return nullptr; }
     /// Whether the usual answer may be given now.
     void setAnswerEnabled(bool enabled);
     void close();

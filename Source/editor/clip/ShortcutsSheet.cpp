@@ -20,22 +20,24 @@ class ShortcutsSheet::Table final : public juce::Component
 public:
     Table()
     {
-        rows = {{"In lanes", {}},
-                {"Double-click", "Adds a point or a transient"},
-                {"Drag a point", "Moves all that is selected; Shift: one direction only, Alt: no snapping"},
-                {"Drag elsewhere", "Selects what is inside, over several lanes; Shift adds"},
-                {"Arrow keys", "Move what is selected by a pixel, 1 dB, a semitone; Shift: ten times"},
-                {", and .", "Select the point before and the next one"},
-                {"Return", "Adds a point at the playhead"},
-                {"Tab, Shift+Tab", "Next and previous lane or control"},
-                {"Wheel", "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: moves in time; Alt: lane height"}};
+        rows = {
+            {"In lanes", {}},
+            {"Double-click", "Adds a point or a transient"},
+            {"Drag a point", "Moves all that is selected; Shift: one direction only, Alt: no snapping"},
+            {"Drag elsewhere", "Selects what is inside, over several lanes; Shift adds"},
+            {"Arrow keys", "Move what is selected by a pixel, 1 dB, a semitone; Shift: ten times"},
+            {", and .", "Select the point before and the next one"},
+            {"Return", "Adds a point at the playhead"},
+            {"Tab, Shift+Tab", "Next and previous lane or control"},
+            {"Wheel", "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: moves in time; Alt: lane height"}};
         for (const char* menu : menuNames)
         {
             rows.push_back({menu, {}});
             for (const CommandInfo& info : commandTable())
                 if (juce::String(info.menu) == menu && info.key != 0)
-                    rows.push_back({juce::KeyPress(info.key, juce::ModifierKeys(info.modifiers), 0).getTextDescription(),
-                                    juce::String(info.name) + ": " + info.help});
+                    rows.push_back(
+                        {juce::KeyPress(info.key, juce::ModifierKeys(info.modifiers), 0).getTextDescription(),
+                         juce::String(info.name) + ": " + info.help});
         }
         setSize(600, static_cast<int>(rows.size()) * rowHeight);
         setTitle("Keys and mouse");
@@ -61,7 +63,8 @@ public:
             }
             g.setFont(smallFont());
             g.setColour(p.text);
-            g.drawFittedText(key, row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft, 1);
+            g.drawFittedText(key, row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft,
+                             1);
             g.setColour(p.dim);
             g.drawFittedText(text, row, juce::Justification::centredLeft, 1, 0.8f);
         }

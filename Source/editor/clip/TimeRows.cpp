@@ -155,8 +155,10 @@ void WaveformRow::paint(juce::Graphics& g)
     {
         g.setColour(p.dim);
         g.fillRect(0, 0, 3, plot.getHeight());
-        auto head = getLocalBounds().withWidth(laneHeadWidth).withTrimmedLeft(grid + 3).withSizeKeepingCentre(
-            laneHeadWidth - grid - 7, 36);
+        auto head = getLocalBounds()
+                        .withWidth(laneHeadWidth)
+                        .withTrimmedLeft(grid + 3)
+                        .withSizeKeepingCentre(laneHeadWidth - grid - 7, 36);
         g.setColour(p.text);
         g.setFont(usualFont());
         g.drawFittedText("Sound", head.removeFromTop(19), juce::Justification::centredLeft, 1);
@@ -273,7 +275,8 @@ void Overview::mouseDown(const juce::MouseEvent& event)
         return;
     // A click beside the frame brings it there.
     TimeAxis axis = session.axis();
-    axis.start = whole().timeAt(static_cast<double>(event.position.x) - laneHeadWidth) - 0.5 * (before.to - before.from);
+    axis.start =
+        whole().timeAt(static_cast<double>(event.position.x) - laneHeadWidth) - 0.5 * (before.to - before.from);
     session.setAxis(axis);
     before = session.axis().visible(session.viewWidth());
 }

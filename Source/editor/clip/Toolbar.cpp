@@ -53,8 +53,8 @@ Toolbar::Toolbar(Session& shared)
     time.setTooltip("Playhead and length of the clip, minutes:seconds");
     addAndMakeVisible(time);
 
-    const auto choice = [this](juce::ComboBox& box, juce::Label& label, const juce::String& name,
-                               const juce::String& help)
+    const auto choice =
+        [this](juce::ComboBox& box, juce::Label& label, const juce::String& name, const juce::String& help)
     {
         label.setText(name, juce::dontSendNotification);
         label.setFont(smallFont());
