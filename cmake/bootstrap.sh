@@ -79,12 +79,12 @@ deps)
 build)
     install_packages "${build_packages[@]}"
     say "Building"
-    build release pacini -DPACINI_BUILD_TESTS=OFF
+    build release pacini -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=OFF
     ;;
 demo)
     install_packages "${build_packages[@]}"
     say "Building"
-    build release pacini -DPACINI_BUILD_TESTS=OFF
+    build release pacini -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=OFF
     pacini=build/release/bin/pacini
     say "Encoding Resources/demo to build/demo/clips"
     "$pacini" encode Resources/demo -o build/demo/clips --format packed --force
@@ -108,7 +108,7 @@ test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
     say "Building"
-    build release all -DPACINI_BUILD_TESTS=ON
+    build release all -DPACINI_BUILD_TESTS=ON -DPACINI_BUILD_PLUGIN=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8
     say "Compiling every header on its own"
     cmake --build --preset release --target all_verify_interface_header_sets
     say "Testing"

@@ -16,6 +16,11 @@ public:
     Content(plugin::PluginProcessor& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
     {
         bar.setLookAndFeel(&plugin.getLookAndFeel());
+        plugin.onThemeChange = [this]
+        {
+            bar.sendLookAndFeelChange();
+            bar.repaint();
+        };
         bar.onDevices = [this]
         {
             showDevices();

@@ -61,10 +61,10 @@ std::string usageText(const CLI::ParseError& error, const CLI::App& app)
         called += " " + chosen->get_name();
     }
     std::string what = error.what();
-    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    const bool namesAnOption = what.starts_with("--");
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !namesAnOption)
     {
-        const bool isStep = chosen != &app;
-        const std::string kind = isStep ? "step" : "command";
+        const std::string kind = chosen != &app ? "step" : "command";
         const auto rest = app.remaining(true);
         if (chosen->get_subcommands(nullptr).empty())
             what = "a file to work on is missing";

@@ -148,6 +148,7 @@ struct Edit
 {
     EditOperation operation;
     std::vector<double> frequencies;
+    double duration = 0.0; ///< s, of the clip that was edited
     bool operator==(const Edit&) const = default;
 };
 

@@ -378,7 +378,14 @@ std::string placeLanes(Edit& edit, const BandFinder& bands)
 
 Edit anchored(EditOperation operation, const Clip& clip)
 {
-    Edit edit{std::move(operation), {}};
+    Edit edit{std::move(operation), {}, clip.duration};
+    std::visit(
+        [&](auto& op)
+        {
+            if constexpr (hasScope<std::decay_t<decltype(op)>>)
+                std::erase_if(op.scope.lanes, [&](const Lane& lane) { return curveOf(clip, lane) == nullptr; });
+        },
+        edit.operation);
     forNamedLanes(edit.operation, [&](const Lane& lane) { edit.frequencies.push_back(centreOf(clip, lane)); });
     return edit;
 }
@@ -433,6 +440,8 @@ Reapplied reapply(const Clip& before, const Clip& after, const std::vector<Edit>
             bands.emplace(result.clip, onSameBands(edits, i));
         Edit edit = made;
         std::string problem = placeLanes(edit, *bands);
+        warp.setDurationBefore(made.duration);
+        edit.duration = result.clip.duration;
         EditMover mover(result.clip, warp);
         std::visit(mover, edit.operation);
         if (!mover.problem.empty())

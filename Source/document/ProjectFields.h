@@ -197,6 +197,7 @@ void visitEdit(AnyEdit& edit, Visitor& visitor)
     std::visit([&](auto& operation) { visitOperation(operation, visitor); }, edit.operation);
     visitor.list("frequencies", edit.frequencies, most, "frequencies",
                  [&](auto& frequency) { visitor.number("frequency", frequency, Need::required); });
+    visitor.number("clipDuration", edit.duration, Need::required);
 }
 
 template <typename Params, typename Visitor>

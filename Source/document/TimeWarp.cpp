@@ -123,6 +123,8 @@ double TimeWarp::map(double time) const
 
 TimeRange TimeWarp::map(TimeRange range) const
 {
+    if (range.from > range.to)
+        std::swap(range.from, range.to);
     const double from = range.from <= 0.0 ? 0.0 : map(range.from);
     if (range.to > oldDuration)
         return {from, range.to};

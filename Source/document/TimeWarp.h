@@ -35,6 +35,8 @@ public:
     /// new, whose duration is `newDuration` then.
     void follow(const EditOperation& before, const EditOperation& after, double newDuration);
 
+    /// The old clip's duration where it is known better than by following edits, which rounds, s.
+    void setDurationBefore(double seconds) noexcept { oldDuration = seconds; }
     [[nodiscard]] double durationBefore() const noexcept { return oldDuration; }
 
 private:

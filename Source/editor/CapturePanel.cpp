@@ -4,7 +4,9 @@
 #include "editor/Theme.h"
 #include "io/ClipFile.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace pacini::editor
@@ -35,9 +37,12 @@ void ClipChip::show(const Clip& clip, const juce::File& wanted)
     text = juce::String::fromUTF8(clip.name.c_str()) + ", " + juce::String(clip.duration, 1) + " s";
     curve.clear();
     curve.startNewSubPath(0.0f, 1.0f);
+    double loudest = 1e-9;
+    for (const auto& point : clip.envelope)
+        loudest = std::max(loudest, point.value);
     for (const auto& point : clip.envelope)
         curve.lineTo(static_cast<float>(point.time / std::max(clip.duration, 1e-9)),
-                     1.0f - static_cast<float>(point.value));
+                     1.0f - static_cast<float>(std::sqrt(std::max(point.value, 0.0) / loudest)));
     curve.lineTo(1.0f, 1.0f);
     curve.closeSubPath();
     setVisible(true);

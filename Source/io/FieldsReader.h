@@ -64,6 +64,26 @@ public:
         }
     }
 
+    void truth(const char* name, bool& value)
+    {
+        if (const nlohmann::json* entry = find(name, Need::optional))
+        {
+            if (entry->is_boolean())
+                value = entry->get<bool>();
+            else
+                fail(name, "must be true or false");
+        }
+    }
+
+    /// Of the entries of the current object.
+    [[nodiscard]] std::vector<std::string> names() const
+    {
+        std::vector<std::string> all;
+        for (const auto& [name, entry] : current->items())
+            all.push_back(name);
+        return all;
+    }
+
     void optionalNumber(const char* name, std::optional<double>& value)
     {
         if (find(name, Need::optional) != nullptr)
@@ -78,17 +98,6 @@ public:
             value = static_cast<int>(read);
         else
             fail(name, rule);
-    }
-
-    void truth(const char* name, bool& value)
-    {
-        if (const nlohmann::json* entry = find(name, Need::usual))
-        {
-            if (entry->is_boolean())
-                value = entry->get<bool>();
-            else
-                fail(name, "must be true or false");
-        }
     }
 
     template <typename E, typename Choices>

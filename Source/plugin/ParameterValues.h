@@ -46,6 +46,7 @@ public:
         params.rumble = {(*this)[rumbleLevel], isOn(rumbleMute)};
         params.texture = {(*this)[textureLevel], isOn(textureMute)};
         params.transients = {(*this)[transientLevel], isOn(transientMute)};
+        params.brightness = (*this)[brightness];
         params.transposition = (*this)[transposition];
         params.direct = (*this)[direct];
         params.attack = (*this)[attack];
@@ -55,6 +56,31 @@ public:
         params.gateThreshold = (*this)[gateThreshold];
         params.gateRelease = (*this)[gateRelease];
         return params;
+    }
+
+    /// The inverse of translator(); everything else stays.
+    void setTranslator(const TranslatorParams& params) noexcept
+    {
+        using enum ParameterId;
+        set(inputGain, params.inputGain);
+        set(intensity, params.intensity);
+        const auto setRole = [this](ParameterId level, ParameterId mute, const RoleParams& role)
+        {
+            set(level, role.level);
+            set(mute, role.muted ? 1.0 : 0.0);
+        };
+        setRole(rumbleLevel, rumbleMute, params.rumble);
+        setRole(textureLevel, textureMute, params.texture);
+        setRole(transientLevel, transientMute, params.transients);
+        set(brightness, params.brightness);
+        set(transposition, params.transposition);
+        set(direct, params.direct);
+        set(attack, params.attack);
+        set(release, params.release);
+        set(transientSensitivity, params.transientSensitivity);
+        set(transientSharpness, params.transientSharpness);
+        set(gateThreshold, params.gateThreshold);
+        set(gateRelease, params.gateRelease);
     }
 
     bool operator==(const ParameterValues&) const = default;

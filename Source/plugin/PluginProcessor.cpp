@@ -5,7 +5,8 @@
 #include "plugin/ParameterText.h"
 #include "plugin/PluginWindow.h"
 #include "plugin/ProfileShelf.h"
-#include "plugin/Programs.h"
+
+#include <pacini/realtime/TranslatorPresets.h>
 
 #include <algorithm>
 #include <memory>
@@ -210,7 +211,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
 
 int PluginProcessor::getNumPrograms()
 {
-    return static_cast<int>(programs.size());
+    return static_cast<int>(translatorPresets().size());
 }
 
 void PluginProcessor::setCurrentProgram(int index)
@@ -224,12 +225,17 @@ void PluginProcessor::applyProgram(int index)
     if (index < 0 || index >= getNumPrograms())
         return;
     program.store(index);
-    setValues(withProgram(values(), programs[static_cast<std::size_t>(index)]));
+    ParameterValues wanted = values();
+    wanted.setTranslator(translatorPresets()[static_cast<std::size_t>(index)].params);
+    setValues(wanted);
 }
 
 const juce::String PluginProcessor::getProgramName(int index)
 {
-    return index >= 0 && index < getNumPrograms() ? programs[static_cast<std::size_t>(index)].name : "";
+    if (index < 0 || index >= getNumPrograms())
+        return {};
+    const auto name = translatorPresets()[static_cast<std::size_t>(index)].name;
+    return juce::String::fromUTF8(name.data(), static_cast<int>(name.size()));
 }
 
 void PluginProcessor::setWindowSize(int width, int height) noexcept

@@ -53,7 +53,7 @@ public:
     void setCurrentProgram(int index) override;
     const juce::String getProgramName(int index) override;
     void changeProgramName(int, const juce::String&) override {}
-    /// Sets what the program says even if it is the current one. [message]
+    /// The translator's presets; routing, actuator and bypass stay. Sets the values even of the current one. [message]
     void applyProgram(int index);
 
     // Window
@@ -74,7 +74,6 @@ public:
     Result<void> loadActuator(const juce::File& file) override;
     [[nodiscard]] juce::String note() const override;
 
-    /// The sessions' text names of formats and versions.
     const juce::String getName() const override { return "Pacini"; }
     bool acceptsMidi() const override { return false; }
     bool producesMidi() const override { return false; }

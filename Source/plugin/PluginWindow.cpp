@@ -2,7 +2,6 @@
 #include "plugin/PluginWindow.h"
 
 #include "plugin/ProfileShelf.h"
-#include "plugin/Programs.h"
 
 #include <cmath>
 
@@ -132,6 +131,7 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
     roleLevels[2] = slider(Id::transientLevel, Shape::bar);
     roleMutes[2] = toggle(Id::transientMute, "Mute");
     intensity = slider(Id::intensity, Shape::knob);
+    brightness = slider(Id::brightness, Shape::knob);
     transposition = slider(Id::transposition, Shape::knob);
     direct = slider(Id::direct, Shape::knob);
     attack = slider(Id::attack, Shape::knob);
@@ -202,6 +202,8 @@ void PluginWindow::setDark(bool dark)
     status.setColour(juce::Label::textColourId, look.palette().dim);
     sendLookAndFeelChange();
     repaint();
+    if (onThemeChange)
+        onThemeChange();
 }
 
 void PluginWindow::refresh()
@@ -340,7 +342,7 @@ void PluginWindow::resized()
         roleLevels[i]->setBounds(line);
     }
     placeKnobs(card(lower, "Character"),
-               {intensity.get(), transposition.get(), direct.get(), attack.get(), release.get()});
+               {intensity.get(), brightness.get(), transposition.get(), direct.get(), attack.get(), release.get()});
 
     processor.setWindowSize(getWidth(), getHeight());
 }

@@ -13,6 +13,7 @@
 #include <juce_audio_processors/juce_audio_processors.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,7 @@ public:
     /// Looks at everything that may have changed, as the timer does.
     void refresh();
     void setDark(bool dark);
+    std::function<void()> onThemeChange; ///< for what shares the look
 
 private:
     using Shape = editor::ParameterSlider::Shape;
@@ -71,7 +73,7 @@ private:
 
     std::array<std::unique_ptr<editor::ParameterSlider>, 3> roleLevels;
     std::array<std::unique_ptr<editor::ParameterToggle>, 3> roleMutes;
-    std::unique_ptr<editor::ParameterSlider> intensity, transposition, direct, attack, release;
+    std::unique_ptr<editor::ParameterSlider> intensity, brightness, transposition, direct, attack, release;
     std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
 
     editor::CapturePanel capture;

@@ -73,12 +73,14 @@ def main():
                            VST3_PATH=str(plugins / "VST3"))
         scanner = find("ardour-vst3-scanner*")
         if scanner:
-            subprocess.run([scanner, "-f", str(plugins / "VST3" / "Pacini.vst3")], env=environment, timeout=120,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            scanned = subprocess.run([scanner, "-f", str(plugins / "VST3" / "Pacini.vst3")], timeout=120,
+                                     env=dict(environment, LD_LIBRARY_PATH=str(Path(scanner).parent)),
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            check("Ardour scans the VST3", scanned.returncode == 0)
         for _ in run("ardour_make.lua", environment):
             shutil.rmtree(folder / "session", ignore_errors=True)
         sounds = folder / "session" / "interchange" / "session" / "audiofiles"
-        for pattern, frequency in (("Music*L.wav", 80), ("Music*R.wav", 240), ("SC*.wav", 150)):
+        for pattern, frequency in (("*Music*L.wav", 80), ("*Music*R.wav", 240), ("*SC*.wav", 150)):
             for path in sounds.glob(pattern):
                 info = soundfile.info(str(path))
                 t = np.arange(info.frames) / RATE
@@ -100,8 +102,8 @@ def main():
                 found = sorted((session / "interchange" / "session" / "audiofiles").glob(pattern))
                 return soundfile.read(str(found[-1]))[0] if found else np.zeros(1)
 
-            felt, heard = recorded("HapticRec*.wav"), recorded("MainRec*.wav")
-            levels = {f: round(tone(felt, f), 3) for f in (80, 240, 150)}
+            felt, heard = recorded("*HapticRec*.wav"), recorded("*MainRec*.wav")
+            levels = {f: round(float(tone(felt, f)), 3) for f in (80, 240, 150)}
             if source:
                 check(f"{kind}: the sidechain's tone is felt, and only that", levels[150] > 0.1
                       and max(levels[80], levels[240]) < 0.01, str(levels))

@@ -28,7 +28,7 @@ def main():
     plugin = pedalboard.load_plugin(path)
     check("it is an effect", plugin.is_effect and not plugin.is_instrument, plugin.name)
     names = set(plugin.parameters)
-    check("parameters", len(names) >= 22, f"{len(names)}")
+    check("parameters", len(names) >= 23, f"{len(names)}")
     t = np.arange(RATE) / RATE
     sound = np.stack([0.4 * np.sin(2 * np.pi * 60 * t), 0.3 * np.sin(2 * np.pi * 220 * t)]).astype(np.float32)
     passed = plugin(sound, RATE)

@@ -12,7 +12,7 @@
 #include <string>
 
 using namespace pacini;
-using test::randomClip;
+using test::randomFullClip;
 
 namespace
 {

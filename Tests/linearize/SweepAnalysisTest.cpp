@@ -272,6 +272,13 @@ TEST_CASE("Recordings that cannot be analysed are refused with a place and a rea
     CHECK(failure({std::vector<float>(good[0].begin(), good[0].begin() + half)}).code == ErrorCode::truncated);
     CHECK(failure({std::vector<float>(good[0].begin() + half, good[0].end())}).where == "sweeps[0]");
 
+    SweepParams often = sweep;
+    often.repeats = 6;
+    const auto once = recordOnRig(makeSweepSignal(sweep).value(), rig);
+    const auto cut = analyseSweeps(once, 48000.0, often, calibratedFor(rig));
+    CHECK(cut.error().where == "channels");
+    CHECK(cut.error().code == ErrorCode::truncated);
+
     const auto wrongRate = failure(good, 44100.0);
     CHECK(wrongRate.where == "sampleRate");
     CHECK(wrongRate.message.find("48000") != std::string::npos);
@@ -312,6 +319,10 @@ TEST_CASE("Several repeats give less noise, several levels the drive of a distor
     const auto drive = driveAtDistortion(four, 1.0, 50.0, 500.0);
     REQUIRE(drive.has_value());
     CHECK(*drive == Approx(20.0 * std::log10(a)).margin(0.5));
+    // The weakest step is all noise.
+    auto noisy = four;
+    noisy.levels.front().distortion.assign(noisy.levels.front().distortion.size(), 40.0);
+    CHECK(driveAtDistortion(noisy, 1.0, 50.0, 500.0).value() == drive.value());
     CHECK_FALSE(driveAtDistortion(four, 50.0, 50.0, 500.0).has_value());
     CHECK(driveAtDistortion(four, 0.0, 50.0, 500.0).value() == -30.0);
 }

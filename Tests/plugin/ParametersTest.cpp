@@ -3,8 +3,9 @@
 #include "io/ProfileFile.h"
 #include "plugin/ParameterText.h"
 #include "plugin/ProfileShelf.h"
-#include "plugin/Programs.h"
 #include "plugin/Rig.h"
+
+#include <pacini/realtime/TranslatorPresets.h>
 
 #include <filesystem>
 #include <set>
@@ -152,8 +153,7 @@ TEST_CASE("Programs set everything but routing, actuator and bypass")
         const auto values = plugin.values();
         CHECK(values[ParameterId::source] == 1.0);
         CHECK(values[ParameterId::profile] == 3.0);
-        for (const ProgramValue& value : programs[static_cast<std::size_t>(i)].values)
-            CHECK(values[value.parameter] == Approx(value.value).margin(1e-4));
+        CHECK(values.translator() == translatorPresets()[static_cast<std::size_t>(i)].params);
     }
     CHECK(plugin.values().translator() == TranslatorParams());
     plugin.setCurrentProgram(-1);

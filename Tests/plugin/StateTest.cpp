@@ -114,6 +114,7 @@ TEST_CASE("The states of version 1 load for ever")
     CHECK(values.isOn(ParameterId::rumbleMute));
     CHECK(values[ParameterId::textureLevel] == Approx(-12.0));
     CHECK(values[ParameterId::transientLevel] == Approx(4.5));
+    CHECK(values[ParameterId::brightness] == Approx(-20.0));
     CHECK(values[ParameterId::transposition] == Approx(-7.0));
     CHECK(values[ParameterId::direct] == Approx(0.75));
     CHECK(values[ParameterId::attack] == Approx(12.0));

@@ -78,7 +78,8 @@ TEST_CASE("Every control has a name, a help text and a place that the keyboard r
                      if (!slider && !other)
                          return;
                      const bool inner = child.findParentComponentOfClass<juce::Slider>() != nullptr;
-                     if (inner || !child.isVisible() || !child.isEnabled() || dynamic_cast<juce::ResizableCornerComponent*>(&child))
+                     if (inner || !child.isVisible() || !child.isEnabled() ||
+                         dynamic_cast<juce::ResizableCornerComponent*>(&child))
                          return;
                      ++controls;
                      const auto* button = dynamic_cast<juce::Button*>(&child);

@@ -135,7 +135,7 @@ inline Result<Clip> anyEdit(Random& random, const Clip& clip)
     case 17:
         return cutClip(clip, {time(), time()});
     case 18:
-        return insertClip(clip, time(), randomClip(random.next() % 50, 5));
+        return insertClip(clip, time(), randomFullClip(random.next() % 50, 5));
     case 19:
         return clip.duration < 300.0 ? repeatClip(clip, static_cast<int>(random.next() % 4)) : Result<Clip>(clip);
     case 20:

@@ -206,7 +206,10 @@ inline void addTo(HalfSpectrum& sum, const HalfSpectrum& more, double weight)
             const double signal = power - order.noise.at(f, smoothing);
             harmonic.response.frequency.push_back(frequency[k]);
             harmonic.response.level.push_back(decibels(std::max(signal, 0.1 * power) / fundamental[k]));
-            sum[k] += std::max(signal, 0.0) / fundamental[k];
+            // Few bins lie in a fraction of an octave, so that noise alone often shows three times its mean.
+            constexpr double significant = 4.0;
+            if (power > significant * order.noise.at(f, smoothing))
+                sum[k] += signal / fundamental[k];
         }
         out.harmonics.push_back(std::move(harmonic));
     }

@@ -51,9 +51,14 @@ namespace pacini
     if (!(high > 1.05 * low))
         return Error{ErrorCode::invalidArgument, "measurement.lowFrequency", "leaves nothing of the sweep's range"};
     const double recordedSeconds = static_cast<double>(channels.front().size()) / recordingRate;
-    if (recordedSeconds < params.duration)
+    const SweepSchedule schedule = makeSweepSchedule(params);
+    const double needed = static_cast<double>(schedule.sweeps.back().startFrame - schedule.sweeps.front().startFrame) /
+                              params.sampleRate +
+                          params.duration;
+    if (recordedSeconds < 0.99 * needed) // clocks differ
         return Error{ErrorCode::truncated, "channels",
-                     "last " + secondsText(recordedSeconds) + ", one sweep lasts " + secondsText(params.duration)};
+                     "last " + secondsText(recordedSeconds) + ", the sweeps last " + secondsText(needed) +
+                         "; record until the end"};
 
     SweepMeasurement result;
     warnOfChannels(channels, recordingRate, result.warnings);
@@ -61,7 +66,6 @@ namespace pacini
     for (std::size_t c = 0; c < scale.size(); ++c)
         scale[c] = measurement.fullScale[measurement.fullScale.size() == 1 ? 0 : c];
     const auto rate = static_cast<int>(recordingRate);
-    const SweepSchedule schedule = makeSweepSchedule(params);
 
     const auto coarse = reduceRate(channels, rate, params.highFrequency, 2.5, scale);
     const auto position = locateSweeps(coarse, schedule, params.sampleRate, measuringSweep(params));

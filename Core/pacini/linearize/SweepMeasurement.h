@@ -85,9 +85,10 @@ struct SweepMeasurement
     return largest;
 }
 
-/// The drive, dB re full scale, at which the largest distortion between `low` and `high` Hz passes `limit` %: between
-/// the two level steps around it by a straight line of log distortion over level. Nothing when no step passes the
-/// limit; the weakest step when all do.
+/// The drive, dB re full scale, from which on the largest distortion between `low` and `high` Hz is above `limit` %:
+/// between the two level steps around it by a straight line of log distortion over level. Steps are followed from the
+/// strongest down, since noise distorts the weakest. Nothing when the strongest step is below the limit; the weakest
+/// step when all are above it.
 [[nodiscard]] inline std::optional<double> driveAtDistortion(const SweepMeasurement& measurement, double limit,
                                                              double low, double high)
 {
@@ -99,18 +100,18 @@ struct SweepMeasurement
     std::vector<Step> steps;
     for (const LevelMeasurement& level : measurement.levels)
         steps.push_back({level.level, largestDistortion(level, low, high)});
-    std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.level < b.level; });
-    for (std::size_t i = 0; i < steps.size(); ++i)
-    {
-        if (steps[i].distortion < limit)
-            continue;
-        if (i == 0 || !(steps[i - 1].distortion > 0.0) || !(limit > 0.0))
-            return steps[i].level;
-        const double whole = std::log(steps[i].distortion / steps[i - 1].distortion);
-        const double part = std::log(limit / steps[i - 1].distortion) / whole;
-        return steps[i - 1].level + part * (steps[i].level - steps[i - 1].level);
-    }
-    return std::nullopt;
+    std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.level > b.level; });
+    if (steps.empty() || steps.front().distortion < limit)
+        return std::nullopt;
+    std::size_t above = 0;
+    while (above + 1 < steps.size() && steps[above + 1].distortion >= limit)
+        ++above;
+    if (above + 1 == steps.size() || !(steps[above + 1].distortion > 0.0) || !(limit > 0.0))
+        return steps[above].level;
+    const Step& upper = steps[above];
+    const Step& lower = steps[above + 1];
+    const double part = std::log(limit / lower.distortion) / std::log(upper.distortion / lower.distortion);
+    return lower.level + part * (upper.level - lower.level);
 }
 
 } // namespace pacini

@@ -122,8 +122,8 @@ public:
 
 private:
     static constexpr double baseThreshold = 1.0;
-    // An event shall be felt as strong as its peak below 3 kHz, within these parts of its full-band peak: a bright click
-    // holds little there, but shall be felt.
+    // An event shall be felt as strong as its peak below 3 kHz, within these parts of its full-band peak: a bright
+    // click holds little there, but shall be felt.
     static constexpr double leastShare = 0.06;
     static constexpr double brightShare = 0.25;
 

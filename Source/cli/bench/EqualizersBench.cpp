@@ -109,13 +109,13 @@ struct Fitted
     double size = 0.0;       ///< sections, taps or order
 };
 
-struct Method
+struct EqualizerMethod
 {
     std::string name, setting;
     std::function<Fitted(const FrequencyResponse&, const EqualizerFitParams&)> fit;
 };
 
-Method sectionsMethod(std::optional<int> count)
+EqualizerMethod sectionsMethod(std::optional<int> count)
 {
     return {"sections", count ? fmt::format("{}", *count) : "auto",
             [count](const FrequencyResponse& response, const EqualizerFitParams& given)
@@ -143,7 +143,7 @@ Gain polynomial(std::vector<double> taps, double fs)
     };
 }
 
-Method firMethod(int taps, FirPhase phase)
+EqualizerMethod firMethod(int taps, FirPhase phase)
 {
     return {phase == FirPhase::linear ? "FIR, linear phase" : "FIR, minimum phase", fmt::format("{}", taps),
             [=](const FrequencyResponse& response, const EqualizerFitParams& params)
@@ -154,7 +154,7 @@ Method firMethod(int taps, FirPhase phase)
             }};
 }
 
-Method yuleWalkerMethod(int order)
+EqualizerMethod yuleWalkerMethod(int order)
 {
     return {"Yule-Walker", fmt::format("{}", order),
             [order](const FrequencyResponse& response, const EqualizerFitParams& params)
@@ -167,9 +167,9 @@ Method yuleWalkerMethod(int order)
             }};
 }
 
-std::vector<Method> methodsAt(int rate)
+std::vector<EqualizerMethod> methodsAt(int rate)
 {
-    std::vector<Method> methods;
+    std::vector<EqualizerMethod> methods;
     for (int count = 1; count <= 8; ++count)
         methods.push_back(sectionsMethod(count));
     methods.push_back(sectionsMethod(std::nullopt));
@@ -219,12 +219,12 @@ Error errorOf(const Measured& measurement, const Fitted& fitted)
     return error;
 }
 
-void measure(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
+void measureEqualizers(const BenchSound&, const BenchSettings& settings, BenchTable& rows)
 {
     const std::vector<Measured> all = responses();
     const auto count = static_cast<double>(all.size());
     for (const int rate : {48000, 8000})
-        for (const Method& method : methodsAt(rate))
+        for (const EqualizerMethod& method : methodsAt(rate))
         {
             EqualizerFitParams params;
             params.sampleRate = rate;
@@ -281,7 +281,7 @@ Bench equalizersBench()
          {"relativeTime", "", Reduction::relative, "time", "rate"}},
         {figure("48", "48 kHz"), figure("8", "8 kHz")},
         {},
-        measure,
+        measureEqualizers,
         false};
 }
 

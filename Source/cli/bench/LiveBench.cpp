@@ -32,7 +32,7 @@ struct LiveVariant
     std::size_t block = 64;
 };
 
-std::vector<LiveVariant> variants()
+std::vector<LiveVariant> liveVariants()
 {
     std::vector<LiveVariant> all;
     for (const bool carriers : {false, true})
@@ -103,7 +103,7 @@ void feel(std::vector<float>& signal, const std::optional<Profile>& profile, dou
     }
 }
 
-void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
+void measureLive(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     HtsAnalyzer analyzer;
     const auto mono = sound.beginning(longest);
@@ -112,7 +112,7 @@ void measure(const BenchSound& sound, const BenchSettings& settings, BenchTable&
         return;
     std::vector<float> atRate;
     int rate = 0;
-    for (const LiveVariant& variant : variants())
+    for (const LiveVariant& variant : liveVariants())
     {
         TranslatorSetup setup;
         setup.bands.bands = variant.bands;
@@ -178,7 +178,7 @@ Bench liveBench()
              {"load", "% of a core", Reduction::ratio, "seconds", "duration", 100.0}},
             {{"", "Likeness against load", "played", "load", "HTS", "bands", "profile", "none", false}},
             {},
-            measure};
+            measureLive};
 }
 
 } // namespace pacini::cli

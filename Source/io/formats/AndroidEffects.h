@@ -60,9 +60,9 @@ struct AndroidExport
 /// device;
 /// - envelopes start and end at 0, every segment lasts 1 ms to 1 s, which all devices can play; segments of less than
 ///   20 ms, which some cannot, and more than 16 points, which Android may split, are named in the losses. Events are
-///   peaks that rise and fall in 20 ms each.
+///   peaks that rise in 10 ms and fall in 8.
 ///
-/// `amplitudePoints` (20 per second where it is not given) counts steps and control points.
+/// `amplitudePoints` per second (100 steps, 60 control points where it is not given) are the most.
 [[nodiscard]] AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params);
 
 /// The clip of a waveform: steps at androidMotorFrequency.

@@ -1,7 +1,13 @@
 #include "io/formats/ForeignFormat.h"
 
 #include "io/formats/AhapFormat.h"
+#include "io/formats/AndroidFormat.h"
+#include "io/formats/CsvFormat.h"
+#include "io/formats/HapsFormat.h"
 #include "io/formats/HapticFormat.h"
+#include "io/formats/HjifFormat.h"
+#include "io/formats/PcmFormat.h"
+#include "io/formats/TactFormat.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +17,11 @@ namespace pacini
 
 std::span<const ForeignFormat> foreignFormats()
 {
-    static const std::array formats{hapticFormat(), ahapFormat()};
+    static const std::array formats{
+        hapticFormat(),     ahapFormat(),          hjifFormat(),        hapsFormat(),         androidJsonFormat(),
+        androidXmlFormat(), androidKotlinFormat(), androidJavaFormat(), openXrHeaderFormat(), openXrJsonFormat(),
+        tactFormat(),       csvFormat(),           wav8Format(),        wav16Format(),        raw8Format(),
+        raw16Format(),      cArrayFormat()};
     return formats;
 }
 

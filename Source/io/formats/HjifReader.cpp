@@ -299,7 +299,8 @@ private:
                 fail(place + ".relative_position", "must be 0 to 24 hours");
             else if (keyframe.position < before)
                 fail(place + ".relative_position", "is earlier than the keyframe before it");
-            if (keyframe.amplitude && std::abs(*keyframe.amplitude) * scale > limits::amplitude)
+            // Rounded decimals may pass the limit by a little; what is kept does not.
+            if (keyframe.amplitude && std::abs(*keyframe.amplitude) * scale > 1.001 * limits::amplitude)
                 fail(place + ".amplitude_modulation", "is more than a thousand times full drive");
             before = keyframe.position;
         }
@@ -320,7 +321,8 @@ private:
             const double sharpness = (frequency - hjifDullFrequency) / (hjifSharpFrequency - hjifDullFrequency);
             const double time = (position + keyframe.position) / ticks;
             clip.transients.push_back(
-                {time, std::abs(*keyframe.amplitude) * scale / hjifTransientLevel, std::clamp(sharpness, 0.0, 1.0)});
+                {time, std::min(std::abs(*keyframe.amplitude) * scale / hjifTransientLevel, limits::amplitude),
+                 std::clamp(sharpness, 0.0, 1.0)});
             latestEvent = std::max(latestEvent, time + pulseLength);
         }
     }
@@ -359,7 +361,7 @@ private:
         const double sharpness = alone ? std::log(frequency / 100.0) / std::log(2.8)
                                        : std::log(frequency / 150.0) / std::log(2500.0 / 150.0);
         const double time = (position + keyframes.front().position) / ticks;
-        clip.transients.push_back({time, peak * scale, std::clamp(sharpness, 0.0, 1.0)});
+        clip.transients.push_back({time, std::min(peak * scale, limits::amplitude), std::clamp(sharpness, 0.0, 1.0)});
         latestEvent = std::max(latestEvent, time + length);
         return true;
     }
@@ -378,7 +380,7 @@ private:
             const double time = (position + keyframe.position) / ticks;
             if (keyframe.amplitude)
             {
-                amplitude.push_back({time, std::abs(*keyframe.amplitude) * level});
+                amplitude.push_back({time, std::min(std::abs(*keyframe.amplitude) * level, limits::amplitude)});
                 inverted = inverted || *keyframe.amplitude < 0.0;
             }
             if (keyframe.frequency)
@@ -422,7 +424,8 @@ private:
         {
             const double middle = 0.5 * (extrema[i - 1].time + extrema[i].time);
             const double half = extrema[i].time - extrema[i - 1].time;
-            amplitude.push_back({middle, 0.5 * std::abs(extrema[i].value - extrema[i - 1].value)});
+            const double height = 0.5 * std::abs(extrema[i].value - extrema[i - 1].value);
+            amplitude.push_back({middle, std::min(height, limits::amplitude)});
             lane.pitch.push_back({middle, std::clamp(0.5 / half, 1.0, limits::frequency)});
         }
         append(lane.amplitude, amplitude);
@@ -452,13 +455,21 @@ private:
             lane.lowFrequency = std::min(lane.lowFrequency, point.value);
             lane.highFrequency = std::max(lane.highFrequency, point.value);
         }
-        const bool standing = std::all_of(lane.pitch.begin(), lane.pitch.end(),
-                                          [&](const Breakpoint& p) { return p.value == lane.pitch.front().value; });
-        double centre = std::sqrt(std::max(lane.lowFrequency, 1.0) * lane.highFrequency);
-        if (standing && !lane.pitch.empty())
+        double centre = std::sqrt(std::max(band.low, 1.0) * std::max(band.high, 1.0));
+        if (!lane.pitch.empty())
         {
-            centre = lane.pitch.front().value;
-            lane.pitch.clear();
+            double octaves = 0.0;
+            for (const Breakpoint& point : lane.pitch)
+                octaves += std::log2(point.value) / static_cast<double>(lane.pitch.size());
+            centre = std::exp2(octaves);
+            const bool stands =
+                std::all_of(lane.pitch.begin(), lane.pitch.end(),
+                            [&](const Breakpoint& point) { return std::abs(point.value - centre) < 1e-6 * centre; });
+            if (stands)
+            {
+                centre = lane.pitch.front().value;
+                lane.pitch.clear();
+            }
         }
         lane.centreFrequency = std::clamp(centre, lane.lowFrequency, lane.highFrequency);
         clip.bands.push_back(std::move(lane));

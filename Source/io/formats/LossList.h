@@ -3,6 +3,7 @@
 // What a writer says about its losses.
 
 #include "io/formats/ForeignFormat.h"
+#include "io/formats/FormatLosses.h"
 
 #include <pacini/synthesis/SingleVoice.h>
 
@@ -18,6 +19,9 @@ class LossList
 public:
     /// One loss over `duration` from `time`.
     void add(LossKind kind, double time, double duration, double error, std::string message);
+
+    /// What was found place by place.
+    void append(LossTrack& track) { track.appendTo(losses); }
 
     /// Residual noise, which is left out.
     void addNoise(const Clip& clip);

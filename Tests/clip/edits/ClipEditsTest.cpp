@@ -20,7 +20,7 @@ TEST_CASE("Every edit of a valid clip gives a valid clip, whatever the arguments
     for (std::uint64_t seed = 1; seed <= 60; ++seed)
     {
         Random random(seed);
-        Clip clip = test::randomClip(seed, 12);
+        Clip clip = test::randomFullClip(seed, 12);
         for (int step = 0; step < 60; ++step)
         {
             auto edited = test::anyEdit(random, clip);
@@ -39,7 +39,7 @@ TEST_CASE("An edit of a range leaves what is outside as it was")
 {
     for (std::uint64_t seed = 1; seed <= 30; ++seed)
     {
-        const Clip clip = test::randomClip(seed);
+        const Clip clip = test::randomFullClip(seed);
         EditScope scope;
         scope.range = {0.3 * clip.duration, 0.6 * clip.duration};
         for (const Clip& edited :
@@ -59,7 +59,7 @@ TEST_CASE("An edit of a range leaves what is outside as it was")
 
 TEST_CASE("Gain scales amplitudes inside its range and no frequencies")
 {
-    const Clip clip = test::randomClip(3);
+    const Clip clip = test::randomFullClip(3);
     EditScope scope;
     scope.range = {0.2 * clip.duration, 0.7 * clip.duration};
     const Clip louder = amplify(clip, scope, 6.0);
@@ -100,7 +100,7 @@ TEST_CASE("What is split and joined again sounds the same at every time")
 {
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
     {
-        const Clip clip = test::randomClip(seed);
+        const Clip clip = test::randomFullClip(seed);
         const auto [left, right] = splitClip(clip, 0.37 * clip.duration);
         CHECK(left.duration + right.duration == Approx(clip.duration));
         const auto whole = joinClips(left, right);
@@ -119,7 +119,7 @@ TEST_CASE("What is split and joined again sounds the same at every time")
 
 TEST_CASE("Reversing twice gives the clip back up to rounding")
 {
-    const Clip clip = test::randomClip(8);
+    const Clip clip = test::randomFullClip(8);
     const Clip twice = reverseClip(reverseClip(clip));
     REQUIRE(twice.transients.size() == clip.transients.size());
     for (const Lane& lane : lanesOf(clip))
@@ -161,7 +161,7 @@ TEST_CASE("Clips that would become too long or too large are refused")
     CHECK(joinClips(day, day).error().code == ErrorCode::tooLarge);
     CHECK(repeatClip(day, 2).error().code == ErrorCode::tooLarge);
     CHECK(stretchClip(day, 1.1).error().code == ErrorCode::tooLarge);
-    Clip many = test::randomClip(1);
+    Clip many = test::randomFullClip(1);
     many.bands.resize(200, {1.0, 2.0, 3.0, 0, {}, {}});
     Clip others = many;
     for (Band& band : others.bands)
@@ -217,7 +217,7 @@ TEST_CASE("Thinning keeps the strongest events and leaves no two closer than the
 
 TEST_CASE("Humanise is the same for a seed, another for another, and stays within its amounts")
 {
-    const Clip clip = test::randomClip(11);
+    const Clip clip = test::randomFullClip(11);
     const Humanisation amount{0.01, 3.0, 1.0, 42};
     const Clip once = humanise(clip, {}, amount);
     CHECK(once == humanise(clip, {}, amount));
@@ -239,7 +239,7 @@ TEST_CASE("Humanise is the same for a seed, another for another, and stays withi
 
 TEST_CASE("Quantised events lie on the grid")
 {
-    const Clip clip = test::randomClip(11);
+    const Clip clip = test::randomFullClip(11);
     const Clip even = quantiseTimes(clip, {}, {0.25, 0.1, 1.0});
     REQUIRE(!even.transients.empty());
     for (const Transient& event : even.transients)
@@ -252,7 +252,7 @@ TEST_CASE("Quantised events lie on the grid")
 
 TEST_CASE("What is copied and pasted at its own place changes nothing that is heard")
 {
-    const Clip clip = test::randomClip(5);
+    const Clip clip = test::randomFullClip(5);
     EditScope scope;
     scope.range = {0.2 * clip.duration, 0.5 * clip.duration};
     const auto same = pasteFragment(clip, copyFragment(clip, scope), scope.range.from);

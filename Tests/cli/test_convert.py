@@ -1,0 +1,140 @@
+"""End to end: pacini convert between formats, in folders and again, and encode and info for formats of others."""
+import hashlib
+import json
+import os
+import unittest
+
+from command import CommandTest, sine, wav
+
+HAPTIC = {"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {
+    "amplitude": [{"time": 0, "amplitude": 0.2, "emphasis": {"amplitude": 0.5, "frequency": 0.4}},
+                  {"time": 0.5, "amplitude": 0.8}, {"time": 1.25, "amplitude": 0, "emphasis": {"amplitude": 1, "frequency": 0.6}}],
+    "frequency": [{"time": 0, "frequency": 0.25}, {"time": 1.25, "frequency": 0.75}]}}}}
+
+
+def envelopes(path):
+    return json.loads(path.read_text())["signals"]["continuous"]["envelopes"]
+
+
+class Convert(CommandTest):
+    def test_a_clip_becomes_haptic_and_comes_back(self):
+        self.clip()
+        self.succeeds("convert", "clip.json", "clip.haptic")
+        points = envelopes(self.folder / "clip.haptic")["amplitude"]
+        self.assertEqual(points[0]["time"], 0)
+        self.assertEqual(points[-1]["time"], 1)
+        self.succeeds("convert", "clip.haptic", "back.json")
+        back = json.loads((self.folder / "back.json").read_text())
+        self.assertEqual((back["format"], back["duration"], len(back["bands"])), ("pacini.clip", 1, 1))
+
+    def test_one_format_of_others_becomes_another_and_keeps_its_events(self):
+        self.put("a.haptic", json.dumps(HAPTIC))
+        self.succeeds("convert", "a.haptic", "a.ahap")
+        pattern = json.loads((self.folder / "a.ahap").read_text())["Pattern"]
+        kinds = [entry["Event"]["EventType"] for entry in pattern if "Event" in entry]
+        self.assertEqual(kinds.count("HapticTransient"), 2)
+        self.succeeds("convert", "a.ahap", "-o", "b.haptic")
+        points = envelopes(self.folder / "b.haptic")["amplitude"]
+        self.assertEqual(sum("emphasis" in point for point in points), 2)
+
+    def test_a_split_pair_is_read_as_one_clip(self):
+        self.put("a.haptic", json.dumps(HAPTIC))
+        report = self.report("convert", "a.haptic", "a.ahap", "--split")
+        self.assertEqual([output["file"] for output in report["outputs"]], ["a.ahap", "a-transients.ahap"])
+        self.succeeds("convert", "a.ahap", "b.haptic")
+        self.assertEqual(sum("emphasis" in p for p in envelopes(self.folder / "b.haptic")["amplitude"]), 2)
+        # In a folder the second file is no clip of its own.
+        self.put("in/a.ahap", (self.folder / "a.ahap").read_bytes())
+        self.put("in/a-transients.ahap", (self.folder / "a-transients.ahap").read_bytes())
+        report = self.report("convert", "in", "out", "--format", "haptic")
+        self.assertEqual(len(report["files"]), 1)
+
+    def test_points_and_profiles_change_what_is_written(self):
+        points = [{"time": i / 1000, "amplitude": (i * 7919 % 1000) / 1000} for i in range(1001)]
+        self.clip(envelope=points)
+        self.succeeds("convert", "clip.json", "few.haptic", "--points", "10")
+        self.succeeds("convert", "clip.json", "usual.haptic")
+        few, usual = (len(envelopes(self.folder / name)["amplitude"]) for name in ("few.haptic", "usual.haptic"))
+        self.assertLessEqual(few, 11)
+        self.assertGreater(usual, 30)
+        self.succeeds("convert", "clip.json", "other.haptic", "--profile", "l5-wristband")
+        self.assertNotEqual(envelopes(self.folder / "other.haptic")["frequency"],
+                            envelopes(self.folder / "usual.haptic")["frequency"])
+
+    def test_a_folder_is_converted_once_and_recorded(self):
+        for name in ("a", "b", "sub/c"):
+            self.put(f"in/{name}.haptic", json.dumps(HAPTIC))
+        self.clip("in/d.json")
+        self.put("in/bad.haptic", "{}")
+        arguments = ["convert", "in", "out", "--format", "ahap", "-j", "2"]
+        self.fails(1, arguments, "bad.haptic: version: is missing")
+        manifest = (self.folder / "out/pacini.manifest.json").read_bytes()
+        files = {entry["input"]: entry for entry in json.loads(manifest)["files"]}
+        self.assertEqual(sorted(files), ["a.haptic", "b.haptic", "bad.haptic", "d.json", "sub/c.haptic"])
+        self.assertIn("version: is missing", files["bad.haptic"]["error"])
+        for name, entry in files.items():
+            for output in entry["outputs"]:
+                content = (self.folder / "out" / output["file"]).read_bytes()
+                self.assertEqual((len(content), hashlib.sha256(content).hexdigest()),
+                                 (output["bytes"], output["sha256"]))
+        self.assertEqual(files["sub/c.haptic"]["outputs"][0]["file"], "sub/c.ahap")
+
+        os.remove(self.folder / "in/bad.haptic")
+        (self.folder / "out/b.ahap").write_text("edited")
+        self.put("in/a.haptic", json.dumps(HAPTIC | {"metadata": {"project": "new"}}))
+        done = {f["input"]: f["upToDate"] for f in self.report(*arguments)["files"]}
+        self.assertEqual(done, {"in/a.haptic": False, "in/b.haptic": False, "in/d.json": True,
+                                "in/sub/c.haptic": True})
+        self.assertTrue(all(f["upToDate"] for f in self.report(*arguments)["files"]))
+        self.assertFalse(any(f["upToDate"] for f in self.report(*arguments, "--split")["files"]))
+        self.assertFalse(any(f["upToDate"] for f in self.report(*arguments, "--split", "--force")["files"]))
+
+    def test_the_same_folder_gives_the_same_bytes(self):
+        for name in ("a", "b", "c"):
+            self.clip(f"in/{name}.json", name=name)
+        for out, jobs in (("one", "1"), ("two", "3")):
+            self.succeeds("convert", "in", out, "--format", "ahap", "-j", jobs)
+        for name in ("a.ahap", "b.ahap", "c.ahap", "pacini.manifest.json"):
+            self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "two" / name).read_bytes())
+
+    def test_wrong_usage_is_said(self):
+        self.clip()
+        self.put("in/clip.json", (self.folder / "clip.json").read_bytes())
+        self.fails(2, ["convert", "in", "out"], "--format")
+        self.fails(2, ["convert", "clip.json", "x.haptic", "--quantise", "8"], "--quantise")
+        self.fails(2, ["convert", "clip.json", "x.pacb", "--points", "8"], "--points")
+        self.fails(2, ["convert", "clip.json", "x.haptic", "--format", "nothing"], "--format")
+
+    def test_bad_files_of_others_say_where(self):
+        broken = json.loads(json.dumps(HAPTIC))
+        broken["signals"]["continuous"]["envelopes"]["amplitude"][1]["amplitude"] = 2
+        for name, content, says in (
+                ("a.haptic", json.dumps(broken), "signals.continuous.envelopes.amplitude[1].amplitude: is outside"),
+                ("b.haptic", "\ufeff" + json.dumps(HAPTIC), "byte order mark"),
+                ("c.haptic", json.dumps(HAPTIC).encode("utf-16"), "UTF-16"),
+                ("d.ahap", '{"Pattern": [{"Event": {"Time": -1, "EventType": "HapticTransient"}}]}',
+                 "Pattern[0].Event.Time: is before 0"),
+                ("e.ahap", "", "is empty")):
+            self.put(name, content)
+            self.fails(1, ["convert", name, "out.json"], f"pacini: {name}: ", says)
+            self.fails(1, ["info", name], f"pacini: {name}: ")
+
+    def test_a_sound_goes_straight_to_a_format_of_others(self):
+        self.put("tone.wav", wav(sine(120, 1.0)))
+        self.succeeds("encode", "tone.wav", "-o", "tone.haptic")
+        self.assertGreaterEqual(len(envelopes(self.folder / "tone.haptic")["amplitude"]), 2)
+        report = self.report("encode", "tone.wav", "--format", "ahap", "--split")
+        self.assertEqual(report["files"][0]["output"], "tone.ahap")
+        self.assertIn("tone-transients.ahap", self.names())
+        self.fails(2, ["encode", "tone.wav", "-o", "x.json", "--points", "5"], "--points")
+
+    def test_info_reads_formats_of_others(self):
+        self.put("a.haptic", json.dumps(HAPTIC))
+        report = self.report("info", "a.haptic")
+        self.assertEqual((report["kind"], report["format"], report["duration"], report["transients"]),
+                         ("clip", "haptic", 1.25, 2))
+        self.assertIn("Haptics Studio", self.succeeds("info", "a.haptic"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,58 @@
+"""End to end: pacini lint says what a format will lose, and can gate."""
+import json
+import unittest
+
+from command import CommandTest
+
+
+class Lint(CommandTest):
+    def losses(self, *arguments):
+        return self.report("lint", *arguments)["files"][0]["losses"]
+
+    def test_the_targets_are_listed(self):
+        text = self.succeeds("lint", "--targets")
+        self.assertRegex(text, r"(?m)^haptic +\.haptic ")
+        self.assertRegex(text, r"(?m)^ahap +\.ahap ")
+
+    def test_a_clip_that_fits_loses_nothing(self):
+        self.clip(transients=[])
+        self.assertEqual(self.losses("clip.json", "--target", "haptic"), [])
+        self.assertIn("loses nothing", self.succeeds("lint", "clip.json", "--target", "haptic"))
+
+    def test_losses_have_a_place_and_a_size(self):
+        band = {"lowFrequency": 80, "centreFrequency": 100, "highFrequency": 125, "priority": 0,
+                "amplitude": [{"time": 0, "amplitude": 0.5}, {"time": 2, "amplitude": 0.5}], "pitch": []}
+        high = dict(band, lowFrequency=700, centreFrequency=800, highFrequency=900,
+                    amplitude=[{"time": 0, "amplitude": 0}, {"time": 1, "amplitude": 0}, {"time": 1, "amplitude": 0.5},
+                               {"time": 2, "amplitude": 0.5}])
+        self.clip(seconds=2.0, envelope=[], bands=[band, high], markers=[{"time": 0.5, "name": "here"}],
+                  transients=[{"time": 0.5, "amplitude": 1, "sharpness": 0.5},
+                              {"time": 0.504, "amplitude": 1, "sharpness": 0.5}])
+        losses = {loss["kind"]: loss for loss in self.losses("clip.json", "--target", "haptic")}
+        self.assertTrue({"bands", "frequency", "text", "crowding"} <= set(losses), losses)
+        self.assertAlmostEqual(losses["bands"]["time"], 1.0, places=3)
+        self.assertAlmostEqual(losses["bands"]["error"], 0.5 ** 0.5, places=2)
+        self.assertAlmostEqual(losses["frequency"]["time"], 1.0, places=3)
+        self.assertAlmostEqual(losses["crowding"]["time"], 0.504, places=3)
+
+    def test_a_limit_gates(self):
+        points = [{"time": i / 1000, "amplitude": i % 2} for i in range(1001)]
+        self.clip(envelope=points)
+        self.succeeds("lint", "clip.json", "--target", "haptic")
+        self.fails(1, ["lint", "clip.json", "--target", "haptic", "--max-error", "0.1"], "more than is allowed")
+        self.succeeds("lint", "clip.json", "--target", "haptic", "--max-error", "2")
+        self.fails(1, ["lint", "clip.json", "--target", "haptic", "--fail-on", "points"], "more than is allowed")
+        done = self.run_command("lint", "clip.json", "--target", "haptic", "--max-error", "0.1", "--json")
+        self.assertFalse(json.loads(done.stdout)["files"][0]["ok"])
+
+    def test_wrong_usage_and_bad_files_are_said(self):
+        self.clip()
+        self.fails(2, ["lint", "clip.json"], "--target is missing")
+        self.fails(2, ["lint", "--target", "haptic"], "missing")
+        self.fails(2, ["lint", "clip.json", "--target", "nothing"], "--target")
+        self.put("bad.haptic", "[]")
+        self.fails(1, ["lint", "bad.haptic", "--target", "ahap"], "bad.haptic: ")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,285 @@
+#include "document/PreviewEngine.h"
+
+#include "document/PreviewWorker.h"
+#include "support/Catch.h"
+#include "support/HeapGuard.h"
+
+#include <pacini/clip/edits/RangeEdits.h>
+#include <pacini/synthesis/CompilePlan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+using namespace pacini;
+
+namespace
+{
+constexpr double fs = 48000.0;
+
+std::shared_ptr<const Clip> tone(double duration, double level, double frequency = 150.0)
+{
+    Clip clip;
+    clip.duration = duration;
+    clip.bands = {{100.0, frequency, 220.0, 0, {{0.0, level}, {duration, level}}, {}}};
+    return std::make_shared<const Clip>(clip);
+}
+
+Playback playbackOf(std::shared_ptr<const Clip> clip)
+{
+    Playback playback;
+    playback.a = std::move(clip);
+    return playback;
+}
+
+std::vector<float> run(PreviewEngine& engine, std::size_t frames, std::size_t block = 128)
+{
+    std::vector<float> out(frames);
+    for (std::size_t i = 0; i < frames; i += block)
+        engine.process(std::span(out).subspan(i, std::min(block, frames - i)), {});
+    return out;
+}
+
+float largest(std::span<const float> samples)
+{
+    float most = 0.0f;
+    for (float s : samples)
+        most = std::max(most, std::abs(s));
+    return most;
+}
+
+/// The largest second difference: a click is a jump of value or slope.
+float roughness(std::span<const float> samples)
+{
+    float most = 0.0f;
+    for (std::size_t i = 2; i < samples.size(); ++i)
+        most = std::max(most, std::abs(samples[i] - 2.0f * samples[i - 1] + samples[i - 2]));
+    return most;
+}
+} // namespace
+
+TEST_CASE("A preview from the start is what is rendered, bit for bit behind the first 5 ms")
+{
+    const auto clip = tone(1.0, 0.5);
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(clip));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    const auto heard = run(engine, 40000);
+
+    Scene scene;
+    scene.clips = {*clip};
+    scene.plays.emplace_back();
+    ScenePlayer player(compilePlan(scene).value());
+    std::vector<float> rendered(40000);
+    std::span<float> out(rendered);
+    player.process(std::span(&out, 1));
+    CHECK(largest(rendered) > 0.4f);
+    CHECK(std::equal(heard.begin() + 241, heard.end(), rendered.begin() + 241));
+}
+
+TEST_CASE("An edit is heard from the next block on, without a click")
+{
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(tone(10.0, 0.6)));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    for (const double seconds : {1.0, 7.0}) // before and behind exactFrom
+    {
+        engine.set(playbackOf(tone(10.0, 0.6)));
+        engine.play(0.0);
+        REQUIRE(engine.service());
+        (void)run(engine, 1000);
+        (void)run(engine, static_cast<std::size_t>(seconds * fs));
+        const auto before = run(engine, 9600);
+        engine.set(playbackOf(tone(10.0, 0.2)));
+        REQUIRE(engine.wantsService());
+        REQUIRE(engine.service());
+        (void)run(engine, 0);
+        const auto after = run(engine, 9600);
+        std::vector<float> both = before;
+        both.insert(both.end(), after.begin(), after.end());
+        CHECK(largest(std::span(both).subspan(9600 + 1920, 4800)) == Approx(0.2f).margin(0.01));
+        // 0.6 sin at 150 Hz bends by at most 0.6 (2 pi 150 / fs)^2 = 0.00023 from sample to sample.
+        CHECK(roughness(both) < 0.0006f);
+        CHECK(engine.position() == Approx(seconds + 19200.0 / fs + 1000.0 / fs).margin(0.01));
+    }
+}
+
+TEST_CASE("An edit elsewhere does not change what is heard near the start of a play, bit for bit")
+{
+    const auto clip = tone(4.0, 0.5);
+    Clip edited = *clip;
+    edited.transients = {{3.5, 0.9, 0.5}};
+    const auto heard = [&](bool edit)
+    {
+        PreviewEngine engine(fs);
+        engine.set(playbackOf(clip));
+        engine.play(0.0);
+        REQUIRE(engine.service());
+        auto out = run(engine, 48000);
+        if (edit)
+        {
+            engine.set(playbackOf(std::make_shared<const Clip>(edited)));
+            REQUIRE(engine.service());
+        }
+        const auto more = run(engine, 24000);
+        out.insert(out.end(), more.begin(), more.end());
+        return out;
+    };
+    const auto plain = heard(false);
+    const auto swapped = heard(true);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < plain.size(); ++i)
+        worst = std::max(worst, std::abs(static_cast<double>(plain[i]) - static_cast<double>(swapped[i])));
+    CHECK(worst < 1e-6);
+}
+
+TEST_CASE("Playing makes no heap traffic, whatever is swapped")
+{
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(tone(10.0, 0.6)));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    std::vector<float> out(4096);
+    for (int i = 0; i < 5; ++i)
+    {
+        engine.set(playbackOf(tone(10.0, 0.1 * i)));
+        REQUIRE(engine.service());
+        std::size_t traffic = 0;
+        {
+            test::HeapGuard guard;
+            for (std::size_t k = 0; k < 8; ++k)
+                engine.process(std::span(out).subspan(k * 512, 512), {});
+            traffic = guard.traffic();
+        }
+        CHECK(traffic == 0);
+    }
+}
+
+TEST_CASE("A clip plays to its end and stops; a stop is silent after 5 ms; a new play starts where it is told")
+{
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(tone(0.5, 0.5)));
+    CHECK_FALSE(engine.isPlaying());
+    CHECK(largest(run(engine, 1000)) == 0.0f);
+    engine.play(0.25);
+    CHECK(engine.isPlaying());
+    REQUIRE(engine.service());
+    (void)run(engine, 24000);
+    CHECK_FALSE(engine.isPlaying());
+    CHECK(largest(run(engine, 1000)) == 0.0f);
+    CHECK(engine.position() == Approx(0.5).margin(0.03));
+    engine.play(0.1);
+    CHECK(largest(run(engine, 1000)) == 0.0f); // not built yet: the old one does not go on
+    REQUIRE(engine.service());
+    (void)run(engine, 4800);
+    CHECK(engine.position() == Approx(0.2));
+    CHECK(engine.isPlaying());
+    engine.stop();
+    const auto tail = run(engine, 4800);
+    CHECK(largest(std::span(tail).subspan(256)) == 0.0f);
+    CHECK(roughness(tail) < 0.01f);
+}
+
+TEST_CASE("A loop goes round and round, clip and sound together")
+{
+    Clip clip = *tone(2.0, 0.0);
+    clip.transients = {{0.6, 0.8, 0.5}, {1.5, 0.8, 0.5}};
+    AudioData audio;
+    audio.sampleRate = 48000;
+    audio.channels = 1;
+    audio.samples.resize(96000);
+    for (std::size_t i = 0; i < audio.samples.size(); ++i)
+        audio.samples[i] = static_cast<float>(i) / 96000.0f;
+    PreviewEngine engine(fs);
+    Playback playback = playbackOf(std::make_shared<const Clip>(clip));
+    playback.loop = TimeRange{0.5, 1.0};
+    playback.source = true;
+    engine.set(playback);
+    engine.setSource(PreviewSource::of(audio, 48000));
+    engine.play(0.25);
+    REQUIRE(engine.service());
+    std::vector<float> haptic(40 * 48000), sound(haptic.size());
+    for (std::size_t i = 0; i < haptic.size(); i += 480)
+    {
+        std::span<float> channel = std::span(sound).subspan(i, 480);
+        engine.process(std::span(haptic).subspan(i, 480), std::span(&channel, 1));
+        if (engine.wantsService())
+            REQUIRE(engine.service());
+        CHECK(engine.position() < 1.0);
+    }
+    CHECK(engine.isPlaying());
+    // The event at 0.6 s comes at 0.35 s, and every 0.5 s from then on; never the one behind the loop.
+    for (int pass = 0; pass < 78; ++pass)
+    {
+        const auto event = static_cast<std::size_t>((0.35 + 0.5 * pass) * fs);
+        INFO("pass " << pass);
+        CHECK(largest(std::span(haptic).subspan(event - 480, 1440)) > 0.5f);
+        CHECK(largest(std::span(haptic).subspan(event + 9600, 9600)) < 0.05f);
+        CHECK(sound[event] == Approx(0.3).margin(1e-3));
+    }
+}
+
+TEST_CASE("Source and drive signal are switched without a jump")
+{
+    AudioData audio;
+    audio.sampleRate = 48000;
+    audio.channels = 2;
+    audio.samples.assign(2 * 96000, 0.5f);
+    PreviewEngine engine(fs);
+    Playback playback = playbackOf(tone(2.0, 0.5));
+    engine.set(playback);
+    engine.setSource(PreviewSource::of(audio, 48000));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    std::vector<float> haptic(9600), left(9600), right(9600);
+    const auto play = [&]
+    {
+        const std::span<float> channels[] = {left, right};
+        engine.process(haptic, channels);
+    };
+    play();
+    CHECK(largest(left) == 0.0f);
+    playback.source = true;
+    playback.haptic = false;
+    engine.set(playback);
+    CHECK_FALSE(engine.wantsService()); // nothing to build
+    play();
+    CHECK(largest(std::span(haptic).subspan(300)) == 0.0f);
+    CHECK(right[9000] == Approx(0.5f));
+    for (std::size_t i = 1; i < left.size(); ++i)
+        REQUIRE(std::abs(left[i] - left[i - 1]) < 0.005f);
+}
+
+TEST_CASE("Takes A and B, soloed bands and a worker thread")
+{
+    Clip two = *tone(5.0, 0.4);
+    two.bands.push_back({300.0, 350.0, 400.0, 1, {{0.0, 0.2}, {5.0, 0.2}}, {}});
+    PreviewEngine engine(fs);
+    PreviewWorker worker(engine);
+    Playback playback = playbackOf(std::make_shared<const Clip>(two));
+    playback.b = tone(5.0, 0.1);
+    engine.set(playback);
+    engine.play(0.0);
+    worker.wake();
+    const auto level = [&]
+    {
+        for (int i = 0; i < 500 && engine.wantsService(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        (void)run(engine, 4800);
+        return largest(run(engine, 9600));
+    };
+    CHECK(level() == Approx(0.6).margin(0.05));
+    playback.take = Take::b;
+    engine.set(playback);
+    worker.wake();
+    CHECK(level() == Approx(0.1).margin(0.02));
+    playback.take = Take::a;
+    playback.audition.solo = {1};
+    engine.set(playback);
+    worker.wake();
+    CHECK(level() == Approx(0.2).margin(0.02));
+    CHECK_FALSE(worker.lastError());
+}

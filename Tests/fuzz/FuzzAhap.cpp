@@ -1,0 +1,9 @@
+// See fuzzForeign().
+
+#include "FuzzForeign.h"
+#include "io/formats/AhapFormat.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    return pacini::fuzzForeign(pacini::ahapFormat(), data, size);
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+// What holds for the reader and the writer of any foreign format that is text.
+
+#include "FuzzCheck.h"
+#include "io/formats/ForeignFormat.h"
+
+#include <string_view>
+
+namespace pacini
+{
+
+/// Any bytes are either refused with a proper error or are a valid clip, which the format writes so that it reads it
+/// again without a warning and with as many events.
+inline int fuzzForeign(const ForeignFormat& format, const std::uint8_t* data, std::size_t size)
+{
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto read = format.read(text);
+    if (!read)
+    {
+        FUZZ_CHECK(!read.error().message.empty());
+        FUZZ_CHECK(read.error().text().find('\n') == std::string::npos);
+        return 0;
+    }
+    FUZZ_CHECK(validate(read->clip).ok());
+    const auto written = format.write(read->clip, {});
+    FUZZ_CHECK(written.ok());
+    const auto again = format.read(written->files.front().bytes);
+    FUZZ_CHECK(again.ok());
+    FUZZ_CHECK(again->warnings.empty());
+    FUZZ_CHECK(again->clip.transients.size() == read->clip.transients.size());
+    return 0;
+}
+
+} // namespace pacini

@@ -1,0 +1,41 @@
+#pragma once
+
+// What holds for every reader and writer of a foreign format, whatever the bytes.
+
+#include "FuzzCheck.h"
+#include "io/formats/ForeignFormat.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace pacini
+{
+
+/// Bytes are refused with a proper error on one line or make a valid clip; what is written of that is read again, and
+/// lasts as long to within `lengthMargin` s. Long clips are not written: their samples would take minutes.
+inline void fuzzShortForeign(const ForeignFormat& format, std::string_view bytes, double lengthMargin)
+{
+    const auto read = format.read(bytes);
+    if (format.recognises != nullptr)
+        (void)format.recognises(bytes);
+    if (!read)
+    {
+        FUZZ_CHECK(!read.error().message.empty());
+        FUZZ_CHECK(read.error().text().find('\n') == std::string::npos);
+        return;
+    }
+    FUZZ_CHECK(validate(read->clip).ok());
+    for (const std::string& warning : read->warnings)
+        FUZZ_CHECK(!warning.empty() && warning.find('\n') == std::string::npos);
+    constexpr double longest = 2.0; // s
+    if (read->clip.duration > longest)
+        return;
+    const auto written = format.write(read->clip, {});
+    FUZZ_CHECK(written.ok());
+    const auto again = format.read(written->files.at(0).bytes);
+    FUZZ_CHECK(again.ok());
+    FUZZ_CHECK(std::abs(again->clip.duration - read->clip.duration) <= lengthMargin);
+}
+
+} // namespace pacini

@@ -1,0 +1,341 @@
+#include "io/formats/AhapFormat.h"
+
+#include "io/formats/HapticFormat.h"
+#include "io/formats/players/AhapPlayer.h"
+#include "support/Catch.h"
+#include "support/RandomClip.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+using namespace pacini;
+
+namespace
+{
+using Json = nlohmann::json;
+
+/// One band of moving level and pitch with events, as a .haptic file is read.
+Clip moving(double duration, std::size_t points, std::size_t events, std::uint64_t seed = 1)
+{
+    Random random(seed);
+    Clip clip;
+    clip.name = "moving";
+    clip.duration = duration;
+    Band band{65.0, 182.5, 300.0, 0, {}, {}};
+    for (std::size_t i = 0; i < points; ++i)
+    {
+        const double time = duration * static_cast<double>(i) / static_cast<double>(points - 1);
+        band.amplitude.push_back({time, random.uniform(0.0, 0.8)});
+        band.pitch.push_back({time, random.uniform(130.0, 240.0)});
+    }
+    clip.bands = {band};
+    for (std::size_t i = 0; i < events; ++i)
+    {
+        const double time = duration * static_cast<double>(i) / static_cast<double>(events);
+        const double level = valueAt(band.amplitude, time);
+        clip.transients.push_back({time, random.uniform(level, 1.0), random.uniform(0.3, 0.7)});
+    }
+    return clip;
+}
+
+std::vector<std::string> written(const Clip& clip, bool split = false)
+{
+    ExportParams params;
+    params.split = split;
+    const auto exported = writeAhap(clip, params);
+    REQUIRE((exported.ok() ? "" : exported.error().text()) == "");
+    std::vector<std::string> texts;
+    for (const ExportedFile& file : exported->files)
+        texts.push_back(file.bytes);
+    return texts;
+}
+
+/// What a player makes of the intensity at a time: the continuous events, times the curve, squared.
+double playedAmplitude(const test::AhapPattern& pattern, double time)
+{
+    double sum = 0.0;
+    for (const test::AhapEvent& event : pattern.events)
+        if (!event.transient && event.time <= time && time < event.time + event.duration)
+            sum += std::pow(event.intensity * test::controlAt(pattern.intensity, time, 1.0), 2.0);
+    return sum;
+}
+
+double playedHertz(const test::AhapPattern& pattern, double time)
+{
+    for (const test::AhapEvent& event : pattern.events)
+        if (!event.transient && event.time <= time && time < event.time + event.duration)
+            return 65.0 + 235.0 * (event.sharpness + test::controlAt(pattern.sharpness, time, 0.0));
+    return 0.0;
+}
+
+std::string errorOf(const std::string& text)
+{
+    const auto read = readAhap(text);
+    return read.ok() ? "" : read.error().text();
+}
+
+std::string pattern(const std::string& entries)
+{
+    return R"({"Version": 1.0, "Pattern": [)" + entries + "]}";
+}
+} // namespace
+
+TEST_CASE("AHAP: curves do not run late after their sixteenth point", "[io][formats]")
+{
+    const Clip clip = moving(3.0, 200, 0);
+    const test::AhapPattern played = test::parseAhap(written(clip)[0]);
+    for (double time = 0.0; time < 2.99; time += 0.003)
+    {
+        CAPTURE(time);
+        REQUIRE(std::abs(playedAmplitude(played, time) - valueAt(clip.bands[0].amplitude, time)) < 1.5 / 255.0);
+        REQUIRE(std::abs(playedHertz(played, time) - valueAt(clip.bands[0].pitch, time)) < 0.1);
+    }
+}
+
+TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and share their ends", "[io][formats]")
+{
+    const Json file = Json::parse(written(moving(3.0, 200, 5))[0]);
+    std::map<std::string, std::pair<double, double>> ends;
+    for (const Json& entry : file["Pattern"])
+    {
+        if (!entry.contains("ParameterCurve"))
+            continue;
+        const Json& curve = entry["ParameterCurve"];
+        const Json& points = curve["ParameterCurveControlPoints"];
+        REQUIRE(points.size() >= 2);
+        REQUIRE(points.size() <= 16);
+        REQUIRE(points.front()["Time"] == 0.0);
+        const auto id = curve["ParameterID"].get<std::string>();
+        const double start = curve["Time"].get<double>();
+        if (ends.contains(id))
+        {
+            REQUIRE(std::abs(start - ends[id].first) < 1e-9);
+            REQUIRE(points.front()["ParameterValue"] == ends[id].second);
+        }
+        ends[id] = {start + points.back()["Time"].get<double>(), points.back()["ParameterValue"].get<double>()};
+    }
+    REQUIRE(ends.size() == 2);
+}
+
+TEST_CASE("AHAP: continuous events last at most 30 s and leave no gap", "[io][formats]")
+{
+    const test::AhapPattern played = test::parseAhap(written(moving(95.0, 300, 0))[0]);
+    REQUIRE(played.events.size() == 4);
+    double end = 0.0;
+    for (const test::AhapEvent& event : played.events)
+    {
+        REQUIRE(event.duration <= 30.0);
+        REQUIRE(std::abs(event.time - end) < 1e-9);
+        end = event.time + event.duration;
+    }
+    REQUIRE(std::abs(end - 95.0) < 1e-6);
+}
+
+TEST_CASE("AHAP: an event on the first point stays, and silence does not swallow events", "[io][formats]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{65.0, 182.5, 300.0, 0, {{0.0, 0.0}, {0.4, 0.0}, {0.5, 0.6}, {1.0, 0.0}}, {}}};
+    clip.transients = {{0.0, 0.49, 0.4}, {0.2, 0.81, 0.6}, {0.7, 1.0, 0.5}};
+    for (const bool split : {false, true})
+    {
+        CAPTURE(split);
+        const test::AhapPattern played = test::parseAhap(written(clip, split).back());
+        std::vector<double> strengths;
+        for (const test::AhapEvent& event : played.events)
+            if (event.transient)
+                strengths.push_back(event.intensity * test::controlAt(played.intensity, event.time, 1.0));
+        REQUIRE(strengths.size() == 3);
+        for (std::size_t i = 0; i < strengths.size(); ++i)
+            REQUIRE(std::abs(strengths[i] - std::sqrt(clip.transients[i].amplitude)) < 1e-4);
+    }
+}
+
+TEST_CASE("AHAP: in one file transients feel as if there were no curves", "[io][formats]")
+{
+    const Clip clip = moving(4.0, 60, 37);
+    const test::AhapPattern played = test::parseAhap(written(clip)[0]);
+    std::size_t next = 0;
+    for (const test::AhapEvent& event : played.events)
+    {
+        if (!event.transient)
+            continue;
+        CAPTURE(event.time);
+        const Transient& wanted = clip.transients[next++];
+        REQUIRE(event.intensity <= 1.0);
+        REQUIRE(std::abs(event.intensity * test::controlAt(played.intensity, event.time, 1.0) -
+                         std::sqrt(wanted.amplitude)) < 1e-4);
+        REQUIRE(std::abs(event.sharpness + test::controlAt(played.sharpness, event.time, 0.0) - wanted.sharpness) <
+                1e-4);
+    }
+    REQUIRE(next == clip.transients.size());
+}
+
+TEST_CASE("AHAP: two files keep events out of the curves' way", "[io][formats]")
+{
+    const auto texts = written(moving(2.0, 30, 9), true);
+    REQUIRE(texts.size() == 2);
+    REQUIRE(texts[0].find("HapticTransient") == std::string::npos);
+    REQUIRE(texts[1].find("ParameterCurve") == std::string::npos);
+    REQUIRE(readAhap(texts[0])->clip.transients.empty());
+    REQUIRE(readAhap(texts[1])->clip.transients.size() == 9);
+}
+
+TEST_CASE("AHAP: a .haptic clip without frequencies has no curve of them", "[io][formats]")
+{
+    for (const char* frequency : {R"(, "frequency": [])", R"(, "frequency": null)", ""})
+    {
+        const auto read = readHaptic(R"({"version":{"major":1},"signals":{"continuous":{"envelopes":{"amplitude":
+            [{"time":0,"amplitude":0.2},{"time":1,"amplitude":0.5}])" +
+                                     std::string(frequency) + "}}}}");
+        REQUIRE(read.ok());
+        REQUIRE(written(read->clip)[0].find("HapticSharpnessControl") == std::string::npos);
+    }
+}
+
+TEST_CASE("AHAP: .haptic clips come back with every emphasis", "[io][formats]")
+{
+    for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    {
+        CAPTURE(seed);
+        const Clip made = moving(5.0, 100, 7 * (seed % 11), seed);
+        const auto haptic = readHaptic(writeHaptic(made, {})->files[0].bytes);
+        REQUIRE(haptic.ok());
+        const auto back = readAhap(written(haptic->clip)[0]);
+        REQUIRE(back.ok());
+        const auto text = writeHaptic(back->clip, {})->files[0].bytes;
+        std::size_t emphases = 0;
+        for (std::size_t at = text.find("\"emphasis\""); at != std::string::npos;
+             at = text.find("\"emphasis\"", at + 1))
+            ++emphases;
+        REQUIRE(emphases == made.transients.size());
+    }
+}
+
+TEST_CASE("AHAP: a file comes back from its clip as it is felt", "[io][formats]")
+{
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    {
+        CAPTURE(seed);
+        const std::string first = written(moving(4.0, 80, seed % 20, seed))[0];
+        const auto clip = readAhap(first);
+        REQUIRE((clip.ok() ? "" : clip.error().text()) == "");
+        REQUIRE(clip->warnings.empty());
+        REQUIRE(clip->clip.bands.size() == 1);
+        const std::string second = written(clip->clip)[0];
+        const test::AhapPattern a = test::parseAhap(first), b = test::parseAhap(second);
+        for (double time = 0.0005; time < 3.99; time += 0.0037)
+        {
+            CAPTURE(time);
+            REQUIRE(std::abs(std::sqrt(playedAmplitude(a, time)) - std::sqrt(playedAmplitude(b, time))) < 2.0 / 255.0);
+        }
+        std::vector<double> timesA, timesB;
+        for (const auto& event : a.events)
+            if (event.transient)
+                timesA.push_back(event.time);
+        for (const auto& event : b.events)
+            if (event.transient)
+                timesB.push_back(event.time);
+        REQUIRE(timesA == timesB);
+    }
+}
+
+TEST_CASE("AHAP: any clip is written and read again", "[io][formats]")
+{
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+    {
+        CAPTURE(seed);
+        const Clip clip = test::randomFullClip(seed);
+        const std::string text = written(clip)[0];
+        const auto back = readAhap(text);
+        REQUIRE((back.ok() ? "" : back.error().text()) == "");
+        REQUIRE(back->warnings.empty());
+        REQUIRE(back->clip.transients.size() == clip.transients.size());
+        REQUIRE(written(clip)[0] == text);
+    }
+    Clip empty;
+    REQUIRE(readAhap(written(empty)[0]).ok());
+}
+
+TEST_CASE("AHAP: parameters step, curves move, and both scale and shift events", "[io][formats]")
+{
+    const auto read = readAhap(pattern(R"(
+        {"Event": {"Time": 0, "EventType": "HapticContinuous", "EventDuration": 2,
+                   "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 0.5},
+                                       {"ParameterID": "HapticSharpness", "ParameterValue": 0.25}]}},
+        {"Event": {"Time": 1.5, "EventType": "HapticTransient"}},
+        {"Parameter": {"ParameterID": "HapticSharpnessControl", "ParameterValue": 0.5, "Time": 1}},
+        {"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 1, "ParameterCurveControlPoints":
+            [{"Time": 0, "ParameterValue": 1}, {"Time": 0.5, "ParameterValue": 0.4}]}})"));
+    REQUIRE((read.ok() ? "" : read.error().text()) == "");
+    const Clip& clip = read->clip;
+    REQUIRE(clip.duration == 2.0);
+    REQUIRE(clip.bands.size() == 1);
+    const auto amplitude = [&](double time)
+    {
+        return valueAt(clip.bands[0].amplitude, time);
+    };
+    REQUIRE(std::abs(amplitude(0.5) - 0.25) < 1e-9);
+    REQUIRE(std::abs(amplitude(1.25) - std::pow(0.5 * 0.7, 2.0)) < 1.0 / 255.0);
+    REQUIRE(std::abs(amplitude(1.75) - std::pow(0.5 * 0.4, 2.0)) < 1e-9);
+    REQUIRE(std::abs(valueAt(clip.bands[0].pitch, 0.5) - (65.0 + 235.0 * 0.25)) < 1e-9);
+    REQUIRE(std::abs(valueAt(clip.bands[0].pitch, 1.5) - (65.0 + 235.0 * 0.75)) < 1e-9);
+    REQUIRE(clip.transients.size() == 1);
+    REQUIRE(std::abs(clip.transients[0].amplitude - 0.16) < 1e-9);
+    REQUIRE(clip.transients[0].sharpness == 1.0);
+}
+
+TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refused with its place", "[io][formats]")
+{
+    const auto event = [](const std::string& members)
+    {
+        return pattern(R"({"Event": {)" + members + "}}");
+    };
+    const std::string good = R"("Time": 0.5, "EventType": "HapticTransient")";
+    REQUIRE(errorOf(event(good)) == "");
+    const auto loud =
+        readAhap(event(good + R"(, "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 1.5}])"));
+    REQUIRE(loud.ok());
+    REQUIRE(loud->warnings.size() == 1);
+    REQUIRE(loud->warnings[0].starts_with("Pattern[0].Event.EventParameters[0].ParameterValue: "));
+    REQUIRE(loud->clip.transients[0].amplitude == 1.0);
+    REQUIRE(
+        readAhap(event(R"("Time": 0, "EventType": "AudioCustom", "EventWaveformPath": "a.wav")"))->warnings.size() ==
+        1);
+
+    CHECK(errorOf("{}").starts_with("Pattern: is missing"));
+    CHECK(errorOf(R"({"Version": 2, "Pattern": []})").starts_with("Version: is 2"));
+    CHECK(errorOf(R"({"Pattern": 1})").starts_with("Pattern: must be a list"));
+    CHECK(errorOf(pattern("{}")).starts_with("Pattern[0]: is neither"));
+    CHECK(errorOf(pattern("3")).starts_with("Pattern[0]: must be an object"));
+    CHECK(errorOf(event(R"("EventType": "HapticTransient")")).starts_with("Pattern[0].Event.Time: is missing"));
+    CHECK(errorOf(event(R"("Time": -1, "EventType": "HapticTransient")"))
+              .starts_with("Pattern[0].Event.Time: is before"));
+    CHECK(errorOf(event(R"("Time": 0, "EventType": "Haptic")")).starts_with("Pattern[0].Event.EventType: is no type"));
+    CHECK(
+        errorOf(event(R"("Time": "0", "EventType": "HapticTransient")")).starts_with("Pattern[0].Event.Time: must be"));
+    CHECK(errorOf(event(R"("Time": 1e9, "EventType": "HapticTransient")")).starts_with("Pattern[0].Event.Time: "));
+    CHECK(errorOf(event(R"("Time": 0, "EventDuration": -1, "EventType": "HapticContinuous")"))
+              .starts_with("Pattern[0].Event.EventDuration: "));
+    CHECK(errorOf(pattern(R"({"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 0,
+                             "ParameterCurveControlPoints": []}})"))
+              .starts_with("Pattern[0].ParameterCurve.ParameterCurveControlPoints: has no point"));
+    CHECK(errorOf(pattern(R"({"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 0,
+        "ParameterCurveControlPoints": [{"Time": 1, "ParameterValue": 0}, {"Time": 0, "ParameterValue": 0}]}})"))
+              .starts_with("Pattern[0].ParameterCurve.ParameterCurveControlPoints[1].Time: is earlier"));
+    CHECK(errorOf(pattern(R"({"Parameter": {"ParameterID": "HapticIntensityControl", "Time": 0}})"))
+              .starts_with("Pattern[0].Parameter.ParameterValue: is missing"));
+    CHECK_FALSE(errorOf("\xEF\xBB\xBF{}").empty());
+    CHECK_FALSE(errorOf(R"({"Pattern": [],})").empty());
+    CHECK_FALSE(errorOf(std::string(50'000, '[')).empty());
+
+    std::string crowd;
+    for (int i = 0; i < 300; ++i)
+        crowd += std::string(i > 0 ? "," : "") +
+                 R"({"Event": {"Time": 0, "EventDuration": 1, "EventType": "HapticContinuous"}})";
+    CHECK(errorOf(pattern(crowd)).starts_with("Pattern: has more than 256"));
+}

@@ -1,0 +1,336 @@
+#include "io/formats/HapticFormat.h"
+
+#include "support/Catch.h"
+#include "support/RandomClip.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+using namespace pacini;
+
+namespace
+{
+using Json = nlohmann::json;
+
+Json plain()
+{
+    return Json::parse(R"({"version":{"major":1,"minor":0,"patch":0},
+        "metadata":{"editor":"","author":"","source":"","project":"","tags":[],"description":""},
+        "signals":{"continuous":{"envelopes":{
+            "amplitude":[{"time":0,"amplitude":0.5,"emphasis":{"amplitude":0.7,"frequency":0.2}},
+                         {"time":1,"amplitude":0.25}],
+            "frequency":[{"time":0,"frequency":0.5},{"time":1,"frequency":1}]}}}})");
+}
+
+Json& amplitude(Json& file)
+{
+    return file["signals"]["continuous"]["envelopes"]["amplitude"];
+}
+Json& frequency(Json& file)
+{
+    return file["signals"]["continuous"]["envelopes"]["frequency"];
+}
+
+/// "where: message" of the error after a change; "" when it is accepted.
+std::string errorAfter(const std::function<void(Json&)>& change)
+{
+    Json file = plain();
+    change(file);
+    const auto read = readHaptic(file.dump());
+    return read.ok() ? "" : read.error().text();
+}
+
+bool warnsAfter(const std::function<void(Json&)>& change)
+{
+    Json file = plain();
+    change(file);
+    const auto read = readHaptic(file.dump());
+    REQUIRE(read.ok());
+    return !read->warnings.empty();
+}
+
+/// The rules of the strictest reader, on the numbers as 32-bit floats; "" when all hold.
+std::string brokenRule(const std::string& text)
+{
+    const Json file = Json::parse(text);
+    if (file.at("version") != Json{{"major", 1}, {"minor", 0}, {"patch", 0}})
+        return "version";
+    const Json& envelopes = file.at("signals").at("continuous").at("envelopes");
+    const Json& points = envelopes.at("amplitude");
+    if (points.size() < 2 || points.front().at("time") != 0.0)
+        return "amplitude points";
+    float before = 0.0f;
+    const auto unit = [](const Json& value)
+    {
+        return value.get<float>() >= 0.0f && value.get<float>() <= 1.0f;
+    };
+    for (const Json& point : points)
+    {
+        if (point.at("time").get<float>() < before)
+            return "amplitude order";
+        before = point.at("time").get<float>();
+        if (!unit(point.at("amplitude")))
+            return "amplitude range";
+        if (!point.contains("emphasis"))
+            continue;
+        const Json& emphasis = point["emphasis"];
+        if (!unit(emphasis.at("amplitude")) || !unit(emphasis.at("frequency")) ||
+            emphasis["amplitude"].get<float>() < point["amplitude"].get<float>())
+            return "emphasis";
+    }
+    if (!(before > 0.0f))
+        return "duration";
+    float last = 0.0f;
+    for (const Json& point : envelopes.at("frequency"))
+    {
+        if (point.at("time").get<float>() < last || point.at("time").get<float>() > before)
+            return "frequency order";
+        last = point.at("time").get<float>();
+        if (!unit(point.at("frequency")))
+            return "frequency range";
+    }
+    return "";
+}
+
+std::string written(const Clip& clip, const ExportParams& params = {})
+{
+    const auto exported = writeHaptic(clip, params);
+    REQUIRE((exported.ok() ? "" : exported.error().text()) == "");
+    REQUIRE(exported->files.size() == 1);
+    return exported->files.front().bytes;
+}
+
+/// A file of `points` random points as a studio could have made it, with steps and emphases.
+Json randomFile(std::uint64_t seed)
+{
+    Random random(seed);
+    Json file = plain();
+    const auto digits = [](double value)
+    {
+        return std::round(value * 1e4) / 1e4;
+    };
+    amplitude(file) = Json::array();
+    frequency(file) = Json::array();
+    double time = 0.0;
+    for (int i = 0; i < 200; ++i)
+    {
+        const double value = digits(random.uniform(0.0, 1.0));
+        Json point{{"time", digits(time)}, {"amplitude", value}};
+        if (random.next() % 8 == 0)
+            point["emphasis"] = {{"amplitude", digits(random.uniform(value, 1.0))},
+                                 {"frequency", digits(random.uniform(0.0, 1.0))}};
+        amplitude(file).push_back(point);
+        if (i % 3 == 0)
+            frequency(file).push_back({{"time", digits(time)}, {"frequency", digits(random.uniform(0.0, 1.0))}});
+        if (random.next() % 8 != 0)
+            time += random.uniform(0.002, 0.3);
+    }
+    return file;
+}
+} // namespace
+
+TEST_CASE(".haptic: what all readers refuse is an error with its place", "[io][formats]")
+{
+    const std::string envelopes = "signals.continuous.envelopes.";
+    REQUIRE(errorAfter([](Json&) {}) == "");
+    const auto starts = [](const std::string& text, const std::string& start)
+    {
+        INFO(text);
+        return text.starts_with(start);
+    };
+    CHECK(starts(errorAfter([](Json& f) { f.erase("version"); }), "version: is missing"));
+    CHECK(starts(errorAfter([](Json& f) { f["version"] = "1.0.0"; }), "version: "));
+    CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 2; }), "version.major: is 2"));
+    CHECK(starts(errorAfter([](Json& f) { f["version"]["major"] = 1.5; }), "version.major: "));
+    CHECK(starts(errorAfter([](Json& f) { f["metadata"] = nullptr; }), "metadata"));
+    CHECK(starts(errorAfter([](Json& f) { f["metadata"]["tags"] = {1}; }), "metadata.tags[0]: "));
+    CHECK(starts(errorAfter([](Json& f) { f.erase("signals"); }), "signals: is missing"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f) = Json::array(); }), envelopes + "amplitude: has no point"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f) = 3; }), envelopes + "amplitude: must be a list"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["time"] = -0.1; }), envelopes + "amplitude[0].time: "));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["time"] = 2.0; }), envelopes + "amplitude[1].time: "));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[1]["time"] = "1"; }), envelopes + "amplitude[1].time: must be"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[1].erase("amplitude"); }),
+                 envelopes + "amplitude[1].amplitude: is missing"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[1]["amplitude"] = 1.0001; }),
+                 envelopes + "amplitude[1].amplitude: "));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["emphasis"]["amplitude"] = 0.4999; }),
+                 envelopes + "amplitude[0].emphasis.amplitude: is below"));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[0]["emphasis"].erase("frequency"); }),
+                 envelopes + "amplitude[0].emphasis.frequency: is missing"));
+    CHECK(starts(errorAfter([](Json& f) { frequency(f)[0]["time"] = 2.0; }),
+                 envelopes + "frequency[1].time: is earlier"));
+    CHECK(starts(errorAfter([](Json& f) { frequency(f)[0]["frequency"] = -0.1; }),
+                 envelopes + "frequency[0].frequency: "));
+    CHECK(starts(errorAfter([](Json& f) { amplitude(f)[1]["time"] = 1e30; }), envelopes + "amplitude[1].time: "));
+}
+
+TEST_CASE(".haptic: what some reader takes is taken", "[io][formats]")
+{
+    CHECK(errorAfter([](Json& f) { amplitude(f).erase(1); }) == "");
+    CHECK(warnsAfter([](Json& f) { amplitude(f).erase(1); }));
+    CHECK(warnsAfter([](Json& f) { amplitude(f)[1]["time"] = 0.0; }));
+    CHECK(warnsAfter([](Json& f) { frequency(f)[1]["time"] = 1.5; }));
+    CHECK(warnsAfter([](Json& f) { f["metadata"]["author"] = "somebody"; }));
+    CHECK_FALSE(warnsAfter([](Json& f) { amplitude(f)[0]["emphasis"]["amplitude"] = 0.5; }));
+    CHECK_FALSE(warnsAfter(
+        [](Json& f)
+        {
+            amplitude(f)[0]["time"] = 0.5;
+            frequency(f)[0]["time"] = 0.5;
+        }));
+    CHECK_FALSE(warnsAfter(
+        [](Json& f)
+        {
+            f["unknown"] = 1;
+            amplitude(f)[0]["unknown"] = 2;
+        }));
+    for (const Json& none : {Json(), Json::array()})
+        CHECK_FALSE(warnsAfter([&](Json& f) { frequency(f) = none; }));
+    CHECK_FALSE(warnsAfter([](Json& f) { f["signals"]["continuous"]["envelopes"].erase("frequency"); }));
+    CHECK(warnsAfter([](Json& f) { f["version"]["minor"] = 3; }));
+    CHECK_FALSE(warnsAfter(
+        [](Json& f)
+        {
+            f.erase("metadata");
+            f["version"] = {{"major", 1}};
+        }));
+}
+
+TEST_CASE(".haptic: texts that are no JSON are refused where they go wrong", "[io][formats]")
+{
+    const std::string good = plain().dump();
+    const auto refused = [](const std::string& text)
+    {
+        const auto read = readHaptic(text);
+        return !read.ok() && !read.error().message.empty();
+    };
+    REQUIRE_FALSE(refused(good));
+    CHECK(refused(""));
+    CHECK(refused("\xEF\xBB\xBF" + good));
+    CHECK(refused(std::string("\xFF\xFE{\0", 4)));
+    CHECK(refused(good.substr(0, good.size() / 2)));
+    CHECK(refused(std::string(good).replace(good.find("}]"), 2, "},]")));
+    CHECK(refused(std::string(good).replace(good.find("0.25"), 4, "NaN")));
+    CHECK(refused(std::string(good).replace(good.find("0.25"), 4, "1e999")));
+    CHECK(refused(std::string(100'000, '[')));
+    CHECK(refused("[]"));
+}
+
+TEST_CASE(".haptic: a clip is read as one band, in Hz, with events", "[io][formats]")
+{
+    Json file = plain();
+    file["metadata"]["source"] = "C:\\sounds\\door.wav";
+    file["metadata"]["project"] = "door";
+    const auto read = readHaptic(file.dump());
+    REQUIRE(read.ok());
+    const Clip& clip = read->clip;
+    REQUIRE(clip.duration == 1.0);
+    REQUIRE(clip.source.file == "door.wav");
+    REQUIRE(clip.name == "door");
+    REQUIRE(clip.bands.size() == 1);
+    REQUIRE(clip.bands[0].amplitude == Curve{{0.0, 0.5}, {1.0, 0.25}});
+    REQUIRE(clip.bands[0].pitch == Curve{{0.0, 127.5}, {1.0, 200.0}});
+    REQUIRE(clip.transients.size() == 1);
+    REQUIRE(std::abs(clip.transients[0].amplitude - 0.7) < 1e-6);
+    REQUIRE(std::abs(clip.transients[0].sharpness - 0.2) < 1e-6);
+}
+
+TEST_CASE(".haptic: files come back from clips point by point", "[io][formats]")
+{
+    for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    {
+        CAPTURE(seed);
+        Json file = randomFile(seed);
+        const auto read = readHaptic(file.dump());
+        REQUIRE((read.ok() ? "" : read.error().text()) == "");
+        const std::string text = written(read->clip);
+        REQUIRE(brokenRule(text) == "");
+        Json back = Json::parse(text);
+        REQUIRE(amplitude(back).size() == amplitude(file).size());
+        for (std::size_t i = 0; i < amplitude(file).size(); ++i)
+        {
+            const Json& a = amplitude(file)[i];
+            const Json& b = amplitude(back)[i];
+            REQUIRE(std::abs(a["time"].get<double>() - b["time"].get<double>()) < 0.5e-3);
+            REQUIRE(std::abs(a["amplitude"].get<double>() - b["amplitude"].get<double>()) < 1.0 / 255.0);
+        }
+        std::size_t before = 0, after = 0;
+        for (const Json& point : amplitude(file))
+            before += point.contains("emphasis");
+        for (const Json& point : amplitude(back))
+            after += point.contains("emphasis");
+        REQUIRE(after == before);
+        const auto again = readHaptic(text);
+        REQUIRE(again.ok());
+        REQUIRE(again->warnings.empty());
+        REQUIRE(written(again->clip) == text);
+    }
+}
+
+TEST_CASE(".haptic: any clip is written by the strictest rules", "[io][formats]")
+{
+    for (std::uint64_t seed = 0; seed < 200; ++seed)
+    {
+        CAPTURE(seed);
+        const Clip clip = test::randomFullClip(seed);
+        const std::string text = written(clip);
+        REQUIRE(brokenRule(text) == "");
+        REQUIRE(readHaptic(text)->clip.transients.size() == clip.transients.size());
+        REQUIRE(written(clip) == text);
+    }
+    Clip empty;
+    REQUIRE(brokenRule(written(empty)) == "");
+    empty.transients = {{0.0, 3.0, 0.5}, {0.0, 0.0, 0.5}};
+    REQUIRE(brokenRule(written(empty)) == "");
+    Clip day;
+    day.duration = 86400.0;
+    day.transients = {{86399.9995, 1.0, 0.0}, {86399.9996, 1.0, 0.0}};
+    REQUIRE(brokenRule(written(day)) == "");
+}
+
+TEST_CASE(".haptic: points are at most as many as asked for, and what they lose is said", "[io][formats]")
+{
+    Clip clip;
+    clip.duration = 4.0;
+    clip.bands = {{50.0, 100.0, 200.0, 0, {}, {}}};
+    Random random(7);
+    for (int i = 0; i <= 4000; ++i)
+        clip.bands[0].amplitude.push_back({0.001 * i, random.uniform(0.0, 1.0)});
+    clip.envelope = clip.bands[0].amplitude;
+    ExportParams params;
+    params.amplitudePoints = 20.0;
+    Json file = Json::parse(written(clip, params));
+    REQUIRE(amplitude(file).size() <= 80);
+    REQUIRE(amplitude(file).size() > 70);
+    const auto losses = writeHaptic(clip, params)->losses;
+    REQUIRE(std::any_of(losses.begin(), losses.end(),
+                        [](const FormatLoss& loss) { return loss.kind == LossKind::points && loss.error > 0.3; }));
+    Json usual = Json::parse(written(clip));
+    REQUIRE(amplitude(usual).size() <= 160);
+}
+
+TEST_CASE(".haptic: frequencies beyond the range move to its end, and a profile sets the range", "[io][formats]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{50.0, 400.0, 500.0, 0, {{0.0, 1.0}, {1.0, 1.0}}, {}}};
+    const auto exported = writeHaptic(clip, {});
+    Json file = Json::parse(exported->files[0].bytes);
+    REQUIRE(frequency(file)[0]["frequency"] == 1.0);
+    REQUIRE(exported->losses.size() == 1);
+    REQUIRE(exported->losses[0].kind == LossKind::frequency);
+    REQUIRE(std::abs(exported->losses[0].error - 1.0) < 1e-9); // 400 Hz are an octave above 200 Hz
+    ExportParams params;
+    params.profile.emplace();
+    params.profile->technology = Technology::pcm;
+    params.profile->range.lowFrequency = 200.0;
+    params.profile->range.highFrequency = 600.0;
+    Json wide = Json::parse(written(clip, params));
+    REQUIRE(std::abs(frequency(wide)[0]["frequency"].get<double>() - 0.5) < 1e-6);
+}
