@@ -48,6 +48,13 @@ private:
             else
                 juce::Viewport::mouseWheelMove(event, details);
         }
+
+        /// These move the playhead.
+        bool keyPressed(const juce::KeyPress& key) override
+        {
+            const bool ends = key == juce::KeyPress::homeKey || key == juce::KeyPress::endKey;
+            return !ends && juce::Viewport::keyPressed(key);
+        }
     };
 
     void sessionChanged(unsigned changes) override;

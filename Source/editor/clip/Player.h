@@ -25,9 +25,9 @@ public:
     void prepare(double sampleRate);
 
     /// See PreviewEngine::process(). [audio]
-    void process(std::span<float> haptic, std::span<const std::span<float>> sound) noexcept
+    void process(std::span<float> haptic, std::span<const std::span<float>> soundOut) noexcept
     {
-        engine->process(haptic, sound);
+        engine->process(haptic, soundOut);
     }
 
     void set(Playback playback);
