@@ -37,7 +37,7 @@ bool Session::take(Result<void> result)
 
 void Session::changed(unsigned what)
 {
-    listeners.call([what](Listener& listener) { listener.sessionChanged(what); });
+    listeners.call(what);
 }
 
 // The project.

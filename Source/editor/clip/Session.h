@@ -14,6 +14,7 @@
 
 #include <juce_core/juce_core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -65,6 +66,24 @@ public:
         virtual void sessionChanged(unsigned changes) = 0;
     };
 
+    /// Calls all, also when some are removed meanwhile.
+    class Listeners
+    {
+    public:
+        void add(Listener* one) { list.push_back(one); }
+        void remove(Listener* one) { std::erase(list, one); }
+        void call(unsigned changes) const
+        {
+            const auto now = list;
+            for (Listener* one : now)
+                if (std::find(list.begin(), list.end(), one) != list.end())
+                    one->sessionChanged(changes);
+        }
+
+    private:
+        std::vector<Listener*> list;
+    };
+
     struct Folders
     {
         std::filesystem::path recovery; ///< empty: no autosave
@@ -74,7 +93,7 @@ public:
     Session(const Folders& folders, std::vector<NamedProfile> profiles);
     ~Session();
 
-    juce::ListenerList<Listener> listeners;
+    Listeners listeners;
     std::function<void(const juce::String& title, const juce::String& text)> onError;
 
     // The project.
