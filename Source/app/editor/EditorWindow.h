@@ -22,6 +22,7 @@ public:
 
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }
     void closeButtonPressed() override;
+    void focusGained(FocusChangeType) override { content.takeFocus(); }
 
 private:
     void showDevices();

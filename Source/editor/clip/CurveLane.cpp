@@ -14,7 +14,7 @@ namespace pacini::editor
 namespace
 {
 constexpr float pickRadius = 7.0f;         // pixels
-constexpr double pixelsForHandles = 7.0;   // a point, on average
+constexpr double pixelsForHandles = 5.0;   // a point, on average
 constexpr double mostDrawnAsLine = 3000.0; // points
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
@@ -51,7 +51,7 @@ juce::String hertzText(double frequency)
 {
     if (frequency >= 1000.0)
         return juce::String(frequency / 1000.0, 2) + " kHz";
-    return juce::String(frequency, frequency < 100.0 ? 1 : 0) + " Hz";
+    return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
 }
 
 juce::String amplitudeText(double amplitude)

@@ -163,14 +163,19 @@ void EditorView::resized()
 
 // Sheets.
 
+void EditorView::takeFocus()
+{
+    if (sheetNow)
+        sheetNow->takeFocus();
+    else if (isShowing())
+        grabKeyboardFocus();
+}
+
 void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
 {
     sheetNow = std::move(wanted);
     if (!sheetNow)
-    {
-        grabKeyboardFocus();
-        return;
-    }
+        return takeFocus();
     sheetNow->onClose = [this]
     {
         // Not from within one of its own functions.

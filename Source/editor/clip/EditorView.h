@@ -50,6 +50,8 @@ public:
     /// Offers what an earlier run has left.
     void offerRecovery();
     void showSheet(std::unique_ptr<Sheet> wanted);
+    /// Gives the keyboard to what is in front.
+    void takeFocus();
     [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
 
     void open(const std::vector<std::filesystem::path>& files);

@@ -87,7 +87,7 @@ void EmptyState::setDropping(bool dropping)
 juce::Rectangle<int> EmptyState::field() const
 {
     return getLocalBounds().withSizeKeepingCentre(std::min(720, getWidth() - 4 * grid),
-                                                  std::min(416, getHeight() - 4 * grid));
+                                                  std::min(recentButtons.empty() ? 288 : 408, getHeight() - 4 * grid));
 }
 
 void EmptyState::paint(juce::Graphics& g)

@@ -57,7 +57,9 @@ ValueAxis EventLane::valueAxis(double height) const
     if (const auto clip = session.clip())
         for (const Transient& event : clip->transients)
             highest = std::max(highest, event.amplitude);
-    return amplitudeAxis(session.amplitudesInDecibels(), 1.15 * highest, height);
+    // Room for the heads of the strongest: a tenth of the height on either scale.
+    const bool decibels = session.amplitudesInDecibels();
+    return amplitudeAxis(decibels, (decibels ? 2.0 : 1.12) * highest, height);
 }
 
 void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)

@@ -69,7 +69,7 @@ Inspector::Inspector(Session& shared)
         one.setTitle(title);
         one.setTooltip(help);
         one.setFont(usualFont());
-        one.setJustificationType(juce::Justification::centredRight);
+        one.setJustificationType(juce::Justification::centred);
         one.setWantsKeyboardFocus(true);
         addAndMakeVisible(one);
     };
@@ -216,7 +216,8 @@ void Inspector::showSelection()
     set(valueLabel, valueField, first.has_value(),
         first ? first->hertz ? hertzText(first->value) : amplitudeText(first->value) : juce::String());
     const bool sharp = first && first->sharpness;
-    set(sharpLabel, sharpField, sharp, sharp ? juce::String(100.0 * *first->sharpness, 0) + " %" : juce::String());
+    set(sharpLabel, sharpField, sharp,
+        sharp ? juce::String(juce::roundToInt(100.0 * *first->sharpness)) + " %" : juce::String());
     juce::String scope;
     const auto count = static_cast<int>(selectedCount(selection));
     if (count > 0)

@@ -38,10 +38,14 @@ double tickStep(double secondsPerPixel)
 juce::String timeText(double time, double step)
 {
     const int decimals = step >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+    const auto number = [decimals](double value)
+    {
+        return decimals > 0 ? juce::String(value, decimals) : juce::String(juce::roundToInt(value));
+    };
     if (time < 60.0)
-        return juce::String(time, decimals) + " s";
+        return number(time) + " s";
     const int minutes = static_cast<int>(time / 60.0 + 1e-9);
-    const auto seconds = juce::String(std::max(0.0, time - 60.0 * minutes), decimals);
+    const auto seconds = number(std::max(0.0, time - 60.0 * minutes));
     return juce::String(minutes) + ":" + (seconds.indexOfChar('.') == 1 || seconds.length() == 1 ? "0" : "") + seconds;
 }
 } // namespace
