@@ -13,9 +13,9 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float pickRadius = 7.0f;         // pixels
-constexpr double pixelsForHandles = 5.0;   // a point, on average
-constexpr double mostDrawnAsLine = 3000.0; // points
+constexpr float pickRadius = 7.0f;          // pixels
+constexpr double pixelsForHandles = 5.0;    // a point, on average
+constexpr double mostPointsPerColumn = 0.2; // more are drawn as bars
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
 std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
@@ -228,57 +228,53 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     const auto [first, last] =
         reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
     const double perColumn = static_cast<double>(last - first) / std::max(1, lastColumn - firstColumn + 16);
-    if (perColumn > 0.5 || static_cast<double>(last - first) > mostDrawnAsLine)
+    const bool bars = perColumn > mostPointsPerColumn;
+    if (bars || filled)
     {
+        // Bars of whole pixels are many times faster than filled paths.
         std::vector<Column> columns(static_cast<std::size_t>(std::max(0, lastColumn - firstColumn)));
         axis.start = axis.timeAt(firstColumn);
         curveColumns(*points, axis, columns);
         const int bottom = plot.getBottom();
+        const juce::Colour fill = colour.withMultipliedAlpha(bars ? 0.35f : 0.18f);
+        const auto yOf = [&](float value)
+        {
+            const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
+            return plot.getY() + juce::roundToInt(y);
+        };
         for (std::size_t i = 0; i < columns.size(); ++i)
         {
             const int x = plot.getX() + firstColumn + static_cast<int>(i);
-            const auto limit = [&](float value)
-            {
-                const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
-                return plot.getY() + juce::roundToInt(y);
-            };
-            const int top = limit(columns[i].high);
-            const int low = limit(columns[i].low);
+            const int top = yOf(columns[i].high);
+            const int low = bars ? yOf(columns[i].low) : top;
+            g.setColour(fill);
             if (filled)
-            {
-                g.setColour(colour.withMultipliedAlpha(0.35f));
                 g.fillRect(x, low, 1, bottom - low);
-            }
             g.setColour(colour);
-            g.fillRect(x, top, 1, std::max(2, low - top));
+            if (bars)
+                g.fillRect(x, top, 1, std::max(2, low - top));
         }
-        return;
     }
-    juce::Path line;
+    if (bars)
+        return;
     const auto at = [&](std::size_t i)
     {
         return pointOf((*points)[i]);
     };
-    // Before the first and behind the last point their values hold.
+    g.setColour(colour);
+    const auto line = [&](juce::Point<float> from, juce::Point<float> to)
+    {
+        g.drawLine({from, to}, 1.5f);
+    };
+    // Before the first and behind the last point their values hold. Line by line, for steep ones make a path slow.
     const float left = static_cast<float>(plot.getX() + firstColumn) - 4.0f;
     const float right = static_cast<float>(plot.getX() + lastColumn) + 4.0f;
-    line.startNewSubPath(first == 0 ? std::min(left, at(first).x) : at(first).x, at(first).y);
-    for (std::size_t i = first; i < last; ++i)
-        line.lineTo(at(i));
-    if (last == points->size())
-        line.lineTo(std::max(right, at(last - 1).x), at(last - 1).y);
-    if (filled)
-    {
-        juce::Path area = line;
-        const auto bottom = static_cast<float>(plot.getBottom());
-        area.lineTo(area.getCurrentPosition().x, bottom);
-        area.lineTo(line.getBounds().getX(), bottom);
-        area.closeSubPath();
-        g.setColour(colour.withMultipliedAlpha(0.18f));
-        g.fillPath(area);
-    }
-    g.setColour(colour);
-    g.strokePath(line, juce::PathStrokeType(1.5f));
+    if (first == 0 && at(0).x > left)
+        line({left, at(0).y}, at(0));
+    for (std::size_t i = first; i + 1 < last; ++i)
+        line(at(i), at(i + 1));
+    if (last == points->size() && at(last - 1).x < right)
+        line(at(last - 1), {right, at(last - 1).y});
     if (!showsHandles())
         return;
     const Indices chosen = picked();
