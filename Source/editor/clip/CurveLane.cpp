@@ -15,6 +15,7 @@ namespace
 {
 constexpr float pickRadius = 7.0f;          // pixels
 constexpr double pixelsForHandles = 5.0;    // a point, on average
+constexpr float straightPixels = 8.0f;      // of a line that bends
 constexpr double mostPointsPerColumn = 0.2; // more are drawn as bars
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
@@ -269,10 +270,35 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     // Before the first and behind the last point their values hold. Line by line, for steep ones make a path slow.
     const float left = static_cast<float>(plot.getX() + firstColumn) - 4.0f;
     const float right = static_cast<float>(plot.getX() + lastColumn) + 4.0f;
+    const auto pointAtX = [&](float x)
+    {
+        const double time = session.axis().timeAt(static_cast<double>(x) - plot.getX());
+        return juce::Point<float>(x, pointOf({time, valueAt(*points, time)}).y);
+    };
     if (first == 0 && at(0).x > left)
         line({left, at(0).y}, at(0));
     for (std::size_t i = first; i + 1 < last; ++i)
-        line(at(i), at(i + 1));
+    {
+        const auto from = at(i);
+        const auto to = at(i + 1);
+        if (values.scale == ValueScale::linear || to.x - from.x <= straightPixels)
+        {
+            line(from, to);
+            continue;
+        }
+        // What is straight in value bends on a scale of decibels or octaves.
+        auto before = from.x >= left ? from : pointAtX(left);
+        const float end = std::min(to.x, right);
+        while (before.x < end)
+        {
+            const float x = std::min(end, before.x + straightPixels);
+            const auto next = x < to.x ? pointAtX(x) : to;
+            line(before, next);
+            before = next;
+            if (x >= end)
+                break;
+        }
+    }
     if (last == points->size() && at(last - 1).x < right)
         line(at(last - 1), {right, at(last - 1).y});
     if (!showsHandles())

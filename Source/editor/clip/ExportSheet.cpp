@@ -75,7 +75,8 @@ ExportSheet::ExportSheet(Session& shared)
         showLosses();
     };
     const auto count = session.document().project().clips.size();
-    all.setButtonText("All " + juce::String(static_cast<int>(count)) + " clips of the project");
+    all.setButtonText(count > 1 ? "All " + juce::String(static_cast<int>(count)) + " clips of the project"
+                                : juce::String("All clips of the project"));
     all.setTitle("Export all clips");
     all.setTooltip("One file for each clip, named after it, into a folder");
     all.setEnabled(count > 1);
