@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The clip editor as a program of its own: PaciniEditor [--fresh] [--device-type TYPE] [FILE...]
+
+#include "app/editor/EditorWindow.h"
+#include "app/editor/PreviewRig.h"
+#include "plugin/ProfileShelf.h"
+
+#include <juce_audio_utils/juce_audio_utils.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace pacini::app
+{
+
+namespace
+{
+constexpr std::size_t profileSlots = 64;
+
+std::filesystem::path pathOf(const juce::File& file)
+{
+    return std::filesystem::path(file.getFullPathName().toStdString());
+}
+
+std::vector<editor::NamedProfile> shelf()
+{
+    std::vector<editor::NamedProfile> profiles;
+    for (std::size_t slot = 0; slot < profileSlots; ++slot)
+        if (auto profile = plugin::shelfProfile(slot))
+            profiles.push_back(
+                {std::string(plugin::profileNameOf(slot)), std::make_shared<const Profile>(std::move(*profile))});
+    return profiles;
+}
+
+/// The sounds in Resources/demo or share/pacini/demo in the program's folder or one of those above it.
+std::vector<std::filesystem::path> demoSounds()
+{
+    constexpr int mostFolders = 7;
+    juce::File folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
+    for (int i = 0; i < mostFolders; ++i, folder = folder.getParentDirectory())
+        for (const char* name : {"Resources/demo", "share/pacini/demo"})
+        {
+            auto found = folder.getChildFile(name).findChildFiles(juce::File::findFiles, false, "*.flac");
+            if (found.isEmpty())
+                continue;
+            found.sort();
+            std::vector<std::filesystem::path> paths;
+            for (const auto& file : found)
+                paths.push_back(pathOf(file));
+            return paths;
+        }
+    return {};
+}
+} // namespace
+
+class EditorApplication final : public juce::JUCEApplication
+{
+public:
+    const juce::String getApplicationName() override { return "Pacini Editor"; }
+    const juce::String getApplicationVersion() override { return PACINI_VERSION; }
+    bool moreThanOneInstanceAllowed() override { return true; }
+
+    void initialise(const juce::String&) override
+    {
+        bool fresh = false;
+        juce::String deviceType;
+        std::vector<std::filesystem::path> files;
+        const auto arguments = getCommandLineParameterArray();
+        for (int i = 0; i < arguments.size(); ++i)
+            if (arguments[i] == "--fresh")
+                fresh = true;
+            else if (arguments[i] == "--device-type")
+                deviceType = arguments[++i].unquoted();
+            else if (!arguments[i].startsWith("-"))
+                files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(arguments[i].unquoted())));
+        const auto home = settingsFolder();
+        if (!fresh)
+        {
+            home.createDirectory();
+            settings = std::make_unique<juce::PropertiesFile>(home.getChildFile("editor.settings"),
+                                                              juce::PropertiesFile::Options());
+        }
+        editor::Session::Folders folders;
+        if (!fresh)
+            folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
+        session = std::make_unique<editor::Session>(folders, shelf());
+        rig = std::make_unique<PreviewRig>(session->player);
+        std::unique_ptr<juce::XmlElement> devices;
+        if (settings)
+        {
+            devices = settings->getXmlValue("devices");
+            rig->setOutputs({settings->getIntValue("soundOutput", 0), settings->getIntValue("hapticOutput", 2)});
+        }
+        if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
+            juce::Logger::writeToLog("Pacini: no sound device: " + error);
+        window = std::make_unique<EditorWindow>(*session, *rig, demoSounds());
+        auto& view = window->view();
+        if (settings)
+        {
+            view.setDark(settings->getBoolValue("dark", true));
+            view.setScale(settings->getDoubleValue("scale", 1.0));
+        }
+        window->centreWithSize(1280, 800);
+        if (!settings || !window->restoreWindowStateFromString(settings->getValue("window")))
+            window->centreWithSize(1280, 800);
+        window->setVisible(true);
+        view.grabKeyboardFocus();
+        if (!files.empty())
+            view.open(files);
+        view.offerRecovery();
+    }
+
+    void anotherInstanceStarted(const juce::String&) override {}
+
+    void systemRequestedQuit() override
+    {
+        window->view().whenSaved([this] { leave(); });
+    }
+
+    void shutdown() override
+    {
+        if (settings && window)
+        {
+            auto& view = window->view();
+            settings->setValue("dark", view.isDark());
+            settings->setValue("scale", view.scale());
+            settings->setValue("window", window->getWindowStateAsString());
+            settings->setValue("soundOutput", rig->outputs().sound);
+            settings->setValue("hapticOutput", rig->outputs().haptic);
+            if (const auto devices = rig->devices().createStateXml())
+                settings->setValue("devices", devices.get());
+            settings->saveIfNeeded();
+        }
+        window.reset();
+        rig.reset();
+        session.reset();
+    }
+
+private:
+    static juce::File settingsFolder()
+    {
+#if JUCE_LINUX || JUCE_BSD
+        return juce::File("~/.config").getChildFile("pacini-editor");
+#else
+        return juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory).getChildFile("Pacini Editor");
+#endif
+    }
+
+    void leave()
+    {
+        // The user has decided about what was not saved.
+        session->discardAutosave();
+        quit();
+    }
+
+    std::unique_ptr<juce::PropertiesFile> settings;
+    std::unique_ptr<editor::Session> session;
+    std::unique_ptr<PreviewRig> rig;
+    std::unique_ptr<EditorWindow> window;
+};
+
+} // namespace pacini::app
+
+START_JUCE_APPLICATION(pacini::app::EditorApplication)

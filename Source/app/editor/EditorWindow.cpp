@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/editor/EditorWindow.h"
+
+#include "app/editor/DevicesSheet.h"
+
+namespace pacini::app
+{
+
+EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos)
+    : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
+      rig(wanted),
+      content(session, std::move(demos))
+{
+    setUsingNativeTitleBar(true);
+    setContentNonOwned(&content, false);
+    setResizable(true, false);
+    setResizeLimits(880, 560, 6000, 4000);
+    content.onTitleChanged = [this]
+    {
+        setName(content.title());
+    };
+    content.onDevices = [this]
+    {
+        showDevices();
+    };
+    content.onQuit = []
+    {
+        juce::JUCEApplication::getInstance()->systemRequestedQuit();
+    };
+    setName(content.title());
+}
+
+EditorWindow::~EditorWindow()
+{
+    clearContentComponent();
+}
+
+void EditorWindow::closeButtonPressed()
+{
+    juce::JUCEApplication::getInstance()->systemRequestedQuit();
+}
+
+void EditorWindow::showDevices()
+{
+    content.showSheet(std::make_unique<DevicesSheet>(rig));
+}
+
+} // namespace pacini::app

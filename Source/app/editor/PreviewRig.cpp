@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/editor/PreviewRig.h"
+
+#include <algorithm>
+#include <span>
+#include <thread>
+
+namespace pacini::app
+{
+
+PreviewRig::PreviewRig(editor::Player& wanted) : player(wanted) {}
+
+PreviewRig::~PreviewRig()
+{
+    cancelPendingUpdate();
+    manager.removeAudioCallback(this);
+    manager.closeAudioDevice();
+}
+
+juce::String PreviewRig::open(const juce::XmlElement* saved, const juce::String& deviceType)
+{
+    if (deviceType.isNotEmpty())
+    {
+        manager.getAvailableDeviceTypes();
+        manager.setCurrentAudioDeviceType(deviceType, true);
+        juce::AudioDeviceManager::AudioDeviceSetup setup;
+        if (auto* type = manager.getCurrentDeviceTypeObject())
+        {
+            type->scanForDevices();
+            setup.outputDeviceName = type->getDeviceNames(false)[type->getDefaultDeviceIndex(false)];
+        }
+        const auto error = manager.initialise(0, mostChannels, nullptr, false, {}, &setup);
+        manager.addAudioCallback(this);
+        return error;
+    }
+    const auto error = manager.initialise(0, mostChannels, saved, true);
+    manager.addAudioCallback(this);
+    return error;
+}
+
+juce::StringArray PreviewRig::outputNames() const
+{
+    auto* device = manager.getCurrentAudioDevice();
+    return device != nullptr ? device->getOutputChannelNames() : juce::StringArray();
+}
+
+void PreviewRig::setOutputs(PreviewOutputs wanted) noexcept
+{
+    soundOutput.store(wanted.sound, std::memory_order_relaxed);
+    hapticOutput.store(wanted.haptic, std::memory_order_relaxed);
+}
+
+void PreviewRig::audioDeviceAboutToStart(juce::AudioIODevice* device)
+{
+    rate.store(device->getCurrentSampleRate());
+    running.store(false);
+    // The player belongs to the message thread; some devices start on their own.
+    triggerAsyncUpdate();
+}
+
+void PreviewRig::handleAsyncUpdate()
+{
+    running.store(false);
+    while (inside.load())
+        std::this_thread::yield();
+    player.prepare(std::clamp(rate.load(), 2000.0, 192000.0));
+    running.store(true);
+}
+
+void PreviewRig::audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outs, int frames,
+                                                  const juce::AudioIODeviceCallbackContext&)
+{
+    for (int c = 0; c < outs; ++c)
+        if (out[c] != nullptr)
+            juce::FloatVectorOperations::clear(out[c], frames);
+    inside.store(true);
+    if (running.load())
+    {
+        const PreviewOutputs now = outputs();
+        // Sound and touch share the last channel rather than that one is lost.
+        const int haptic = now.haptic < 0 ? -1 : std::min(now.haptic, outs - 1);
+        for (int done = 0; done < frames; done += pieceFrames)
+        {
+            const int n = std::min(pieceFrames, frames - done);
+            const auto channel = [&](int c)
+            {
+                return std::span<float>(buffer.getWritePointer(c), static_cast<std::size_t>(n));
+            };
+            const std::array<std::span<float>, 2> sound{channel(1), channel(2)};
+            player.process(channel(0), sound);
+            const auto add = [&](int from, int to)
+            {
+                if (to >= 0 && to < outs && out[to] != nullptr)
+                    juce::FloatVectorOperations::add(out[to] + done, buffer.getReadPointer(from), n);
+            };
+            add(0, haptic);
+            if (now.sound >= 0)
+            {
+                add(1, now.sound);
+                add(2, now.sound + 1);
+            }
+        }
+    }
+    inside.store(false);
+}
+
+} // namespace pacini::app

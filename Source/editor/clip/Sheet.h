@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Dialogs inside the window: they work the same in a program and in a plugin.
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// A panel in the middle of a darkened window. Escape closes it; the keyboard stays inside.
+class Sheet : public juce::Component
+{
+public:
+    Sheet(const juce::String& title, int width, int height);
+
+    std::function<void()> onClose; ///< removes it
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    bool keyPressed(const juce::KeyPress& key) override;
+    /// When it is shown.
+    void takeFocus();
+
+    /// The first button is the usual answer (Return), the last closes without doing anything.
+    struct Answer
+    {
+        juce::String text;
+        std::function<void()> chosen; ///< may be empty
+    };
+    void setAnswers(std::vector<Answer> answers);
+
+protected:
+    /// The usual answer does this and leaves the sheet open.
+    void setUsualAnswer(std::function<void()> answer) { usual = std::move(answer); }
+
+    /// Where the content goes, without title and answers.
+    [[nodiscard]] juce::Rectangle<int> inside() const;
+    virtual void layOut(juce::Rectangle<int>) {}
+    /// What has the keyboard at first; null: the sheet itself.
+    virtual juce::Component* firstFocus() { return nullptr; }
+    /// Whether the usual answer may be given now.
+    void setAnswerEnabled(bool enabled);
+    void close();
+
+private:
+    [[nodiscard]] juce::Rectangle<int> panel() const;
+
+    int wantedWidth, wantedHeight;
+    std::vector<Answer> choices;
+    std::function<void()> usual;
+    std::vector<std::unique_ptr<juce::TextButton>> buttons;
+};
+
+/// A text with answers.
+class MessageSheet final : public Sheet
+{
+public:
+    MessageSheet(const juce::String& title, const juce::String& text, std::vector<Answer> answers);
+
+private:
+    void layOut(juce::Rectangle<int> area) override;
+    juce::TextEditor words;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A sound as the editor needs it: described, in memory, and ready to be drawn.
+
+#include "document/Analysis.h"
+#include "document/AudioReference.h"
+#include "document/view/Columns.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// A sound in memory with the extremes of its mean over all channels. Immutable.
+class Sound
+{
+public:
+    explicit Sound(AudioData data)
+        : audio(std::move(data)), mono(meanOf(audio)), peaks(mono, static_cast<double>(audio.sampleRate))
+    {
+    }
+    Sound(const Sound&) = delete;
+    Sound& operator=(const Sound&) = delete;
+
+    const AudioData audio;
+    const std::vector<float> mono;
+    const WaveformPeaks peaks;
+
+private:
+    static std::vector<float> meanOf(const AudioData& data)
+    {
+        const auto channels = static_cast<std::size_t>(data.channels > 0 ? data.channels : 1);
+        std::vector<float> mean(data.samples.size() / channels);
+        for (std::size_t i = 0; i < mean.size(); ++i)
+        {
+            float sum = 0.0f;
+            for (std::size_t c = 0; c < channels; ++c)
+                sum += data.samples[i * channels + c];
+            mean[i] = sum / static_cast<float>(channels);
+        }
+        return mean;
+    }
+};
+
+/// What a file gives to a project: a sound with its analysis, or a clip.
+struct Imported
+{
+    AudioReference reference; ///< of the sound
+    std::shared_ptr<const Sound> sound;
+    EncoderParams encoder;
+    Clip clip;
+    std::vector<std::string> warnings; ///< what was let pass in a clip of another format
+};
+
+/// Reads a sound and analyses it, or reads a clip of any format. Errors: those of describeAudio(), analyse() and
+/// readAnyClip(); for a file that is neither, why it is no sound. [worker]
+[[nodiscard]] Result<Imported> importFile(const std::filesystem::path& path, const EncoderParams& encoder);
+
+} // namespace pacini::editor

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/Toolbar.h"
+
+#include "editor/Theme.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int plainDrive = 1; // menus know no item 0; profiles follow
+
+juce::String clockText(double seconds)
+{
+    const int minutes = static_cast<int>(seconds / 60.0);
+    const double rest = seconds - 60.0 * minutes;
+    return juce::String(minutes) + ":" + (rest < 10.0 ? "0" : "") + juce::String(rest, 2);
+}
+} // namespace
+
+Toolbar::Toolbar(Session& shared)
+    : session(shared),
+      startButton("|<"),
+      playButton("Play"),
+      zoomOutButton(juce::String::fromUTF8("−")),
+      zoomInButton("+"),
+      fitButton("Fit"),
+      loopButton("Loop")
+{
+    setTitle("Toolbar");
+    const auto button = [this](juce::Button& one, Command command, const juce::String& title, const juce::String& help)
+    {
+        one.setTitle(title);
+        one.setTooltip(help);
+        one.setWantsKeyboardFocus(true);
+        one.onClick = [this, command]
+        {
+            if (onCommand)
+                onCommand(command);
+        };
+        addAndMakeVisible(one);
+    };
+    button(startButton, toStart, "To start", "Brings the playhead to the start (Home)");
+    button(playButton, playOrPause, "Play or pause", "Plays the clip from the playhead, or stops (Space)");
+    button(loopButton, loop, "Loop", "Plays the time range, or the whole clip, again and again (Ctrl+L)");
+    loopButton.setClickingTogglesState(false);
+    button(zoomOutButton, zoomOut, "Zoom out", "Shows more time (-)");
+    button(zoomInButton, zoomIn, "Zoom in", "Shows less time (+)");
+    button(fitButton, editor::fit, "Fit clip", "Shows the whole clip (0)");
+    time.setFont(juce::Font(juce::Font::getDefaultMonospacedFontName(), 15.0f, juce::Font::plain));
+    time.setJustificationType(juce::Justification::centred);
+    time.setTitle("Playhead");
+    time.setTooltip("Playhead and length of the clip, minutes:seconds");
+    addAndMakeVisible(time);
+
+    const auto choice =
+        [this](juce::ComboBox& box, juce::Label& label, const juce::String& name, const juce::String& help)
+    {
+        label.setText(name, juce::dontSendNotification);
+        label.setFont(smallFont());
+        label.setAccessible(false);
+        box.setTitle(name);
+        box.setTooltip(help);
+        addAndMakeVisible(label);
+        addAndMakeVisible(box);
+    };
+    choice(clips, clipLabel, "Clip", "The clip that is shown, of all clips of the project");
+    choice(heard, heardLabel, "Hear", "What is played: the drive signal for the actuator, the sound, or both");
+    choice(profile, profileLabel, "Actuator", "The actuator that the drive signal is made for; its limits are kept");
+    heard.addItem("Haptic", 1 + static_cast<int>(Heard::haptic));
+    heard.addItem("Sound", 1 + static_cast<int>(Heard::sound));
+    heard.addItem("Both", 1 + static_cast<int>(Heard::both));
+    heard.onChange = [this]
+    {
+        session.setHeard(static_cast<Heard>(heard.getSelectedId() - 1));
+    };
+    profile.addItem("None (plain drive)", plainDrive);
+    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+    {
+        const NamedProfile& entry = session.profiles()[i];
+        profile.addItem(juce::String::fromUTF8(entry.profile->name.c_str()), plainDrive + 1 + static_cast<int>(i));
+    }
+    profile.onChange = [this]
+    {
+        const int chosen = profile.getSelectedId() - plainDrive - 1;
+        session.setProfile(chosen < 0 ? std::string() : session.profiles()[static_cast<std::size_t>(chosen)].name);
+    };
+    clips.onChange = [this]
+    {
+        if (clips.getSelectedId() > 0)
+            session.show(clips.getSelectedId());
+    };
+    session.listeners.add(this);
+    fillClips();
+    showState();
+    startTimerHz(30);
+}
+
+Toolbar::~Toolbar()
+{
+    session.listeners.remove(this);
+}
+
+void Toolbar::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::project | Session::content)) != 0)
+        fillClips();
+    if ((changes & (Session::project | Session::playback | Session::range | Session::content)) != 0)
+        showState();
+}
+
+void Toolbar::fillClips()
+{
+    const auto& items = session.document().project().clips;
+    bool same = clips.getNumItems() == static_cast<int>(items.size());
+    for (std::size_t i = 0; same && i < items.size(); ++i)
+        same = clips.getItemId(static_cast<int>(i)) == items[i]->id &&
+               clips.getItemText(static_cast<int>(i)) == juce::String::fromUTF8(items[i]->clip->name.c_str());
+    if (!same)
+    {
+        clips.clear(juce::dontSendNotification);
+        for (const auto& item : items)
+            clips.addItem(item->clip->name.empty() ? "Clip " + juce::String(item->id)
+                                                   : juce::String::fromUTF8(item->clip->name.c_str()),
+                          item->id);
+    }
+    clips.setSelectedId(session.activeId(), juce::dontSendNotification);
+    clips.setTextWhenNothingSelected("No clip");
+    clips.setEnabled(!items.empty());
+}
+
+void Toolbar::showState()
+{
+    playButton.setButtonText(session.isPlaying() ? "Pause" : "Play");
+    loopButton.setToggleState(session.isLooping(), juce::dontSendNotification);
+    heard.setSelectedId(1 + static_cast<int>(session.heard()), juce::dontSendNotification);
+    int chosen = plainDrive;
+    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+        if (session.profiles()[i].name == session.profileName())
+            chosen = plainDrive + 1 + static_cast<int>(i);
+    profile.setSelectedId(chosen, juce::dontSendNotification);
+    const bool any = session.clip() != nullptr;
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&startButton, &playButton, &loopButton,
+                                                                        &zoomOutButton, &zoomInButton, &fitButton})
+        one->setEnabled(any);
+    showTime();
+}
+
+void Toolbar::showTime()
+{
+    const auto clip = session.clip();
+    time.setText(clip ? clockText(session.playhead()) + " / " + clockText(clip->duration) : juce::String("-:-- / -:--"),
+                 juce::dontSendNotification);
+    const juce::String wanted = session.isPlaying() ? "Pause" : "Play";
+    if (playButton.getButtonText() != wanted)
+        playButton.setButtonText(wanted);
+}
+
+void Toolbar::paint(juce::Graphics& g)
+{
+    g.fillAll(paletteFor(*this).card);
+    g.setColour(paletteFor(*this).line);
+    g.fillRect(getLocalBounds().removeFromBottom(1));
+}
+
+void Toolbar::resized()
+{
+    auto area = getLocalBounds().reduced(grid, 6);
+    const auto put = [&](juce::Component& one, int width, int after)
+    {
+        one.setBounds(area.removeFromLeft(width));
+        area.removeFromLeft(after);
+    };
+    put(startButton, 36, 4);
+    put(playButton, 64, 4);
+    put(loopButton, 52, grid);
+    put(time, 152, grid);
+    put(zoomOutButton, 30, 4);
+    put(zoomInButton, 30, 4);
+    put(fitButton, 44, 2 * grid);
+    const int rest = std::max(0, area.getWidth() - 28 - 36 - 60 - 4 * grid);
+    put(clipLabel, 28, 4);
+    put(clips, rest * 36 / 100, grid);
+    put(heardLabel, 36, 4);
+    put(heard, rest * 22 / 100, grid);
+    put(profileLabel, 60, 4);
+    put(profile, area.getWidth(), 0);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,114 @@
+#pragma once
+
+// An editor without a screen, and a mouse for it.
+
+#include "editor/clip/EditorView.h"
+#include "io/ProfileFile.h"
+#include "support/Catch.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace pacini::test
+{
+
+inline std::filesystem::path demoSound(const std::string& name)
+{
+    return std::filesystem::path(PACINI_SOURCE_DIR) / "Resources/demo" / (name + ".flac");
+}
+
+/// A session with one clip in a window of 1280 x 800.
+struct EditorBench
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    editor::Session session{{}, {}};
+    editor::EditorView view{session, {}};
+
+    EditorBench() { view.setBounds(0, 0, 1280, 800); }
+
+    void openDemo(const std::string& name)
+    {
+        auto imported = editor::importFile(demoSound(name), EncoderParams{});
+        REQUIRE(imported.ok());
+        session.add(std::move(imported).value());
+    }
+
+    [[nodiscard]] Clip clip() const { return *session.clip(); }
+    [[nodiscard]] editor::PlotLane& row(Lane lane)
+    {
+        auto* found = view.clipView().rowOf(lane);
+        REQUIRE(found != nullptr);
+        return *found;
+    }
+};
+
+/// One gesture with the left button.
+class Mouse
+{
+public:
+    explicit Mouse(juce::Component& wanted, int flags = 0)
+        : component(wanted), modifiers(flags | juce::ModifierKeys::leftButtonModifier)
+    {
+    }
+
+    void press(juce::Point<float> where, int clicks = 1)
+    {
+        start = where;
+        component.mouseDown(at(where, clicks, false));
+    }
+    void drag(juce::Point<float> to) { component.mouseDrag(at(to, 1, true)); }
+    void release(juce::Point<float> where) { component.mouseUp(at(where, 1, where != start)); }
+    void move(juce::Point<float> where) { component.mouseMove(at(where, 0, false)); }
+    void doubleClick(juce::Point<float> where)
+    {
+        press(where);
+        release(where);
+        press(where, 2);
+        component.mouseDoubleClick(at(where, 2, false));
+        release(where);
+    }
+    void dragFromTo(juce::Point<float> from, juce::Point<float> to, int steps = 5)
+    {
+        press(from);
+        for (int i = 1; i <= steps; ++i)
+            drag(from + (to - from) * (static_cast<float>(i) / static_cast<float>(steps)));
+        release(to);
+    }
+
+private:
+    [[nodiscard]] juce::MouseEvent at(juce::Point<float> where, int clicks, bool dragged) const
+    {
+        const auto now = juce::Time::getCurrentTime();
+        return {juce::Desktop::getInstance().getMainMouseSource(),
+                where,
+                modifiers,
+                1.0f,
+                0.0f,
+                0.0f,
+                0.0f,
+                0.0f,
+                &component,
+                &component,
+                now,
+                start,
+                now,
+                clicks,
+                dragged};
+    }
+
+    juce::Component& component;
+    juce::ModifierKeys modifiers;
+    juce::Point<float> start;
+};
+
+/// Where a point of a curve lies in its row, on the scale of 60 dB that levels have.
+inline juce::Point<float> placeOf(const editor::PlotLane& row, const editor::Session& session, Breakpoint p)
+{
+    const auto plot = row.plotArea();
+    const double decibels = p.value > 0.0 ? std::max(-60.0, 20.0 * std::log10(p.value)) : -60.0;
+    return {static_cast<float>(plot.getX() + (p.time - session.axis().start) / session.axis().secondsPerPixel),
+            static_cast<float>(plot.getY() - plot.getHeight() * decibels / 60.0)};
+}
+
+} // namespace pacini::test

@@ -1,0 +1,157 @@
+// How the editor draws, and how fast.
+
+#include "editor/Bench.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <chrono>
+#include <set>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// 10 minutes, 12 bands, 50 000 breakpoints and 1000 transients.
+Clip longClip()
+{
+    Random random(5);
+    Clip clip;
+    clip.name = "long";
+    clip.duration = 600.0;
+    const auto curve = [&](std::size_t points, double low, double high)
+    {
+        Curve result;
+        for (std::size_t i = 0; i < points; ++i)
+            result.push_back(
+                {clip.duration * static_cast<double>(i) / static_cast<double>(points - 1), random.uniform(low, high)});
+        return result;
+    };
+    clip.envelope = curve(10000, 0.0, 1.0);
+    clip.centroid = curve(4000, 40.0, 800.0);
+    for (std::size_t k = 0; k < 12; ++k)
+    {
+        const double centre = 30.0 * std::exp2(5.0 * static_cast<double>(k) / 12.0);
+        clip.bands.push_back(
+            {centre / 1.15, centre, centre * 1.15, 0, curve(2000, 0.0, 0.5), curve(1000, centre / 1.1, centre * 1.1)});
+    }
+    for (int i = 0; i < 1000; ++i)
+        clip.transients.push_back({0.6 * i, random.uniform(0.1, 1.0), random.uniform(0.0, 1.0)});
+    return clip;
+}
+
+std::size_t coloursIn(const juce::Image& image)
+{
+    std::set<juce::uint32> seen;
+    for (int y = 0; y < image.getHeight(); y += 3)
+        for (int x = 0; x < image.getWidth(); x += 3)
+            seen.insert(image.getPixelAt(x, y).getARGB());
+    return seen.size();
+}
+
+std::shared_ptr<const editor::Sound> longSound()
+{
+    Random random(6);
+    AudioData audio;
+    audio.sampleRate = 8000;
+    audio.channels = 1;
+    audio.samples.resize(600 * 8000);
+    for (float& sample : audio.samples)
+        sample = static_cast<float>(random.uniform(-0.5, 0.5));
+    return std::make_shared<const editor::Sound>(std::move(audio));
+}
+} // namespace
+
+TEST_CASE("The editor draws itself empty, with a clip, light and dark, and at all scales")
+{
+    EditorBench bench;
+    CHECK(coloursIn(bench.view.createComponentSnapshot(bench.view.getLocalBounds())) > 10);
+    bench.openDemo("drums_tabla_pattern");
+    for (const bool dark : {false, true})
+        for (const double scale : {0.75, 1.0, 2.0})
+        {
+            bench.view.setDark(dark);
+            bench.view.setScale(scale);
+            CHECK(coloursIn(bench.view.createComponentSnapshot(bench.view.getLocalBounds())) > 40);
+        }
+}
+
+TEST_CASE("Every control has a name and can be reached by keys")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    std::size_t controls = 0;
+    const std::function<void(juce::Component&)> visit = [&](juce::Component& parent)
+    {
+        for (auto* child : parent.getChildren())
+        {
+            const bool control =
+                dynamic_cast<juce::Button*>(child) != nullptr || dynamic_cast<juce::ComboBox*>(child) != nullptr ||
+                dynamic_cast<juce::Slider*>(child) != nullptr || dynamic_cast<editor::PlotLane*>(child) != nullptr;
+            const bool inner = child->findParentComponentOfClass<juce::Slider>() != nullptr ||
+                               child->findParentComponentOfClass<juce::ScrollBar>() != nullptr;
+            if (control && !inner && child->isVisible() && child->isEnabled())
+            {
+                ++controls;
+                const auto* button = dynamic_cast<juce::Button*>(child);
+                INFO(child->getTitle() << " " << child->getName());
+                CHECK((child->getTitle().isNotEmpty() || (button != nullptr && button->getButtonText().length() > 2)));
+                CHECK(child->getWantsKeyboardFocus());
+            }
+            visit(*child);
+        }
+    };
+    visit(bench.view);
+    CHECK(controls > 30);
+}
+
+TEST_CASE("A frame of a ten-minute clip with 50 000 breakpoints is drawn within 16 ms", "[.bench]")
+{
+    EditorBench bench;
+    editor::Imported imported;
+    imported.clip = longClip();
+    imported.sound = longSound();
+    imported.reference.id = 1;
+    imported.reference.path = "/long.wav";
+    imported.reference.duration = 600.0;
+    imported.reference.sampleRate = 8000.0;
+    imported.reference.channels = 1;
+    bench.session.add(std::move(imported));
+    REQUIRE(breakpointCount(bench.clip()) == 50000);
+    auto& view = bench.view.clipView();
+    juce::Image image(juce::Image::RGB, view.getWidth(), view.getHeight(), true);
+    for (const double seconds : {600.0, 60.0, 40.0, 20.0, 6.0, 1.0})
+    {
+        bench.session.showRange({300.0, 300.0 + seconds});
+        if (seconds == 600.0)
+            bench.session.fit();
+        double best = 1e9;
+        for (int i = 0; i < 20; ++i)
+        {
+            const auto start = std::chrono::steady_clock::now();
+            {
+                juce::Graphics g(image);
+                view.paintEntireComponent(g, true);
+            }
+            const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+            best = std::min(best, time.count());
+        }
+        WARN(seconds << " s in view: " << best << " ms for a whole frame of " << view.getWidth() << " x "
+                     << view.getHeight());
+        CHECK(best < 16.0);
+        // What a moving playhead costs.
+        double strip = 1e9;
+        for (int i = 0; i < 20; ++i)
+        {
+            const auto start = std::chrono::steady_clock::now();
+            {
+                juce::Graphics g(image);
+                g.reduceClipRegion(600, 0, 13, view.getHeight());
+                view.paintEntireComponent(g, true);
+            }
+            const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+            strip = std::min(strip, time.count());
+        }
+        WARN("   of the playhead alone: " << strip << " ms");
+    }
+}

@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""The clip editor on a screen that nobody sees, used with mouse and keys.
+
+test_editor.py PROGRAM DEMO [PICTURE]    DEMO: a sound; PICTURE: where a picture of the window goes. Exit 0, 1 on a
+failed check, 77 when Xvfb, xdotool or ImageMagick is not there.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+for program in ("Xvfb", "xdotool", "import", "convert"):
+    if not shutil.which(program):
+        print("SKIPPED:", program, "is missing - cmake/bootstrap.sh test installs it")
+        sys.exit(77)
+
+# Where things are in a window of 1280 x 800: the head of a row, then the plot.
+PLOT_LEFT, ENVELOPE_TOP, ENVELOPE_HEIGHT = 144, 26 + 42 + 26 + 72 + 72 + 48, 71
+failures = []
+
+
+def check(claim, holds, detail=""):
+    print("ok  " if holds else "FAIL", claim, detail, flush=True)
+    if not holds:
+        failures.append(claim)
+
+
+def until(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.2)
+    return False
+
+
+class Screen:
+    """Xvfb on the first free number, with one program."""
+
+    def __init__(self, home):
+        self.home = home
+        self.running = []
+
+    def __enter__(self):
+        read, write = os.pipe()
+        self.start("Xvfb", "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
+        os.close(write)
+        with os.fdopen(read) as numbers:
+            display = ":" + numbers.readline().strip()
+        self.environment = dict(os.environ, DISPLAY=display, HOME=str(self.home))
+        return self
+
+    def start(self, *arguments, **options):
+        options.setdefault("stdout", subprocess.DEVNULL)
+        options.setdefault("stderr", subprocess.DEVNULL)
+        process = subprocess.Popen([str(a) for a in arguments], **options)
+        self.running.append(process)
+        return process
+
+    def __exit__(self, *_):
+        for process in reversed(self.running):
+            process.terminate()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+    def tool(self, *arguments):
+        return subprocess.run(["xdotool", *[str(a) for a in arguments]], env=self.environment, capture_output=True,
+                              text=True, timeout=60)
+
+    def find_window(self):
+        found = self.tool("search", "--onlyvisible", "--name", "Pacini Editor").stdout.split()
+        if not found:
+            return False
+        self.window = found[-1]
+        place = dict(line.split("=") for line in self.tool("getwindowgeometry", "--shell", self.window).stdout.split())
+        self.left, self.top = int(place["X"]), int(place["Y"])
+        return int(place["WIDTH"]) == 1280
+
+    def focus(self):
+        self.tool("windowfocus", self.window)
+        time.sleep(0.3)
+
+    def keys(self, *names):
+        for name in names:
+            self.tool("key", "--clearmodifiers", name)
+            time.sleep(0.25)
+
+    def type(self, text):
+        self.tool("type", "--delay", "20", text)
+        time.sleep(0.3)
+
+    def move(self, x, y):
+        self.tool("mousemove", self.left + x, self.top + y)
+        time.sleep(0.15)
+
+    def drag(self, x, y, to_x, to_y):
+        self.move(x, y)
+        self.tool("mousedown", 1)
+        for i in range(1, 6):
+            self.move(x + (to_x - x) * i // 5, y + (to_y - y) * i // 5)
+        self.tool("mouseup", 1)
+        time.sleep(0.3)
+
+    def picture(self, path):
+        subprocess.run(["import", "-window", "root", str(path)], env=self.environment, timeout=60, check=True)
+
+
+def main():
+    program, demo = sys.argv[1], sys.argv[2]
+    with tempfile.TemporaryDirectory() as folder, Screen(folder) as screen:
+        folder = Path(folder)
+        app = screen.start(program, "--fresh", demo, env=screen.environment)
+        check("the window opens", until(screen.find_window))
+        time.sleep(3)  # the analysis of a short sound
+        screen.focus()
+
+        def export(name, rendered=False):
+            path = folder / name
+            screen.keys("ctrl+e")
+            time.sleep(0.5)
+            if rendered:
+                screen.keys("Tab", "Down", "Down", "shift+Tab")
+            screen.keys("ctrl+a")
+            screen.type(str(path))
+            screen.keys("Return")
+            check(f"{name} is exported", until(path.exists, 30))
+            time.sleep(0.5)
+            return path
+
+        def clip(path):
+            return json.loads(path.read_text()) if path.exists() else {}
+
+        before = clip(export("before.json"))
+        check("the demo sound has become a clip", len(before.get("bands", [])) > 3,
+              f"{len(before.get('envelope', []))} points of the envelope")
+
+        x, y = PLOT_LEFT + 500, ENVELOPE_TOP + 12
+        screen.move(x, y)
+        screen.tool("click", "--repeat", 2, "--delay", 80, 1)
+        time.sleep(0.5)
+        with_point = clip(export("point.json"))
+        added = [p for p in with_point["envelope"] if p not in before["envelope"]]
+        check("a double-click adds one point", len(added) == 1, str(added))
+        screen.drag(x, y, x + 60, y + 20)
+        dragged = clip(export("dragged.json"))
+        moved = [p for p in dragged["envelope"] if p not in before["envelope"]]
+        per_pixel = 1.02 * before["duration"] / (1280 - 232 - 144 - 10)
+        check("a drag moves it", len(moved) == 1 and
+              abs(moved[0]["time"] - added[0]["time"] - 60 * per_pixel) < 8 * per_pixel, str(moved))
+        check("and makes it softer by the right amount", len(moved) == 1 and
+              abs(moved[0]["amplitude"] / added[0]["amplitude"] - 10 ** (-60 * 20 / ENVELOPE_HEIGHT / 20)) < 0.01)
+        check("and changes nothing else", {k: v for k, v in dragged.items() if k != "envelope"} ==
+              {k: v for k, v in before.items() if k != "envelope"})
+        if len(sys.argv) > 3:
+            screen.picture(folder / "window.png")
+            subprocess.run(["convert", str(folder / "window.png"), "-crop", f"1280x800+{screen.left}+{screen.top}",
+                            "+repage", sys.argv[3]], check=True)
+        screen.keys("ctrl+z")
+        export("undone.json")
+        check("undo brings it back where it was", (folder / "undone.json").read_bytes() == (folder / "point.json").read_bytes())
+        screen.keys("ctrl+z")
+        export("first.json")
+        check("and again, to the very file of the beginning",
+              (folder / "first.json").read_bytes() == (folder / "before.json").read_bytes())
+
+        plain = export("plain.wav", rendered=True)
+        # The actuator is the last choice of the toolbar.
+        screen.move(1280 - 60, 26 + 21)
+        screen.tool("click", 1)
+        time.sleep(0.5)
+        screen.keys("Down", "Down", "Down", "Return")
+        time.sleep(0.5)
+        screen.focus()
+        fitted = export("fitted.wav", rendered=True)
+        check("another actuator gives another drive signal",
+              plain.exists() and fitted.exists() and plain.read_bytes() != fitted.read_bytes())
+        check("the program still runs", app.poll() is None)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
