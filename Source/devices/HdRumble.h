@@ -48,9 +48,9 @@ inline constexpr int safeAmplitudeCode = 100;    ///< 1.003
 /// The step nearest to a frequency in ratio, within lowest..highest; a frequency that is not above 0 gives the lowest.
 [[nodiscard]] int rumbleStep(Hertz frequency, int lowest, int highest) noexcept;
 
-/// The linear amplitude of a code, which is brought into 0..127. The table of measured amplitudes falls into three
-/// geometric rows, of 4, 16 and 32 codes per doubling, and a smallest one of its own; these closed forms give its 128
-/// entries within 1e-4.
+/// The linear amplitude of a code, which is brought into 0..127. The published table falls into three geometric rows,
+/// of 4, 16 and 32 codes per doubling, and a smallest entry of its own; these closed forms give its safe entries within
+/// 1e-5 and the others within 2e-4.
 [[nodiscard]] double rumbleAmplitude(int code) noexcept;
 
 /// The code nearest to an amplitude: in ratio, between 0 and the smallest in difference. Never above

@@ -32,14 +32,14 @@ long double ladderFrequency(int step)
     return frequency;
 }
 
-// The amplitudes as three ladders that start from the table's entries for 2, 16 and 32.
+// The amplitudes as three ladders that start from the table's entries for 15, 16 and 32.
 std::vector<long double> ladderAmplitudes()
 {
     const long double quarter = std::sqrt(std::sqrt(2.0L));
     const long double sixteenth = std::sqrt(std::sqrt(quarter));
     const long double thirtySecond = std::sqrt(sixteenth);
     std::vector<long double> ladder{0.0L, 0.007843L};
-    for (long double a = 0.011823L; ladder.size() < 16; a *= quarter)
+    for (long double a = 0.112491L / (8.0L * quarter); ladder.size() < 16; a *= quarter) // down from 15
         ladder.push_back(a);
     for (long double a = 0.117471L; ladder.size() < 32; a *= sixteenth)
         ladder.push_back(a);
@@ -121,7 +121,8 @@ TEST_CASE("HD rumble gives the rows printed in the published tables", "[devices]
     }
 }
 
-TEST_CASE("HD rumble's 128 amplitudes are within 1e-4 of the table's, and each has its code", "[devices]")
+TEST_CASE("HD rumble's amplitudes are within 1e-5 of the table's where they are safe, and each has its code",
+          "[devices]")
 {
     const auto ladder = ladderAmplitudes();
     for (int code = 0; code < 128; ++code)
@@ -130,13 +131,17 @@ TEST_CASE("HD rumble's 128 amplitudes are within 1e-4 of the table's, and each h
         const auto expected = static_cast<double>(ladder[static_cast<std::size_t>(code)]);
         const RumbleBytes bytes = rumbleOf(0x00, code * 2 + 1, 0x40 + code % 2 * 128, 0x40 + code / 2);
         const RumbleTones tones = decodeRumble(bytes).value();
-        CHECK(std::abs(tones.high.amplitude - expected) < 1e-4);
+        CHECK(std::abs(tones.high.amplitude - expected) < (code <= 100 ? 1e-5 : 2e-4));
         CHECK(tones.low.amplitude == tones.high.amplitude);
         CHECK(rumbleAmplitudeCode(expected) == std::min(code, 100));
         CHECK(rumbleAmplitudeCode(rumbleAmplitude(code)) == std::min(code, 100));
         if (code > 0)
             CHECK(rumbleAmplitude(code) > rumbleAmplitude(code - 1));
     }
+    CHECK(rumbleAmplitude(100) == Approx(1.002867).margin(1e-5));
+    CHECK(rumbleAmplitude(127) == Approx(1.799701).margin(2e-4));
+    CHECK(rumbleAmplitude(128) == rumbleAmplitude(127));
+    CHECK(rumbleAmplitude(-1) == 0.0);
 }
 
 TEST_CASE("HD rumble takes the nearest code and never falls when an amplitude rises", "[devices]")
