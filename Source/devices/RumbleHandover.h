@@ -13,11 +13,9 @@
 namespace pacini::devices
 {
 
-namespace detail
-{
-/// The two strongest tones as one: energies add up, and they weigh the logarithms of the frequencies. A tone between
-/// two bands sounds in both and so comes out at its own pitch.
-[[nodiscard]] inline RumbleTone joined(const RumbleTone& a, const RumbleTone& b) noexcept
+/// Two tones as one, frequencies above 0: energies add up, and they weigh the logarithms of the frequencies. A tone
+/// between two bands sounds in both and so comes out at its own pitch.
+[[nodiscard]] inline RumbleTone joinedTones(const RumbleTone& a, const RumbleTone& b) noexcept
 {
     const double energyA = a.amplitude * a.amplitude;
     const double energy = energyA + b.amplitude * b.amplitude;
@@ -27,36 +25,38 @@ namespace detail
     return {Hertz(a.frequency.value * std::exp(logRatio * (1.0 - energyA / energy))), std::min(std::sqrt(energy), 1.0)};
 }
 
-/// A tone that can be played, its amplitude at most 1; a finite amplitude and frequency, both above 0.
-[[nodiscard]] inline bool sounds(const RumbleTone& tone) noexcept
+/// Whether a tone is one: amplitude and frequency are finite and above 0.
+[[nodiscard]] inline bool canSound(const RumbleTone& tone) noexcept
 {
     return tone.amplitude > 0.0 && std::isfinite(tone.amplitude) && tone.frequency.value > 0.0 &&
            std::isfinite(tone.frequency.value);
 }
-} // namespace detail
 
 /// What the two carriers should play for the tones of some bands, in any order. Each band belongs to the carrier that
 /// it is nearest to, of 320 and 160 Hz, where the actuator is strongest; the two strongest bands of a carrier make its
 /// tone, so that quiet neighbours do not pull its pitch. Bands that are silent, or whose numbers are not finite, do not
-/// count; a carrier without bands stands silent at its own frequency. Amplitudes are at most 1. [any]
+/// count; a carrier without bands stands silent at its own frequency. Amplitudes are at most 1, frequencies within
+/// those of HD rumble. [any]
 [[nodiscard]] inline RumbleTones carriersOf(std::span<const RumbleTone> bands) noexcept
 {
     constexpr RumbleTones home;
     std::array<RumbleTone, 2> high{home.high, home.high};
     std::array<RumbleTone, 2> low{home.low, home.low};
     constexpr double border = 160.0 * std::numbers::sqrt2; // as far from one as from the other
+    const Hertz lowest = rumbleFrequency(lowestLowStep);
+    const Hertz highest = rumbleFrequency(highestHighStep);
     for (const RumbleTone& band : bands)
     {
-        if (!detail::sounds(band))
+        if (!canSound(band))
             continue;
-        const RumbleTone tone{band.frequency, std::min(band.amplitude, 1.0)};
+        const RumbleTone tone{std::clamp(band.frequency, lowest, highest), std::min(band.amplitude, 1.0)};
         auto& strongest = tone.frequency.value < border ? low : high;
         if (tone.amplitude > strongest[0].amplitude)
             strongest = {tone, strongest[0]};
         else if (tone.amplitude > strongest[1].amplitude)
             strongest[1] = tone;
     }
-    return {detail::joined(high[0], high[1]), detail::joined(low[0], low[1])};
+    return {joinedTones(high[0], high[1]), joinedTones(low[0], low[1])};
 }
 
 /// How fast packets follow the bands. A time is how long it takes to come within 37 % (1/e) of a new value; 0 follows

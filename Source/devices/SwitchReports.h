@@ -20,8 +20,8 @@ struct SidesRumble
 };
 
 /// Report 0x10, rumble only. Of `counter`, which counts up by one for each report of either kind, the lower four bits
-/// are sent. Linux sends one at most every 50 ms, SDL every 30 ms. Source: dekuNukem,
-/// Nintendo_Switch_Reverse_Engineering, bluetooth_hid_notes.md. [any]
+/// are sent. Linux sends one at most every 50 ms, SDL every 30 ms; SDL adds zeros up to 49 bytes on Bluetooth and 64 on
+/// a cable. Source: dekuNukem, Nintendo_Switch_Reverse_Engineering, bluetooth_hid_notes.md. [any]
 [[nodiscard]] inline std::array<std::byte, 10> switchRumbleReport(unsigned counter, const SidesRumble& rumble) noexcept
 {
     const auto& [left, right] = rumble;

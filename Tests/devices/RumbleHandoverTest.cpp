@@ -84,6 +84,12 @@ TEST_CASE("Bands that are silent or not finite change nothing", "[devices]")
     CHECK(carriersOf(Tones{{100_Hz, 1e300}}).low.amplitude == 1.0);
 }
 
+TEST_CASE("Bands outside the range of HD rumble play at its ends", "[devices]")
+{
+    CHECK(carriersOf(Tones{{Hertz(1e-308), 0.5}, {Hertz(200.0), 1e-200}}).low.frequency.value == Approx(40.875885));
+    CHECK(carriersOf(Tones{{Hertz(1e308), 0.5}}).high.frequency.value == Approx(1252.572266));
+}
+
 TEST_CASE("From packet to packet nothing goes beyond its target or jumps", "[devices]")
 {
     const RumbleHandoverParams params;
