@@ -19,6 +19,8 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     find_package(CLI11 REQUIRED)
     find_package(Threads REQUIRED)
     pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+    # Without hidapi the command cannot list game controllers.
+    pkg_search_module(hidapi IMPORTED_TARGET hidapi-hidraw hidapi)
 endif()
 if(PACINI_BUILD_TESTS)
     find_package(Catch2 REQUIRED)

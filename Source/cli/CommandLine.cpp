@@ -2,6 +2,7 @@
 #include "cli/Command.h"
 #include "cli/CompareCommand.h"
 #include "cli/ConvertCommand.h"
+#include "cli/DevicesCommand.h"
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
 #include "cli/LintCommand.h"
@@ -30,6 +31,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<ConvertCommand>());
     commands.push_back(std::make_unique<LintCommand>());
     commands.push_back(std::make_unique<ProfilesCommand>());
+    commands.push_back(std::make_unique<DevicesCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<MeasureCommand>());
     commands.push_back(std::make_unique<PlotCommand>());

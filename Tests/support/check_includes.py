@@ -27,7 +27,7 @@ ALL = set(CORE)
 # room of Source -> (rooms of Core, rooms of Source, may include JUCE)
 SOURCE = {
     "io": (ALL, {"io"}, False),
-    "cli": (ALL, {"io", "cli"}, False),
+    "cli": (ALL, {"io", "devices", "cli"}, False),
     "document": (ALL, {"io", "document"}, False),
     "devices": (ALL, {"devices"}, False),
     "plugin": (ALL, {"io", "devices", "editor", "plugin"}, True),

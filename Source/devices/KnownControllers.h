@@ -1,0 +1,61 @@
+#pragma once
+
+// Which controllers take the reports of this folder.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace pacini::devices
+{
+
+/// What moves a controller.
+enum class ControllerHaptics
+{
+    hdRumble,   ///< SwitchReports.h
+    dualShock4, ///< SonyReports.h
+    dualSense,  ///< SonyReports.h
+    xbox,       ///< XboxReport.h
+};
+
+/// What a controller understands, by its maker's and its product's USB numbers, which it has on Bluetooth too; nothing
+/// for others. Xbox controllers are known by the numbers that they have on Bluetooth only, as they are no HID devices
+/// on a cable. Source: SDL, usb_ids.h. [any]
+[[nodiscard]] constexpr std::optional<ControllerHaptics> controllerHaptics(std::uint16_t maker,
+                                                                           std::uint16_t product) noexcept
+{
+    struct Known
+    {
+        std::uint16_t maker;
+        std::uint16_t product;
+        ControllerHaptics haptics;
+    };
+    constexpr std::uint16_t nintendo = 0x057E;
+    constexpr std::uint16_t sony = 0x054C;
+    constexpr std::uint16_t microsoft = 0x045E;
+    constexpr std::array<Known, 17> all{{
+        {nintendo, 0x2006, ControllerHaptics::hdRumble}, // left Joy-Con
+        {nintendo, 0x2007, ControllerHaptics::hdRumble}, // right Joy-Con
+        {nintendo, 0x2009, ControllerHaptics::hdRumble}, // Pro Controller
+        {nintendo, 0x200E, ControllerHaptics::hdRumble}, // charging grip
+        {sony, 0x05C4, ControllerHaptics::dualShock4},
+        {sony, 0x09CC, ControllerHaptics::dualShock4}, // slim
+        {sony, 0x0BA0, ControllerHaptics::dualShock4}, // its wireless adapter
+        {sony, 0x0CE6, ControllerHaptics::dualSense},
+        {sony, 0x0DF2, ControllerHaptics::dualSense}, // Edge
+        {microsoft, 0x02E0, ControllerHaptics::xbox}, // One S
+        {microsoft, 0x02FD, ControllerHaptics::xbox}, // One S
+        {microsoft, 0x0B20, ControllerHaptics::xbox}, // One S, low energy
+        {microsoft, 0x0B05, ControllerHaptics::xbox}, // Elite 2
+        {microsoft, 0x0B22, ControllerHaptics::xbox}, // Elite 2, low energy
+        {microsoft, 0x0B0C, ControllerHaptics::xbox}, // Adaptive
+        {microsoft, 0x0B21, ControllerHaptics::xbox}, // Adaptive, low energy
+        {microsoft, 0x0B13, ControllerHaptics::xbox}, // Series X and S
+    }};
+    for (const Known& known : all)
+        if (known.maker == maker && known.product == product)
+            return known.haptics;
+    return std::nullopt;
+}
+
+} // namespace pacini::devices

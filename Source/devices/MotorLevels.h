@@ -1,0 +1,26 @@
+#pragma once
+
+// The two motors of a classic game controller.
+
+#include <cmath>
+#include <cstddef>
+
+namespace pacini::devices
+{
+
+/// Levels 0..1, linear in what the controller is asked for. What lies outside is brought into the range, NaN to 0.
+struct MotorLevels
+{
+    double strong = 0.0; ///< the heavy, slow motor, in the left grip
+    double weak = 0.0;   ///< the light, fast motor, in the right grip
+    bool operator==(const MotorLevels&) const = default;
+};
+
+/// A level as a number of 0..full, rounded; full <= 255.
+[[nodiscard]] inline std::byte motorByte(double level, int full) noexcept
+{
+    const double within = level > 0.0 ? std::fmin(level, 1.0) : 0.0;
+    return static_cast<std::byte>(std::lround(within * full));
+}
+
+} // namespace pacini::devices
