@@ -11,7 +11,7 @@ help=$(sed -n '2,8p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
-    libkissfft-dev libeigen3-dev libcairo2-dev)
+    libkissfft-dev libeigen3-dev libcairo2-dev libhidapi-dev)
 # The plugin, and the hosts that it is tried in.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)
 host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour)
