@@ -10,17 +10,16 @@ import sys
 import tempfile
 from pathlib import Path
 
+from host_test import RATE, check, failures, skip
+
 try:
     import numpy as np
     import soundfile
 except ImportError as error:
-    print("SKIPPED:", error, "- cmake/bootstrap.sh test installs it")
-    sys.exit(77)
+    skip(error)
 
 HERE = Path(__file__).resolve().parent
-RATE = 48000
 ATTEMPTS = 4  # Ardour without a screen crashes now and then by itself
-failures = []
 
 
 def find(pattern):
@@ -32,14 +31,7 @@ def find(pattern):
 
 LUA = find("ardour?-lua")
 if not LUA:
-    print("SKIPPED: ardour is missing - cmake/bootstrap.sh test installs it")
-    sys.exit(77)
-
-
-def check(claim, holds, detail=""):
-    print("ok  " if holds else "FAIL", claim, detail, flush=True)
-    if not holds:
-        failures.append(claim)
+    skip("ardour is missing")
 
 
 def run(script, environment):

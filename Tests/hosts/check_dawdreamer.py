@@ -7,32 +7,16 @@ import sys
 import tempfile
 from pathlib import Path
 
+from host_test import RATE, check, failures, skip
+
 try:
     import dawdreamer
     import numpy as np
+    from host_sounds import sounds
 except ImportError as error:
-    print("SKIPPED:", error, "- cmake/bootstrap.sh test installs it")
-    sys.exit(77)
+    skip(error)
 
-RATE = 48000
 SECONDS = 1.5
-failures = []
-
-
-def check(claim, holds, detail=""):
-    print("ok  " if holds else "FAIL", claim, detail)
-    if not holds:
-        failures.append(claim)
-
-
-def sounds():
-    random = np.random.default_rng(7)
-    t = np.arange(int(2 * RATE)) / RATE
-    click = np.exp(-150 * (t % 0.25))
-    left = 0.4 * np.sin(2 * np.pi * 60 * t) + 0.3 * click * random.uniform(-1, 1, t.size)
-    right = 0.3 * np.sin(2 * np.pi * 220 * t)
-    side = 0.5 * np.sin(2 * np.pi * 100 * t) * (t % 0.5 < 0.25)
-    return np.stack([left, right, side]).astype(np.float32)
 
 
 class Host:

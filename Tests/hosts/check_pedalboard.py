@@ -6,21 +6,13 @@ check_pedalboard.py PLUGIN.vst3     exit 0, 1 on a failed check, 77 when Pedalbo
 import sys
 from pathlib import Path
 
+from host_test import RATE, check, failures, skip
+
 try:
     import numpy as np
     import pedalboard
 except ImportError as error:
-    print("SKIPPED:", error, "- cmake/bootstrap.sh test installs it")
-    sys.exit(77)
-
-RATE = 48000
-failures = []
-
-
-def check(claim, holds, detail=""):
-    print("ok  " if holds else "FAIL", claim, detail)
-    if not holds:
-        failures.append(claim)
+    skip(error)
 
 
 def main():

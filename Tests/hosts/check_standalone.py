@@ -5,80 +5,20 @@ check_standalone.py PROGRAM [PICTURE]    PICTURE: where a picture of the window 
 when Xvfb, ImageMagick or JACK is not there.
 """
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+from host_test import RATE, Processes, check, failures, needs, picture, skip, until
+
 try:
     import numpy as np
     import soundfile
 except ImportError as error:
-    print("SKIPPED:", error, "- cmake/bootstrap.sh test installs it")
-    sys.exit(77)
-for program in ("Xvfb", "import", "convert", "jackd", "jack_lsp", "jack_rec"):
-    if not shutil.which(program):
-        print("SKIPPED:", program, "is missing - cmake/bootstrap.sh test installs it")
-        sys.exit(77)
-
-RATE = 48000
-failures = []
-
-
-def check(claim, holds, detail=""):
-    print("ok  " if holds else "FAIL", claim, detail)
-    if not holds:
-        failures.append(claim)
-
-
-def until(condition, seconds=30):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.2)
-    return False
-
-
-class Processes:
-    """Ends what it started, the newest first."""
-
-    def __init__(self):
-        self.running = []
-
-    def __enter__(self):
-        return self
-
-    def start(self, *arguments, **options):
-        options.setdefault("stdout", subprocess.DEVNULL)
-        options.setdefault("stderr", subprocess.DEVNULL)
-        process = subprocess.Popen([str(a) for a in arguments], **options)
-        self.running.append(process)
-        return process
-
-    def __exit__(self, *_):
-        for process in reversed(self.running):
-            process.terminate()
-            try:
-                process.wait(10)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-
-
-def start_screen(processes):
-    """Xvfb on the first free number, which it tells itself."""
-    read, write = os.pipe()
-    processes.start("Xvfb", "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
-    os.close(write)
-    with os.fdopen(read) as numbers:
-        return ":" + numbers.readline().strip()
-
-
-def picture(display, path):
-    return subprocess.run(["import", "-display", display, "-window", "root", str(path)], timeout=60).returncode == 0
+    skip(error)
+needs("Xvfb", "import", "convert", "jackd", "jack_lsp", "jack_rec")
 
 
 def pixels(path):
@@ -92,7 +32,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, Processes() as processes:
         folder = Path(folder)
         environment = dict(os.environ, JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1", HOME=str(folder))
-        display = start_screen(processes)
+        display = processes.start_screen()
         environment["DISPLAY"] = display
         processes.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "4", "-P", "4",
                         env=environment)

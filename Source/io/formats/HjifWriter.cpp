@@ -70,16 +70,17 @@ Curve withinShare(const Curve& curve, double share, double floor)
         return curve;
     constexpr double any = std::numeric_limits<double>::infinity();
     Curve kept{curve.front()};
+    // The last kept point is asked for anew each time: keeping one moves it.
+    const auto slopeTo = [&kept](double value, const Breakpoint& point)
+    {
+        const Breakpoint& from = kept.back();
+        return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
+    };
     double least = -any, most = any;
     for (std::size_t i = 1; i < curve.size(); ++i)
     {
-        const Breakpoint& from = kept.back();
-        const auto slopeTo = [&](double value, const Breakpoint& point)
-        {
-            return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
-        };
         const double slope = slopeTo(curve[i].value, curve[i]);
-        if (curve[i].time <= from.time || slope < least || slope > most)
+        if (curve[i].time <= kept.back().time || slope < least || slope > most)
         {
             if (!(kept.back() == curve[i - 1]))
                 kept.push_back(curve[i - 1]);

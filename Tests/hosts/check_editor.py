@@ -1,74 +1,32 @@
 #!/usr/bin/env python3
 """The clip editor on a screen that nobody sees, used with mouse and keys.
 
-test_editor.py PROGRAM DEMO [PICTURE]    DEMO: a sound; PICTURE: where a picture of the window goes. Exit 0, 1 on a
+check_editor.py PROGRAM DEMO [PICTURE]    DEMO: a sound; PICTURE: where a picture of the window goes. Exit 0, 1 on a
 failed check, 77 when Xvfb, xdotool or ImageMagick is not there.
 """
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-for program in ("Xvfb", "xdotool", "import", "convert"):
-    if not shutil.which(program):
-        print("SKIPPED:", program, "is missing - cmake/bootstrap.sh test installs it")
-        sys.exit(77)
+from host_test import Processes, check, failures, needs, picture, until
+
+needs("Xvfb", "xdotool", "import", "convert")
 
 # Where things are in a window of 1280 x 800: the head of a row, then the plot.
 PLOT_LEFT, ENVELOPE_TOP, ENVELOPE_HEIGHT = 144, 26 + 42 + 26 + 72 + 72 + 48, 71
-failures = []
 
 
-def check(claim, holds, detail=""):
-    print("ok  " if holds else "FAIL", claim, detail, flush=True)
-    if not holds:
-        failures.append(claim)
-
-
-def until(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.2)
-    return False
-
-
-class Screen:
-    """Xvfb on the first free number, with one program."""
+class Screen(Processes):
+    """A screen with one program, mouse and keys."""
 
     def __init__(self, home):
-        self.home = home
-        self.running = []
-
-    def __enter__(self):
-        read, write = os.pipe()
-        self.start("Xvfb", "-displayfd", write, "-screen", "0", "1280x960x24", pass_fds=[write])
-        os.close(write)
-        with os.fdopen(read) as numbers:
-            display = ":" + numbers.readline().strip()
-        self.environment = dict(os.environ, DISPLAY=display, HOME=str(self.home))
-        return self
-
-    def start(self, *arguments, **options):
-        options.setdefault("stdout", subprocess.DEVNULL)
-        options.setdefault("stderr", subprocess.DEVNULL)
-        process = subprocess.Popen([str(a) for a in arguments], **options)
-        self.running.append(process)
-        return process
-
-    def __exit__(self, *_):
-        for process in reversed(self.running):
-            process.terminate()
-            try:
-                process.wait(10)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+        super().__init__()
+        self.display = self.start_screen()
+        self.environment = dict(os.environ, DISPLAY=self.display, HOME=str(home))
 
     def tool(self, *arguments):
         return subprocess.run(["xdotool", *[str(a) for a in arguments]], env=self.environment, capture_output=True,
@@ -107,9 +65,6 @@ class Screen:
             self.move(x + (to_x - x) * i // 5, y + (to_y - y) * i // 5)
         self.tool("mouseup", 1)
         time.sleep(0.3)
-
-    def picture(self, path):
-        subprocess.run(["import", "-window", "root", str(path)], env=self.environment, timeout=60, check=True)
 
 
 def main():
@@ -159,7 +114,7 @@ def main():
         check("and changes nothing else", {k: v for k, v in dragged.items() if k != "envelope"} ==
               {k: v for k, v in before.items() if k != "envelope"})
         if len(sys.argv) > 3:
-            screen.picture(folder / "window.png")
+            picture(screen.display, folder / "window.png")
             subprocess.run(["convert", str(folder / "window.png"), "-crop", f"1280x800+{screen.left}+{screen.top}",
                             "+repage", sys.argv[3]], check=True)
         screen.keys("ctrl+z")
