@@ -208,7 +208,7 @@ private:
     {
         // A quarter of a dB, and -74 dB below the loudest.
         const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
-                                : baked                ? withinShare(band.amplitude, 0.06, 5e-4 * loudest)
+                                : baked                ? withinShare(band.amplitude, 0.03, 5e-4 * loudest)
                                                        : band.amplitude;
         losses.addThinned(band.amplitude, amplitude, clip.duration);
         Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
