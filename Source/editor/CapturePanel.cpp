@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/CapturePanel.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
 #include "io/ClipFile.h"
 
@@ -34,7 +35,7 @@ ClipChip::ClipChip()
 void ClipChip::show(const Clip& clip, const juce::File& wanted)
 {
     dragged = wanted;
-    text = juce::String::fromUTF8(clip.name.c_str()) + ", " + juce::String(clip.duration, 1) + " s";
+    text = toText(clip.name) + ", " + juce::String(clip.duration, 1) + " s";
     curve.clear();
     curve.startNewSubPath(0.0f, 1.0f);
     double loudest = 1e-9;
@@ -71,8 +72,7 @@ void ClipChip::mouseDrag(const juce::MouseEvent& event)
         juce::DragAndDropContainer::performExternalDragDropOfFiles({dragged.getFullPathName()}, false, this);
 }
 
-CapturePanel::CapturePanel(LiveSource& heard)
-    : source(heard), button("Capture"), saveButton("Save" + juce::String::fromUTF8("…"))
+CapturePanel::CapturePanel(LiveSource& heard) : source(heard), button("Capture"), saveButton("Save" + toText("…"))
 {
     for (const int seconds : lengths)
         length.addItem("Last " + juce::String(seconds) + " s", seconds);

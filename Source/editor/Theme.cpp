@@ -221,6 +221,36 @@ juce::Label* Look::createSliderTextBox(juce::Slider& slider)
     return label;
 }
 
+int Look::getTabButtonBestWidth(juce::TabBarButton& tab, int)
+{
+    // All alike, over the whole bar.
+    const auto& bar = tab.getTabbedButtonBar();
+    return bar.getWidth() / std::max(1, bar.getNumTabs());
+}
+
+void Look::drawTabButton(juce::TabBarButton& tab, juce::Graphics& g, bool over, bool)
+{
+    const Palette& p = palette();
+    const auto area = tab.getLocalBounds();
+    const bool front = tab.isFrontTab();
+    g.setColour(front ? p.text : over ? p.text.withAlpha(0.85f) : p.dim);
+    g.setFont(usualFont());
+    g.drawText(tab.getButtonText(), area, juce::Justification::centred);
+    if (front)
+    {
+        g.setColour(p.accent);
+        g.fillRect(area.withTop(area.getBottom() - 3).reduced(grid, 0));
+    }
+    if (tab.hasKeyboardFocus(false))
+        drawFocusRing(g, tab, area.toFloat().reduced(2.0f));
+}
+
+void Look::drawTabAreaBehindFrontButton(juce::TabbedButtonBar&, juce::Graphics& g, int width, int height)
+{
+    g.setColour(palette().line);
+    g.fillRect(0, height - 1, width, 1);
+}
+
 void Look::drawLabel(juce::Graphics& g, juce::Label& label)
 {
     if (label.isBeingEdited())

@@ -44,6 +44,9 @@ public:
     juce::Font getLabelFont(juce::Label&) override;
     juce::Label* createSliderTextBox(juce::Slider&) override;
     void drawLabel(juce::Graphics&, juce::Label&) override;
+    int getTabButtonBestWidth(juce::TabBarButton&, int depth) override;
+    void drawTabButton(juce::TabBarButton&, juce::Graphics&, bool over, bool down) override;
+    void drawTabAreaBehindFrontButton(juce::TabbedButtonBar&, juce::Graphics&, int width, int height) override;
 
 private:
     bool darkNow = true;

@@ -106,7 +106,7 @@ def main():
         screen.drag(x, y, x + 60, y + 20)
         dragged = clip(export("dragged.json"))
         moved = [p for p in dragged["envelope"] if p not in before["envelope"]]
-        per_pixel = 1.02 * before["duration"] / (1280 - 232 - 144 - 10)
+        per_pixel = 1.02 * before["duration"] / (1280 - 248 - 144 - 10)
         check("a drag moves it", len(moved) == 1 and
               abs(moved[0]["time"] - added[0]["time"] - 60 * per_pixel) < 8 * per_pixel, str(moved))
         check("and makes it softer by the right amount", len(moved) == 1 and

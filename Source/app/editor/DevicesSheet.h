@@ -4,7 +4,7 @@
 // The sound device, and which of its channels carry what.
 
 #include "app/editor/PreviewRig.h"
-#include "editor/clip/Sheet.h"
+#include "editor/clip/sheets/Sheet.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 

@@ -4,6 +4,7 @@
 
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
+#include "editor/Text.h"
 #include "plugin/ProfileShelf.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -18,10 +19,7 @@ namespace
 {
 constexpr std::size_t profileSlots = 64;
 
-std::filesystem::path pathOf(const juce::File& file)
-{
-    return std::filesystem::path(file.getFullPathName().toStdString());
-}
+using editor::pathOf;
 
 std::vector<editor::NamedProfile> shelf()
 {
@@ -107,15 +105,15 @@ public:
         window->setVisible(true);
         view.grabKeyboardFocus();
         if (!files.empty())
-            view.open(files);
-        view.offerRecovery();
+            view.files().open(files);
+        view.files().offerRecovery();
     }
 
     void anotherInstanceStarted(const juce::String&) override {}
 
     void systemRequestedQuit() override
     {
-        window->view().whenSaved([this] { leave(); });
+        window->view().files().whenSaved([this] { leave(); });
     }
 
     void shutdown() override

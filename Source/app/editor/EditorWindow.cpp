@@ -9,7 +9,11 @@ namespace pacini::app
 EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
-      content(session, std::move(demos))
+      content(session, {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
+                        [this]
+                        {
+                            showDevices();
+                        }})
 {
     setUsingNativeTitleBar(true);
     setContentNonOwned(&content, false);
@@ -18,14 +22,6 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::ve
     content.onTitleChanged = [this]
     {
         setName(content.title());
-    };
-    content.onDevices = [this]
-    {
-        showDevices();
-    };
-    content.onQuit = []
-    {
-        juce::JUCEApplication::getInstance()->systemRequestedQuit();
     };
     setName(content.title());
 }

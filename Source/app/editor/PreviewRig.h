@@ -3,7 +3,7 @@
 
 // The sound device of the editor: sound and drive signal on channels of their own.
 
-#include "editor/clip/Player.h"
+#include "editor/clip/session/Player.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
 

@@ -4,13 +4,14 @@
 // The whole clip editor as one component: for a window of its own, or for that of a plugin.
 
 #include "editor/Theme.h"
-#include "editor/clip/ClipView.h"
-#include "editor/clip/Commands.h"
 #include "editor/clip/EmptyState.h"
-#include "editor/clip/Inspector.h"
-#include "editor/clip/Session.h"
-#include "editor/clip/Sheet.h"
+#include "editor/clip/ProjectFiles.h"
 #include "editor/clip/Toolbar.h"
+#include "editor/clip/commands/Menus.h"
+#include "editor/clip/lanes/ClipView.h"
+#include "editor/clip/panels/SidePanel.h"
+#include "editor/clip/session/Session.h"
+#include "editor/clip/sheets/Sheet.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -22,20 +23,22 @@
 namespace pacini::editor
 {
 
-class EditorView final : public juce::Component,
-                         public juce::FileDragAndDropTarget,
-                         private juce::MenuBarModel,
-                         private juce::ApplicationCommandTarget,
-                         private Session::Listener
+/// What is around an editor; its menus leave out what is not there.
+struct Surroundings
+{
+    std::vector<std::filesystem::path> demoSounds;
+    std::function<void()> quit;        ///< null: the host closes the window
+    std::function<void()> showDevices; ///< null: the host has the devices
+};
+
+/// Layout, look and sheets; what commands do stands with their menus.
+class EditorView final : public juce::Component, public juce::FileDragAndDropTarget, private Session::Listener
 {
 public:
-    EditorView(Session& shared, std::vector<std::filesystem::path> demoSounds);
+    EditorView(Session& shared, Surroundings around);
     ~EditorView() override;
 
-    std::function<void()> onQuit;
-    std::function<void()> onDevices;      ///< null: the host has the devices
     std::function<void()> onTitleChanged; ///< see title()
-    std::function<void()> onLookChanged;
 
     /// "name - changed".
     [[nodiscard]] juce::String title() const;
@@ -45,32 +48,25 @@ public:
     void setScale(double wanted);
     [[nodiscard]] double scale() const noexcept { return scaleNow; }
 
-    /// Does `next` when the project is saved, or need not be; asks the user if so. Not at all when the user says no.
-    void whenSaved(std::function<void()> next);
-    /// Offers what an earlier run has left.
-    void offerRecovery();
     void showSheet(std::unique_ptr<Sheet> wanted);
+    [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
     /// Gives the keyboard to what is in front.
     void takeFocus();
-    [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
 
-    void open(const std::vector<std::filesystem::path>& files);
-    bool doCommand(Command command);
+    /// False when it cannot be done now.
+    bool doCommand(Command command) { return menuList.perform(command); }
+
+    [[nodiscard]] const Surroundings& surroundings() const noexcept { return host; }
+    [[nodiscard]] Session& session() noexcept { return open; }
+    [[nodiscard]] ProjectFiles& files() noexcept { return fileQuestions; }
+    [[nodiscard]] Menus& menus() noexcept { return menuList; }
     [[nodiscard]] ClipView& clipView() noexcept { return clipPart; }
+    [[nodiscard]] SidePanel& sidePanel() noexcept { return side; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    juce::StringArray getMenuBarNames() override;
-    juce::PopupMenu getMenuForIndex(int index, const juce::String& name) override;
-    void menuItemSelected(int id, int index) override;
-
-    ApplicationCommandTarget* getNextCommandTarget() override { return nullptr; }
-    void getAllCommands(juce::Array<juce::CommandID>& ids) override;
-    void getCommandInfo(juce::CommandID id, juce::ApplicationCommandInfo& info) override;
-    bool perform(const InvocationInfo& info) override;
-
     bool isInterestedInFileDrag(const juce::StringArray&) override { return true; }
     void fileDragEnter(const juce::StringArray&, int, int) override { empty.setDropping(true); }
     void fileDragExit(const juce::StringArray&) override { empty.setDropping(false); }
@@ -78,27 +74,20 @@ private:
 
     void sessionChanged(unsigned changes) override;
     void arrange();
-    void choose(const juce::String& title, bool saving, std::function<void(const juce::File&)> chosen);
-    void saveThen(std::function<void()> next);
-    void askName(std::function<void()> next);
-    void selectAll();
-    void playCommand(Command command);
-    [[nodiscard]] bool canDo(Command command) const;
-    [[nodiscard]] bool isOn(Command command) const;
 
-    Session& session;
+    Session& open;
+    const Surroundings host;
     Look look;
     double scaleNow = 1.0;
-    std::vector<std::filesystem::path> demos;
-    juce::ApplicationCommandManager commands;
+    ProjectFiles fileQuestions{*this};
+    Menus menuList{*this};
     juce::Component body; ///< everything, scaled
     juce::MenuBarComponent menuBar;
     Toolbar toolbar;
     ClipView clipPart;
-    Inspector inspector;
+    SidePanel side;
     EmptyState empty;
     std::unique_ptr<Sheet> sheetNow;
-    std::unique_ptr<juce::FileChooser> chooser;
     juce::TooltipWindow tooltips{&body, 600};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EmptyState.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
 
 #include <algorithm>
@@ -16,12 +17,12 @@ constexpr int rowHeight = 4 * grid;
 
 juce::String shownName(const std::filesystem::path& file)
 {
-    return juce::String::fromUTF8(file.stem().string().c_str()).replaceCharacter('_', ' ');
+    return pathText(file.stem()).replaceCharacter('_', ' ');
 }
 } // namespace
 
 EmptyState::EmptyState(Session& shared, std::vector<std::filesystem::path> demoSounds)
-    : session(shared), demos(std::move(demoSounds)), openButton("Open" + juce::String::fromUTF8("…"))
+    : session(shared), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
 {
     setTitle("No clip yet");
     openButton.setTooltip("Opens sounds, clips and projects (Ctrl+O)");
@@ -52,7 +53,7 @@ void EmptyState::fill()
                              const juce::String& help)
     {
         auto button = std::make_unique<juce::TextButton>(shownName(file));
-        button->setTooltip(help + juce::String::fromUTF8(file.string().c_str()));
+        button->setTooltip(help + pathText(file));
         button->onClick = [this, file]
         {
             onFile(file);

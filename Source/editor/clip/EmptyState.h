@@ -3,7 +3,7 @@
 
 // What an editor without a clip shows.
 
-#include "editor/clip/Session.h"
+#include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/Toolbar.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
 
 namespace pacini::editor
@@ -22,7 +23,7 @@ Toolbar::Toolbar(Session& shared)
     : session(shared),
       startButton("|<"),
       playButton("Play"),
-      zoomOutButton(juce::String::fromUTF8("−")),
+      zoomOutButton(toText("−")),
       zoomInButton("+"),
       fitButton("Fit"),
       loopButton("Loop")
@@ -78,7 +79,7 @@ Toolbar::Toolbar(Session& shared)
     for (std::size_t i = 0; i < session.profiles().size(); ++i)
     {
         const NamedProfile& entry = session.profiles()[i];
-        profile.addItem(juce::String::fromUTF8(entry.profile->name.c_str()), plainDrive + 1 + static_cast<int>(i));
+        profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
     }
     profile.onChange = [this]
     {
@@ -115,13 +116,12 @@ void Toolbar::fillClips()
     bool same = clips.getNumItems() == static_cast<int>(items.size());
     for (std::size_t i = 0; same && i < items.size(); ++i)
         same = clips.getItemId(static_cast<int>(i)) == items[i]->id &&
-               clips.getItemText(static_cast<int>(i)) == juce::String::fromUTF8(items[i]->clip->name.c_str());
+               clips.getItemText(static_cast<int>(i)) == toText(items[i]->clip->name);
     if (!same)
     {
         clips.clear(juce::dontSendNotification);
         for (const auto& item : items)
-            clips.addItem(item->clip->name.empty() ? "Clip " + juce::String(item->id)
-                                                   : juce::String::fromUTF8(item->clip->name.c_str()),
+            clips.addItem(item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name),
                           item->id);
     }
     clips.setSelectedId(session.activeId(), juce::dontSendNotification);

@@ -3,8 +3,8 @@
 
 // Playing, zooming, the actuator and the clip, always in sight.
 
-#include "editor/clip/Commands.h"
-#include "editor/clip/Session.h"
+#include "editor/clip/commands/Command.h"
+#include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

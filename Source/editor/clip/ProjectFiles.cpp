@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/ProjectFiles.h"
+
+#include "editor/Text.h"
+#include "editor/clip/EditorView.h"
+#include "io/AnyClip.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+namespace
+{
+juce::String readablePattern()
+{
+    juce::String pattern = "*.pacini;*.wav;*.flac;*.ogg;*.opus;*.mp3;*.aif;*.aiff;*.caf;*.w64;*.au";
+    for (const auto& extension : anyClipExtensions())
+        pattern << ";*" << extension;
+    return pattern;
+}
+
+bool isProject(const std::filesystem::path& file)
+{
+    return file.extension() == ".pacini";
+}
+} // namespace
+
+void ProjectFiles::open(const std::vector<std::filesystem::path>& files)
+{
+    const auto openThem = [&session = view.session(), files]
+    {
+        session.openFiles(files);
+    };
+    if (std::any_of(files.begin(), files.end(), isProject))
+        whenSaved(openThem);
+    else
+        openThem();
+}
+
+void ProjectFiles::askWhatToOpen()
+{
+    choose("Open sounds, clips or a project", Purpose::opening,
+           [this](const juce::Array<juce::File>& chosen)
+           {
+               std::vector<std::filesystem::path> files;
+               for (const auto& file : chosen)
+                   files.push_back(pathOf(file));
+               open(files);
+           });
+}
+
+void ProjectFiles::whenSaved(std::function<void()> next)
+{
+    Session& session = view.session();
+    if (!session.document().isDirty() || session.isEmpty())
+        return next();
+    const auto& path = session.document().path();
+    view.showSheet(
+        std::make_unique<MessageSheet>("Save the changes?",
+                                       (path.empty() ? juce::String("This project has never been saved.")
+                                                     : pathText(path.filename()) + " has changes that are not saved.") +
+                                           " Without saving they are lost.",
+                                       std::vector<Sheet::Answer>{{"Save",
+                                                                   [this, next]
+                                                                   {
+                                                                       save(next);
+                                                                   }},
+                                                                  {"Don't save",
+                                                                   [&session, next]
+                                                                   {
+                                                                       session.discardAutosave();
+                                                                       next();
+                                                                   }},
+                                                                  {"Cancel", {}}}));
+}
+
+void ProjectFiles::finishSaving(const Result<void>& saved, const std::function<void()>& next)
+{
+    if (!saved)
+        view.session().onError("Not saved", toText(saved.error().text()));
+    else if (next)
+        next();
+}
+
+void ProjectFiles::save(std::function<void()> next)
+{
+    if (view.session().document().path().empty())
+        return saveAs(std::move(next));
+    finishSaving(view.session().save(), next);
+}
+
+void ProjectFiles::saveAs(std::function<void()> next)
+{
+    choose("Save the project", Purpose::saving,
+           [this, next](const juce::Array<juce::File>& chosen)
+           {
+               if (!chosen.isEmpty())
+                   finishSaving(view.session().saveAs(pathOf(chosen[0].withFileExtension("pacini"))), next);
+           });
+}
+
+void ProjectFiles::choose(const juce::String& title, Purpose purpose,
+                          std::function<void(const juce::Array<juce::File>&)> chosen)
+{
+    const bool saving = purpose == Purpose::saving;
+    const auto& path = view.session().document().path();
+    juce::File start =
+        path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : juce::File(pathText(path));
+    if (saving && path.empty())
+        start = start.getChildFile("Untitled.pacini");
+    chooser = std::make_unique<juce::FileChooser>(title, start, saving ? juce::String("*.pacini") : readablePattern());
+    using Browser = juce::FileBrowserComponent;
+    chooser->launchAsync(Browser::canSelectFiles | (saving ? Browser::saveMode | Browser::warnAboutOverwriting
+                                                           : Browser::openMode | Browser::canSelectMultipleItems),
+                         [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
+}
+
+void ProjectFiles::offerRecovery()
+{
+    Session& session = view.session();
+    const auto found = session.recoverable();
+    const auto usable =
+        std::find_if(found.begin(), found.end(), [](const Recoverable& entry) { return !entry.problem; });
+    if (usable == found.end())
+        return;
+    juce::StringArray names;
+    for (const auto& name : usable->clips)
+        names.add(toText(name));
+    const juce::Time when(static_cast<juce::int64>(usable->time * 1000.0));
+    const auto restore = [&session, entry = *usable]
+    {
+        if (const auto done = session.recover(entry); !done)
+            session.onError("Not restored", toText(done.error().text()));
+    };
+    view.showSheet(std::make_unique<MessageSheet>(
+        "Restore unsaved work?",
+        "Pacini did not end properly. Changes of " +
+            (usable->project.empty() ? juce::String("a project that was never saved")
+                                     : pathText(usable->project.filename())) +
+            " from " + when.toString(true, true, false) + " can be restored. Clips: " + names.joinIntoString(", "),
+        std::vector<Sheet::Answer>{{"Restore", restore},
+                                   {"Discard",
+                                    [entry = *usable]
+                                    {
+                                        discardRecoverable(entry);
+                                    }},
+                                   {"Later", {}}}));
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The questions about files: what to open, whether to save, what to restore.
+
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace pacini::editor
+{
+
+class EditorView;
+
+/// [message]
+class ProjectFiles
+{
+public:
+    explicit ProjectFiles(EditorView& shown) : view(shown) {}
+
+    /// Sounds, clips and projects. A project takes the place of the open one, which the user is asked to save.
+    void open(const std::vector<std::filesystem::path>& files);
+    void askWhatToOpen();
+
+    /// Does `next` when the project is saved, or need not be; asks the user if so. Not at all when the user says no.
+    void whenSaved(std::function<void()> next);
+    /// To its file, or where the user says; then `next`, if it was done.
+    void save(std::function<void()> next = {});
+    void saveAs(std::function<void()> next = {});
+
+    /// Offers what an earlier run has left.
+    void offerRecovery();
+
+private:
+    enum class Purpose
+    {
+        opening,
+        saving
+    };
+    void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen);
+    void finishSaving(const Result<void>& saved, const std::function<void()>& next);
+
+    EditorView& view;
+    std::unique_ptr<juce::FileChooser> chooser;
+};
+
+} // namespace pacini::editor

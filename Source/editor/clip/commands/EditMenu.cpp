@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/Text.h"
+#include "editor/clip/EditorView.h"
+#include "editor/clip/commands/Action.h"
+#include "editor/clip/lanes/CurveLane.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+juce::String nameWithStep(const char* name, const std::string& step)
+{
+    return step.empty() ? juce::String(name) : juce::String(name) + " " + toText(step).toLowerCase();
+}
+
+/// The points of the lane with the focus, else all transients.
+Selection everything(const Clip& clip)
+{
+    Selection all;
+    if (const auto* row = dynamic_cast<const CurveLane*>(juce::Component::getCurrentlyFocusedComponent()))
+        return withPoints({}, row->lane(), allIndices(curveOf(clip, row->lane())->size()));
+    all.transients = allIndices(clip.transients.size());
+    return all;
+}
+} // namespace
+
+Menu editMenu(EditorView& view)
+{
+    Session& session = view.session();
+    const auto anyClip = [&session]
+    {
+        return session.clip() != nullptr;
+    };
+    const auto anySelected = [&session]
+    {
+        return !isEmpty(session.selected());
+    };
+    const auto fade = [&session](const char* name, FadeDirection direction)
+    {
+        session.edit(name, FadeEdit{session.scope(), direction, FadeShape::linear});
+    };
+    using Key = juce::KeyPress;
+    return {"Edit",
+            {
+                {.id = undo,
+                 .name = "Undo",
+                 .help = "Takes the last step back",
+                 .run = [&session] { session.undo(); },
+                 .can = [&session] { return session.document().canUndo(); },
+                 .keys = {ctrl('z')},
+                 .fullName =
+                     [&session]
+                 {
+                     return nameWithStep("Undo", session.document().undoName());
+                 }},
+                {.id = redo,
+                 .name = "Redo",
+                 .help = "Takes the last undo back",
+                 .run = [&session] { session.redo(); },
+                 .can = [&session] { return session.document().canRedo(); },
+                 .keys = {ctrlShift('z'), ctrl('y')},
+                 .fullName =
+                     [&session]
+                 {
+                     return nameWithStep("Redo", session.document().redoName());
+                 }},
+                {.id = cut,
+                 .name = "Cut",
+                 .help = "Copies and removes what is selected, or the time range",
+                 .run = [&session] { session.cut(); },
+                 .can = anyClip,
+                 .keys = {ctrl('x')},
+                 .lineBefore = true},
+                {.id = copy,
+                 .name = "Copy",
+                 .help = "Copies what is selected, or the time range of all lanes",
+                 .run = [&session] { session.copy(); },
+                 .can = anyClip,
+                 .keys = {ctrl('c')}},
+                {.id = paste,
+                 .name = "Paste at playhead",
+                 .help = "Pastes into the lanes it was copied from",
+                 .run = [&session] { session.paste(); },
+                 .can = [&session] { return session.clip() && session.canPaste(); },
+                 .keys = {ctrl('v')}},
+                {.id = deleteSelection,
+                 .name = "Delete points",
+                 .help = "Removes the selected points and transients",
+                 .run = [&session] { session.deleteSelection(); },
+                 .can = anySelected,
+                 .keys = {Key(Key::deleteKey), Key(Key::backspaceKey)}},
+                {.id = selectAll,
+                 .name = "Select all",
+                 .help = "Selects all points of the lane with the focus, else all transients",
+                 .run = [&session] { session.select(everything(*session.clip())); },
+                 .can = anyClip,
+                 .keys = {ctrl('a')},
+                 .lineBefore = true},
+                {.id = selectNone,
+                 .name = "Select nothing",
+                 .help = "Selects nothing",
+                 .run = [&session] { session.select({}); },
+                 .can = anySelected,
+                 .keys = {ctrlShift('a')}},
+                {.id = fadeIn,
+                 .name = "Fade in",
+                 .help = "Fades in over the selection, the time range or the clip",
+                 .run = [fade] { fade("Fade in", FadeDirection::in); },
+                 .can = anyClip,
+                 .lineBefore = true},
+                {.id = fadeOut,
+                 .name = "Fade out",
+                 .help = "Fades out over the selection, the time range or the clip",
+                 .run = [fade] { fade("Fade out", FadeDirection::out); },
+                 .can = anyClip},
+            }};
+}
+
+} // namespace pacini::editor

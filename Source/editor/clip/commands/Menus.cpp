@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/commands/Menus.h"
+
+#include "editor/Text.h"
+#include "editor/clip/EditorView.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+juce::String nameOf(const Action& action)
+{
+    return (action.fullName ? action.fullName() : juce::String(action.name)).replace("...", toText("…"));
+}
+
+bool canDo(const Action& action)
+{
+    return !action.can || action.can();
+}
+} // namespace
+
+Menus::Menus(EditorView& view) : owner(view)
+{
+    for (const auto make : {fileMenu, editMenu, clipMenu, playMenu, viewMenu, helpMenu})
+        menus.push_back(make(view));
+    manager.registerAllCommandsForTarget(this);
+    manager.setFirstCommandTarget(this);
+    setApplicationCommandManagerToWatch(&manager);
+}
+
+Menus::~Menus()
+{
+    setApplicationCommandManagerToWatch(nullptr);
+}
+
+const Action* Menus::find(int id) const
+{
+    for (const Menu& menu : menus)
+        for (const Action& action : menu.actions)
+            if (action.id == id)
+                return &action;
+    return nullptr;
+}
+
+bool Menus::perform(Command command)
+{
+    const Action* action = find(command);
+    if (action == nullptr || !action->run || !canDo(*action))
+        return false;
+    action->run();
+    refresh();
+    return true;
+}
+
+bool Menus::perform(const InvocationInfo& info)
+{
+    return perform(static_cast<Command>(info.commandID));
+}
+
+juce::StringArray Menus::getMenuBarNames()
+{
+    juce::StringArray names;
+    for (const Menu& menu : menus)
+        names.add(menu.name);
+    return names;
+}
+
+juce::PopupMenu Menus::getMenuForIndex(int index, const juce::String&)
+{
+    juce::PopupMenu popup;
+    popup.setLookAndFeel(&owner.getLookAndFeel());
+    for (const Action& action : menus[static_cast<std::size_t>(index)].actions)
+    {
+        if (action.lineBefore)
+            popup.addSeparator();
+        if (action.choices)
+            popup.addSubMenu(nameOf(action), canDo(action) ? action.choices() : juce::PopupMenu(), canDo(action));
+        else
+            popup.addCommandItem(&manager, action.id);
+    }
+    return popup;
+}
+
+void Menus::getAllCommands(juce::Array<juce::CommandID>& ids)
+{
+    for (const Menu& menu : menus)
+        for (const Action& action : menu.actions)
+            ids.add(action.id);
+}
+
+void Menus::getCommandInfo(juce::CommandID id, juce::ApplicationCommandInfo& info)
+{
+    const Action* action = find(id);
+    if (action == nullptr)
+        return;
+    info.setInfo(nameOf(*action), action->help, {}, 0);
+    info.setActive(canDo(*action));
+    info.setTicked(action->on && action->on());
+    for (const juce::KeyPress& key : action->keys)
+        info.defaultKeypresses.add(key);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The menu bar and the keys.
+
+#include "editor/clip/commands/Action.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// All actions of a view as menus and keys. [message]
+class Menus final : public juce::MenuBarModel, private juce::ApplicationCommandTarget
+{
+public:
+    explicit Menus(EditorView& view);
+    ~Menus() override;
+
+    [[nodiscard]] const std::vector<Menu>& all() const noexcept { return menus; }
+    [[nodiscard]] juce::KeyListener* keys() { return manager.getKeyMappings(); }
+
+    /// False when it cannot be done now.
+    bool perform(Command command);
+    /// What can be done may have changed.
+    void refresh() { manager.commandStatusChanged(); }
+
+private:
+    juce::StringArray getMenuBarNames() override;
+    juce::PopupMenu getMenuForIndex(int index, const juce::String& name) override;
+    void menuItemSelected(int, int) override {}
+
+    ApplicationCommandTarget* getNextCommandTarget() override { return nullptr; }
+    void getAllCommands(juce::Array<juce::CommandID>& ids) override;
+    void getCommandInfo(juce::CommandID id, juce::ApplicationCommandInfo& info) override;
+    bool perform(const InvocationInfo& info) override;
+
+    [[nodiscard]] const Action* find(int id) const;
+
+    juce::Component& owner;
+    std::vector<Menu> menus;
+    juce::ApplicationCommandManager manager;
+};
+
+} // namespace pacini::editor

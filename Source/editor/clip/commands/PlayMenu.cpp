@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/EditorView.h"
+#include "editor/clip/commands/Action.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+void playOrStop(Session& session)
+{
+    if (!session.isPlaying())
+        return session.play();
+    const double here = session.playhead();
+    session.stop();
+    session.setPlayhead(here);
+}
+
+/// Tenths of what is visible.
+void step(Session& session, int tenths)
+{
+    session.setPlayhead(session.playhead() + 0.1 * tenths * session.viewWidth() * session.axis().secondsPerPixel);
+}
+
+TimeRange rangeOrAll(const Session& session)
+{
+    return session.timeRange().value_or(TimeRange{0.0, session.clip()->duration});
+}
+
+void beginRange(Session& session)
+{
+    const double here = session.playhead();
+    const TimeRange range = rangeOrAll(session);
+    session.setTimeRange(TimeRange{here, range.to > here ? range.to : session.clip()->duration});
+}
+
+void endRange(Session& session)
+{
+    const double here = session.playhead();
+    const TimeRange range = rangeOrAll(session);
+    session.setTimeRange(TimeRange{range.from < here ? range.from : 0.0, here});
+}
+} // namespace
+
+Menu playMenu(EditorView& view)
+{
+    Session& session = view.session();
+    const auto anyClip = [&session]
+    {
+        return session.clip() != nullptr;
+    };
+    const auto hear = [&session](Command id, const char* name, const char* help, Heard what, char key)
+    {
+        return Action{.id = id,
+                      .name = name,
+                      .help = help,
+                      .run = [&session, what] { session.setHeard(what); },
+                      .on = [&session, what] { return session.heard() == what; },
+                      .keys = {ctrl(key)},
+                      .lineBefore = what == Heard::haptic};
+    };
+    using Key = juce::KeyPress;
+    return {"Play",
+            {
+                {.id = playOrPause,
+                 .name = "Play or pause",
+                 .help = "Starts at the playhead, or stops there",
+                 .run = [&session] { playOrStop(session); },
+                 .can = anyClip,
+                 .keys = {Key(Key::spaceKey)}},
+                {.id = toStart,
+                 .name = "To start",
+                 .help = "Brings the playhead to the start",
+                 .run = [&session] { session.setPlayhead(0.0); },
+                 .can = anyClip,
+                 .keys = {Key(Key::homeKey)}},
+                {.id = toEnd,
+                 .name = "To end",
+                 .help = "Brings the playhead to the end",
+                 .run = [&session] { session.setPlayhead(session.clip()->duration); },
+                 .can = anyClip,
+                 .keys = {Key(Key::endKey)}},
+                {.id = stepBack,
+                 .name = "Playhead back",
+                 .help = "Moves the playhead a tenth of the view back",
+                 .run = [&session] { step(session, -1); },
+                 .can = anyClip,
+                 .keys = {ctrl(Key::leftKey)}},
+                {.id = stepForward,
+                 .name = "Playhead forward",
+                 .help = "Moves the playhead a tenth of the view forward",
+                 .run = [&session] { step(session, 1); },
+                 .can = anyClip,
+                 .keys = {ctrl(Key::rightKey)}},
+                {.id = rangeFromHere,
+                 .name = "Range begins here",
+                 .help = "The time range begins at the playhead",
+                 .run = [&session] { beginRange(session); },
+                 .can = anyClip,
+                 .keys = {Key('i')},
+                 .lineBefore = true},
+                {.id = rangeToHere,
+                 .name = "Range ends here",
+                 .help = "The time range ends at the playhead",
+                 .run = [&session] { endRange(session); },
+                 .can = anyClip,
+                 .keys = {Key('o')}},
+                {.id = loop,
+                 .name = "Loop",
+                 .help = "Plays the time range, or the whole clip, again and again",
+                 .run = [&session] { session.setLooping(!session.isLooping()); },
+                 .on = [&session] { return session.isLooping(); },
+                 .keys = {ctrl('l')}},
+                hear(hearHaptic, "Haptic only", "The drive signal alone", Heard::haptic, '1'),
+                hear(hearSound, "Sound only", "The sound alone", Heard::sound, '2'),
+                hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3'),
+            }};
+}
+
+} // namespace pacini::editor

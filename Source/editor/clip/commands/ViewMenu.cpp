@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/EditorView.h"
+#include "editor/clip/commands/Action.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr double zoomStep = 1.5;
+constexpr int laneStep = 16; // pixels
+constexpr double scaleStep = 0.25;
+} // namespace
+
+Menu viewMenu(EditorView& view)
+{
+    Session& session = view.session();
+    const auto anyClip = [&session]
+    {
+        return session.clip() != nullptr;
+    };
+    const auto taller = [&session](int pixels)
+    {
+        session.setLaneHeight(session.laneHeight() + pixels);
+    };
+    using Key = juce::KeyPress;
+    Menu menu{"View", {}};
+    menu.actions = {
+        {.id = zoomIn,
+         .name = "Zoom in",
+         .help = "Shows less time",
+         .run = [&view] { view.clipView().zoomAtPlayhead(zoomStep); },
+         .can = anyClip,
+         .keys = {Key('+'), Key('='), Key('+', juce::ModifierKeys::shiftModifier, 0)}},
+        {.id = zoomOut,
+         .name = "Zoom out",
+         .help = "Shows more time",
+         .run = [&view] { view.clipView().zoomAtPlayhead(1.0 / zoomStep); },
+         .can = anyClip,
+         .keys = {Key('-')}},
+        {.id = fit,
+         .name = "Fit clip",
+         .help = "Shows the whole clip",
+         .run = [&session] { session.fit(); },
+         .can = anyClip,
+         .keys = {Key('0')}},
+        {.id = zoomToRange,
+         .name = "Zoom to range",
+         .help = "Shows the time range, or the selection",
+         .run =
+             [&session] {
+                 session.showRange(
+                     session.timeRange().value_or(timeOf(session.selected(), *session.clip()).value_or(TimeRange{})));
+             },
+         .can = [&session] { return session.clip() && (session.timeRange() || !isEmpty(session.selected())); },
+         .keys = {Key('r')}},
+        {.id = tallerLanes,
+         .name = "Taller lanes",
+         .help = "Makes lanes taller",
+         .run = [taller] { taller(laneStep); },
+         .can = anyClip,
+         .keys = {ctrl('+')},
+         .lineBefore = true},
+        {.id = lowerLanes,
+         .name = "Lower lanes",
+         .help = "Makes lanes lower",
+         .run = [taller] { taller(-laneStep); },
+         .can = anyClip,
+         .keys = {ctrl('-')}},
+        {.id = decibels,
+         .name = "Levels in dB",
+         .help = "Levels on a scale of decibels, or linear",
+         .run = [&session] { session.setAmplitudesInDecibels(!session.amplitudesInDecibels()); },
+         .on =
+             [&session]
+         {
+             return session.amplitudesInDecibels();
+         }},
+        {.id = lightLook,
+         .name = "Light colours",
+         .help = "Dark text on light ground",
+         .run = [&view] { view.setDark(!view.isDark()); },
+         .on = [&view] { return !view.isDark(); },
+         .lineBefore = true},
+        {.id = largerInterface,
+         .name = "Larger interface",
+         .help = "Everything larger, to twice the size",
+         .run = [&view] { view.setScale(view.scale() + scaleStep); },
+         .keys = {ctrlShift('+')}},
+        {.id = smallerInterface,
+         .name = "Smaller interface",
+         .help = "Everything smaller, to three quarters",
+         .run = [&view] { view.setScale(view.scale() - scaleStep); },
+         .keys = {ctrlShift('-')}},
+    };
+    if (view.surroundings().showDevices)
+        menu.actions.push_back({.id = soundDevices,
+                                .name = "Sound devices...",
+                                .help = "Chooses the device and its outputs",
+                                .run = [&view] { view.surroundings().showDevices(); },
+                                .lineBefore = true});
+    return menu;
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/ClipView.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/lanes/EventLane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rulerHeight = 26;
+constexpr int waveformHeight = 72;
+constexpr int overviewHeight = 40;
+constexpr int scrollBarWidth = 10;
+constexpr int headHeight = 8; // of the playhead
+} // namespace
+
+/// Playhead and marquee over everything; lets the mouse through.
+class ClipView::Overlay final : public juce::Component
+{
+public:
+    Overlay()
+    {
+        setInterceptsMouseClicks(false, false);
+        setAccessible(false);
+    }
+
+    void setPlayhead(int x)
+    {
+        if (x == playhead)
+            return;
+        repaint(strip());
+        playhead = x;
+        repaint(strip());
+    }
+
+    void setMarquee(std::optional<juce::Rectangle<int>> wanted)
+    {
+        if (marquee)
+            repaint(marquee->expanded(2));
+        marquee = wanted;
+        if (marquee)
+            repaint(marquee->expanded(2));
+    }
+
+    void paint(juce::Graphics& g) override
+    {
+        const Palette& p = paletteFor(*this);
+        if (playhead >= laneHeadWidth)
+        {
+            g.setColour(p.text);
+            g.fillRect(playhead, 0, 1, getHeight());
+            juce::Path head;
+            const auto x = static_cast<float>(playhead) + 0.5f;
+            head.addTriangle(x - 5.0f, 0.0f, x + 5.0f, 0.0f, x, static_cast<float>(headHeight));
+            g.fillPath(head);
+        }
+        if (marquee)
+        {
+            g.setColour(p.accent.withAlpha(0.15f));
+            g.fillRect(*marquee);
+            g.setColour(p.accent);
+            g.drawRect(*marquee, 1);
+        }
+    }
+
+private:
+    [[nodiscard]] juce::Rectangle<int> strip() const { return {playhead - 6, 0, 13, getHeight()}; }
+
+    int playhead = -100;
+    std::optional<juce::Rectangle<int>> marquee;
+};
+
+ClipView::ClipView(Session& shared)
+    : session(shared), ruler(shared), waveform(shared), overview(shared), overlay(std::make_unique<Overlay>())
+{
+    setTitle("Clip");
+    setFocusContainerType(FocusContainerType::focusContainer);
+    viewport.setViewedComponent(&rows, false);
+    viewport.setScrollBarsShown(true, false);
+    viewport.setScrollBarThickness(scrollBarWidth);
+    viewport.setWantsKeyboardFocus(false);
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&ruler, &waveform, &viewport, &overview, overlay.get()})
+        addAndMakeVisible(child);
+    session.listeners.add(this);
+    rebuild();
+    startTimerHz(60);
+}
+
+ClipView::~ClipView()
+{
+    session.listeners.remove(this);
+}
+
+juce::Rectangle<int> ClipView::plotArea() const
+{
+    return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedRight(scrollBarWidth);
+}
+
+void ClipView::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::content | Session::look)) != 0)
+        rebuild();
+    if ((changes & (Session::view | Session::playback | Session::content)) != 0)
+        placePlayhead();
+}
+
+void ClipView::rebuild()
+{
+    std::vector<Lane> wanted;
+    if (const auto clip = session.clip())
+    {
+        wanted = {{LaneKind::envelope, 0}, {LaneKind::centroid, 0}};
+        for (std::size_t k = clip->bands.size(); k-- > 0;)
+            wanted.push_back({LaneKind::amplitude, k});
+        for (std::size_t k = 0; k < clip->noise.size(); ++k)
+            wanted.push_back({LaneKind::noise, k});
+        // Bands of one number can have other frequencies.
+        for (std::size_t k = 0; k < clip->bands.size(); ++k)
+            if (auto* row = rowOf({LaneKind::amplitude, k}))
+                row->setTitle("Band at " + laneName(*clip, {LaneKind::amplitude, k}));
+    }
+    if (wanted != built)
+    {
+        lanes.clear();
+        built = wanted;
+        const auto add = [this](std::unique_ptr<PlotLane> lane)
+        {
+            lane->onMarquee = [this](PlotLane& from, const juce::MouseEvent& event, bool over)
+            {
+                marquee(from, event, over);
+            };
+            rows.addAndMakeVisible(*lane);
+            lanes.push_back(std::move(lane));
+        };
+        if (!wanted.empty())
+        {
+            add(std::make_unique<EventLane>(session, EventLane::Shows::amplitude));
+            add(std::make_unique<EventLane>(session, EventLane::Shows::sharpness));
+        }
+        for (const Lane& lane : wanted)
+            add(std::make_unique<CurveLane>(session, lane));
+    }
+    layOut();
+}
+
+PlotLane* ClipView::rowOf(Lane lane) const
+{
+    for (const auto& row : lanes)
+        if (const auto* curve = dynamic_cast<const CurveLane*>(row.get());
+            curve != nullptr && curve->lane().index == lane.index &&
+            (curve->lane().kind == lane.kind ||
+             (curve->lane().kind == LaneKind::pitch && lane.kind == LaneKind::amplitude)))
+            return row.get();
+    return nullptr;
+}
+
+PlotLane* ClipView::eventRow() const
+{
+    return lanes.empty() ? nullptr : lanes.front().get();
+}
+
+void ClipView::paint(juce::Graphics& g)
+{
+    g.fillAll(paletteFor(*this).background);
+}
+
+void ClipView::resized()
+{
+    auto area = getLocalBounds();
+    overlay->setBounds(area.withTrimmedRight(scrollBarWidth).withTrimmedBottom(overviewHeight));
+    ruler.setBounds(area.removeFromTop(rulerHeight).withTrimmedRight(scrollBarWidth));
+    waveform.setBounds(area.removeFromTop(waveformHeight).withTrimmedRight(scrollBarWidth));
+    overview.setBounds(area.removeFromBottom(overviewHeight).withTrimmedRight(scrollBarWidth));
+    viewport.setBounds(area);
+    session.setViewWidth(plotArea().getWidth());
+    layOut();
+    placePlayhead();
+}
+
+void ClipView::layOut()
+{
+    const int unit = session.laneHeight();
+    const int width = getWidth() - scrollBarWidth;
+    int y = 0;
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+    {
+        const auto* curve = dynamic_cast<const CurveLane*>(lanes[i].get());
+        const bool small =
+            curve != nullptr && curve->lane().kind != LaneKind::envelope && curve->lane().kind != LaneKind::centroid;
+        const int height = i == 1 || small ? unit : unit + unit / 2;
+        lanes[i]->setBounds(0, y, width, height);
+        y += height;
+    }
+    rows.setSize(width, y);
+}
+
+void ClipView::placePlayhead()
+{
+    if (!session.clip())
+        return overlay->setPlayhead(-100);
+    const double time = session.playhead();
+    // The view turns its pages with the playhead.
+    const TimeRange shown = session.axis().visible(session.viewWidth());
+    if (session.isPlaying() && !isMouseButtonDownAnywhere() && (time < shown.from || time > shown.to))
+    {
+        TimeAxis axis = session.axis();
+        axis.start = time;
+        session.setAxis(axis);
+    }
+    const double x = session.axis().xOf(time);
+    overlay->setPlayhead(x < 0.0 || x > session.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
+}
+
+void ClipView::zoomAtPlayhead(double factor)
+{
+    const double x = session.axis().xOf(session.playhead());
+    session.zoom(factor, x >= 0.0 && x <= session.viewWidth() ? x : 0.5 * session.viewWidth());
+}
+
+void ClipView::mouseMagnify(const juce::MouseEvent& event, float factor)
+{
+    const auto here = event.getEventRelativeTo(this);
+    session.zoom(static_cast<double>(factor), static_cast<double>(here.position.x) - laneHeadWidth);
+}
+
+void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details)
+{
+    const auto here = event.getEventRelativeTo(this);
+    const double x = static_cast<double>(here.position.x) - laneHeadWidth;
+    if (event.mods.isAltDown())
+        return session.setLaneHeight(session.laneHeight() + (details.deltaY > 0.0f ? 8 : -8));
+    const bool sideways = event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY);
+    if (!sideways)
+        return session.zoom(std::exp2(4.0 * static_cast<double>(details.deltaY)), std::max(0.0, x));
+    const float delta = std::abs(details.deltaX) > std::abs(details.deltaY) ? details.deltaX : details.deltaY;
+    TimeAxis axis = session.axis();
+    axis.start -= static_cast<double>(delta) * session.viewWidth() * axis.secondsPerPixel;
+    session.setAxis(axis);
+}
+
+void ClipView::marquee(PlotLane& from, const juce::MouseEvent& event, bool over)
+{
+    const auto here = event.getEventRelativeTo(this);
+    const auto start = here.getMouseDownPosition();
+    if (!event.mouseWasDraggedSinceMouseDown())
+    {
+        if (!over)
+        {
+            beforeMarquee = event.mods.isShiftDown() ? session.selected() : Selection{};
+            session.select(beforeMarquee);
+        }
+        else if (!event.mods.isPopupMenu())
+            session.setPlayhead(session.axis().timeAt(here.position.x - static_cast<float>(laneHeadWidth)));
+        return;
+    }
+    juce::ignoreUnused(from);
+    const auto area = juce::Rectangle<int>(start, here.getPosition()).getIntersection(plotArea());
+    overlay->setMarquee(over ? std::nullopt : std::optional(area));
+    Selection now = beforeMarquee;
+    for (const auto& lane : lanes)
+        lane->addInside(now, lane->getLocalArea(this, area).toFloat());
+    session.select(std::move(now));
+}
+
+} // namespace pacini::editor

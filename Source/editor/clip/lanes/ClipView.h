@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Everything that a clip holds over one axis of time.
+
+#include "editor/clip/lanes/Overview.h"
+#include "editor/clip/lanes/PlotLane.h"
+#include "editor/clip/lanes/TimeRuler.h"
+#include "editor/clip/lanes/WaveformRow.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// Ruler and sound stay, the lanes below scroll: transients, their sharpness, envelope, centroid, the bands with high
+/// ones above, noise; the overview is at the foot.
+class ClipView final : public juce::Component, private Session::Listener, private juce::Timer
+{
+public:
+    explicit ClipView(Session& shared);
+    ~ClipView() override;
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void mouseMagnify(const juce::MouseEvent& event, float factor) override;
+
+    /// Zooms about the playhead where that is visible, else about the middle.
+    void zoomAtPlayhead(double factor);
+
+    /// The row of a lane, or null.
+    [[nodiscard]] PlotLane* rowOf(Lane lane) const;
+    [[nodiscard]] PlotLane* eventRow() const;
+
+private:
+    class Overlay;
+
+    /// Leaves the wheel with Shift, which moves in time, to the view.
+    class LaneViewport final : public juce::Viewport
+    {
+        void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details) override
+        {
+            if (event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY))
+                juce::Component::mouseWheelMove(event, details);
+            else
+                juce::Viewport::mouseWheelMove(event, details);
+        }
+
+        /// These move the playhead.
+        bool keyPressed(const juce::KeyPress& key) override
+        {
+            const bool ends = key == juce::KeyPress::homeKey || key == juce::KeyPress::endKey;
+            return !ends && juce::Viewport::keyPressed(key);
+        }
+    };
+
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override { placePlayhead(); }
+    void rebuild();
+    void layOut();
+    void placePlayhead();
+    void marquee(PlotLane& from, const juce::MouseEvent& event, bool over);
+    void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details) override;
+    [[nodiscard]] juce::Rectangle<int> plotArea() const;
+
+    Session& session;
+    TimeRuler ruler;
+    WaveformRow waveform;
+    Overview overview;
+    LaneViewport viewport;
+    juce::Component rows;
+    std::vector<std::unique_ptr<PlotLane>> lanes;
+    std::vector<Lane> built; ///< the lanes that there are rows for
+    std::unique_ptr<Overlay> overlay;
+    Selection beforeMarquee;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/CurveLane.h"
+
+#include "document/view/Columns.h"
+#include "document/view/HitTest.h"
+#include "editor/Theme.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr float pickRadius = 7.0f;          // pixels
+constexpr double pixelsForHandles = 5.0;    // a point, on average
+constexpr float straightPixels = 8.0f;      // of a line that bends
+constexpr double mostPointsPerColumn = 0.2; // more are drawn as bars
+
+/// Points from `first` to behind `last` whose lines reach into a stretch of time.
+std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
+{
+    const auto less = [](const Breakpoint& p, double t)
+    {
+        return p.time < t;
+    };
+    auto first = std::lower_bound(curve.begin(), curve.end(), range.from, less);
+    auto last = std::lower_bound(first, curve.end(), range.to, less);
+    if (first != curve.begin())
+        --first;
+    if (last != curve.end())
+        ++last;
+    return {static_cast<std::size_t>(first - curve.begin()), static_cast<std::size_t>(last - curve.begin())};
+}
+} // namespace
+
+juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, bool dark)
+{
+    if (lane.kind == LaneKind::envelope)
+        return palette.accent;
+    if (lane.kind == LaneKind::centroid)
+        return palette.warning;
+    if (lane.kind == LaneKind::noise || clip.bands.empty())
+        return palette.dim;
+    const float place = static_cast<float>(lane.index) / static_cast<float>(clip.bands.size());
+    const float hue = 0.98f - 0.5f * place; // low ones warm, high ones cold
+    return juce::Colour::fromHSV(hue < 0.0f ? hue + 1.0f : hue, dark ? 0.45f : 0.75f, dark ? 0.92f : 0.62f, 1.0f);
+}
+
+juce::String hertzText(double frequency)
+{
+    if (frequency >= 1000.0)
+        return juce::String(frequency / 1000.0, 2) + " kHz";
+    return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
+}
+
+juce::String amplitudeText(double amplitude)
+{
+    if (amplitude <= 0.0)
+        return "silent";
+    return juce::String(20.0 * std::log10(amplitude), 1) + " dB";
+}
+
+juce::String laneName(const Clip& clip, Lane lane)
+{
+    switch (lane.kind)
+    {
+    case LaneKind::envelope:
+        return "Envelope";
+    case LaneKind::centroid:
+        return "Centroid";
+    case LaneKind::noise:
+        return "Noise " + juce::String(static_cast<int>(lane.index) + 1);
+    default:
+        return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
+    }
+}
+
+CurveLane::CurveLane(Session& shared, Lane first)
+    : PlotLane(shared), shown(first), pitchButton("Hz"), soloButton("S"), muteButton("M")
+{
+    const auto clip = session.clip();
+    const juce::String name = clip ? laneName(*clip, shown) : juce::String();
+    const bool band = shown.kind == LaneKind::amplitude;
+    setTitle(band ? "Band at " + name : name);
+    setDescription(isFrequency(shown.kind)
+                       ? "Frequency over time. Double-click adds a point, Delete removes what is selected"
+                       : "Level over time. Double-click adds a point, Delete removes what is selected");
+    if (!band)
+        return;
+    const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help)
+    {
+        button.setTitle(title + " " + getTitle().toLowerCase());
+        button.setTooltip(help);
+        addAndMakeVisible(button);
+    };
+    prepare(pitchButton, "Pitch of", "Shows the pitch of this band (Hz) in place of its level (dB)");
+    prepare(soloButton, "Solo", "Only bands with this are heard and felt; the clip stays as it is");
+    prepare(muteButton, "Mute", "This band is neither heard nor felt; the clip stays as it is");
+    pitchButton.onClick = [this]
+    {
+        shown.kind = pitchButton.getToggleState() ? LaneKind::pitch : LaneKind::amplitude;
+        forgetScale();
+        repaint();
+    };
+    const auto hearing = [this](std::set<std::size_t> Audition::*set, bool on)
+    {
+        Audition wanted = session.audition();
+        if (on)
+            (wanted.*set).insert(shown.index);
+        else
+            (wanted.*set).erase(shown.index);
+        session.setAudition(std::move(wanted));
+    };
+    soloButton.onClick = [this, hearing]
+    {
+        hearing(&Audition::solo, soloButton.getToggleState());
+    };
+    muteButton.onClick = [this, hearing]
+    {
+        hearing(&Audition::muted, muteButton.getToggleState());
+    };
+    showHearing();
+}
+
+void CurveLane::resized()
+{
+    auto area = getLocalBounds().removeFromLeft(laneHeadWidth).withTrimmedRight(6);
+    area = area.withSizeKeepingCentre(area.getWidth(), 20);
+    muteButton.setBounds(area.removeFromRight(22));
+    area.removeFromRight(3);
+    soloButton.setBounds(area.removeFromRight(22));
+    area.removeFromRight(3);
+    pitchButton.setBounds(area.removeFromRight(26));
+}
+
+const Curve* CurveLane::curve() const
+{
+    const auto clip = session.clip();
+    return clip ? curveOf(*clip, shown) : nullptr;
+}
+
+void CurveLane::follow(unsigned changes)
+{
+    if ((changes & Session::playback) != 0)
+        showHearing();
+}
+
+void CurveLane::showHearing()
+{
+    const Audition& audition = session.audition();
+    soloButton.setToggleState(audition.solo.contains(shown.index), juce::dontSendNotification);
+    muteButton.setToggleState(audition.muted.contains(shown.index), juce::dontSendNotification);
+    const bool silent = shown.kind == LaneKind::amplitude && !audition.hears(shown.index);
+    if (silent == muted)
+        return;
+    muted = silent;
+    repaint();
+}
+
+PlotLane::Style CurveLane::style() const
+{
+    const auto clip = session.clip();
+    if (!clip)
+        return {};
+    const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
+    const Curve* points = curve();
+    const juce::String number(points != nullptr ? static_cast<int>(points->size()) : 0);
+    Style result{laneName(*clip, shown), number + " points",
+                 laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
+    if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
+        result.note = {};
+    return result;
+}
+
+ValueAxis CurveLane::valueAxis(double height) const
+{
+    const auto clip = session.clip();
+    if (!isFrequency(shown.kind))
+    {
+        double highest = 1.0;
+        if (!session.amplitudesInDecibels() && shown.kind != LaneKind::envelope)
+        {
+            // Bands are small beside the whole; all have one scale, so that they can be compared.
+            highest = 0.05;
+            if (clip)
+                for (const Band& band : clip->bands)
+                    for (const Breakpoint& p : band.amplitude)
+                        highest = std::max(highest, p.value);
+            ValueAxis axis = amplitudeAxis(false, 1.0, height);
+            axis.high = highest;
+            return axis;
+        }
+        if (const Curve* points = curve())
+            for (const Breakpoint& p : *points)
+                highest = std::max(highest, p.value);
+        return amplitudeAxis(session.amplitudesInDecibels(), highest, height);
+    }
+    ValueAxis axis{ValueScale::logarithmic, 20.0, 1500.0, height};
+    if (shown.kind == LaneKind::pitch && clip && shown.index < clip->bands.size())
+    {
+        const Band& band = clip->bands[shown.index];
+        axis.low = std::max(1.0, 0.8 * band.lowFrequency);
+        axis.high = std::max(1.25 * band.highFrequency, 2.0 * axis.low);
+    }
+    return axis;
+}
+
+bool CurveLane::showsHandles() const
+{
+    const Curve* points = curve();
+    if (points == nullptr)
+        return false;
+    const auto [first, last] = reaching(*points, session.axis().visible(session.viewWidth()));
+    return static_cast<double>(last - first) * pixelsForHandles <= session.viewWidth() + 2.0 * pixelsForHandles;
+}
+
+void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
+{
+    const Palette& p = paletteFor(*this);
+    const Curve* points = curve();
+    if (points == nullptr || points->empty())
+        return;
+    const juce::Colour colour = muted ? p.dim.withAlpha(0.5f) : style().colour;
+    const ValueAxis values = scale();
+    const bool filled = !isFrequency(shown.kind);
+    TimeAxis axis = session.axis();
+    const auto [first, last] =
+        reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
+    const double perColumn = static_cast<double>(last - first) / std::max(1, lastColumn - firstColumn + 16);
+    const bool bars = perColumn > mostPointsPerColumn;
+    if (bars || filled)
+    {
+        // Bars of whole pixels are many times faster than filled paths.
+        std::vector<Column> columns(static_cast<std::size_t>(std::max(0, lastColumn - firstColumn)));
+        axis.start = axis.timeAt(firstColumn);
+        curveColumns(*points, axis, columns);
+        const int bottom = plot.getBottom();
+        const juce::Colour fill = colour.withMultipliedAlpha(bars ? 0.35f : 0.18f);
+        const auto yOf = [&](float value)
+        {
+            const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
+            return plot.getY() + juce::roundToInt(y);
+        };
+        for (std::size_t i = 0; i < columns.size(); ++i)
+        {
+            const int x = plot.getX() + firstColumn + static_cast<int>(i);
+            const int top = yOf(columns[i].high);
+            const int low = bars ? yOf(columns[i].low) : top;
+            g.setColour(fill);
+            if (filled)
+                g.fillRect(x, low, 1, bottom - low);
+            g.setColour(colour);
+            if (bars)
+                g.fillRect(x, top, 1, std::max(2, low - top));
+        }
+    }
+    if (bars)
+        return;
+    const auto at = [&](std::size_t i)
+    {
+        return pointOf((*points)[i]);
+    };
+    g.setColour(colour);
+    const auto line = [&](juce::Point<float> from, juce::Point<float> to)
+    {
+        g.drawLine({from, to}, 1.5f);
+    };
+    // Before the first and behind the last point their values hold. Line by line, for steep ones make a path slow.
+    const float left = static_cast<float>(plot.getX() + firstColumn) - 4.0f;
+    const float right = static_cast<float>(plot.getX() + lastColumn) + 4.0f;
+    const auto pointAtX = [&](float x)
+    {
+        const double time = session.axis().timeAt(static_cast<double>(x) - plot.getX());
+        return juce::Point<float>(x, pointOf({time, valueAt(*points, time)}).y);
+    };
+    if (first == 0 && at(0).x > left)
+        line({left, at(0).y}, at(0));
+    for (std::size_t i = first; i + 1 < last; ++i)
+    {
+        const auto from = at(i);
+        const auto to = at(i + 1);
+        if (values.scale == ValueScale::linear || to.x - from.x <= straightPixels)
+        {
+            line(from, to);
+            continue;
+        }
+        // What is straight in value bends on a scale of decibels or octaves.
+        auto before = from.x >= left ? from : pointAtX(left);
+        const float end = std::min(to.x, right);
+        while (before.x < end)
+        {
+            const float x = std::min(end, before.x + straightPixels);
+            const auto next = x < to.x ? pointAtX(x) : to;
+            line(before, next);
+            before = next;
+            if (x >= end)
+                break;
+        }
+    }
+    if (last == points->size() && at(last - 1).x < right)
+        line(at(last - 1), {right, at(last - 1).y});
+    if (!showsHandles())
+        return;
+    const Indices chosen = picked();
+    for (std::size_t i = first; i < last; ++i)
+    {
+        const bool isChosen = std::binary_search(chosen.begin(), chosen.end(), i);
+        const float size = isChosen ? 8.0f : 5.0f;
+        const auto box = juce::Rectangle<float>(size, size).withCentre(at(i));
+        g.setColour(isChosen ? p.text : colour);
+        g.fillRect(box);
+        if (isChosen)
+        {
+            g.setColour(p.card);
+            g.drawRect(box, 1.0f);
+        }
+    }
+}
+
+std::optional<std::size_t> CurveLane::thingAt(juce::Point<float> place) const
+{
+    const Curve* points = curve();
+    if (points == nullptr || !showsHandles())
+        return std::nullopt;
+    const auto plot = plotArea();
+    return pointAt(*points, session.axis(), scale(), static_cast<double>(place.x) - plot.getX(),
+                   static_cast<double>(place.y) - plot.getY(), static_cast<double>(pickRadius));
+}
+
+std::size_t CurveLane::count() const
+{
+    const Curve* points = curve();
+    return points != nullptr ? points->size() : 0;
+}
+
+Breakpoint CurveLane::place(std::size_t thing) const
+{
+    return (*curve())[thing];
+}
+
+Selection CurveLane::pick(Selection selection, Indices things) const
+{
+    return withPoints(std::move(selection), shown, std::move(things));
+}
+
+void CurveLane::addInside(Selection& selection, juce::Rectangle<float> area) const
+{
+    const Curve* points = curve();
+    const auto plot = plotArea().toFloat();
+    if (points == nullptr || !area.intersects(plot))
+        return;
+    const ValueAxis values = scale();
+    const auto valueAt = [&](float y)
+    {
+        return values.valueAtY(static_cast<double>(y - plot.getY()));
+    };
+    const TimeRange times{session.axis().timeAt(static_cast<double>(area.getX() - plot.getX())),
+                          session.axis().timeAt(static_cast<double>(area.getRight() - plot.getX()))};
+    // Over the edge of the lane means all that lies beyond it.
+    const ValueRange range{area.getBottom() >= plot.getBottom() - 1.0f ? -1.0 : valueAt(area.getBottom()),
+                           area.getY() <= plot.getY() + 1.0f ? limits::frequency : valueAt(area.getY())};
+    const Indices inside = pointsInside(*points, times, range);
+    selection = withPoints(selection, shown, unionOf(selectedIn(selection, shown), inside));
+}
+
+EditedClip CurveLane::added(const Clip& clip, Breakpoint where) const
+{
+    EditedClip result{clip, {}};
+    if (Curve* points = curveOf(result.clip, shown))
+    {
+        EditedCurve edited = addPoint(*points, where, limitsOf(clip, shown));
+        *points = std::move(edited.curve);
+        result.selection = withPoints({}, shown, std::move(edited.selection));
+    }
+    return result;
+}
+
+SelectionMove CurveLane::move(Breakpoint from, Breakpoint to) const
+{
+    SelectionMove result;
+    if (isFrequency(shown.kind))
+        result.frequencyFactor = from.value > 0.0 ? to.value / from.value : 1.0;
+    else
+        result = amplitudeMove(from.value, to.value);
+    return result;
+}
+
+juce::String CurveLane::valueText(double value) const
+{
+    return isFrequency(shown.kind) ? hertzText(value) : amplitudeText(value);
+}
+
+} // namespace pacini::editor

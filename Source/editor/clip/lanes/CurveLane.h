@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A curve of the clip as a row.
+
+#include "editor/Theme.h"
+#include "editor/clip/lanes/PlotLane.h"
+
+namespace pacini::editor
+{
+
+/// The colour of a lane: bands go through the hues by frequency.
+[[nodiscard]] juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, bool dark);
+
+/// "62 Hz", "1.2 kHz".
+[[nodiscard]] juce::String hertzText(double frequency);
+/// "-12.3 dB", "silent".
+[[nodiscard]] juce::String amplitudeText(double amplitude);
+/// The name of a lane for people.
+[[nodiscard]] juce::String laneName(const Clip& clip, Lane lane);
+
+/// Few points are drawn with their handles and can be picked; many as one bar for each column of pixels.
+class CurveLane final : public PlotLane
+{
+public:
+    CurveLane(Session& shared, Lane first);
+
+    [[nodiscard]] Lane lane() const noexcept { return shown; }
+
+    void addInside(Selection& selection, juce::Rectangle<float> area) const override;
+    void resized() override;
+
+private:
+    [[nodiscard]] const Curve* curve() const;
+    [[nodiscard]] bool showsHandles() const;
+    void showHearing();
+
+    Style style() const override;
+    ValueAxis valueAxis(double height) const override;
+    void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
+    std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
+    std::size_t count() const override;
+    Breakpoint place(std::size_t thing) const override;
+    Indices picked() const override { return selectedIn(session.selected(), shown); }
+    Selection pick(Selection selection, Indices things) const override;
+    EditedClip added(const Clip& clip, Breakpoint where) const override;
+    SelectionMove move(Breakpoint from, Breakpoint to) const override;
+    juce::String valueText(double value) const override;
+    const char* moveName() const override { return "Move points"; }
+    void follow(unsigned changes) override;
+
+    Lane shown;
+    bool muted = false;
+    juce::ToggleButton pitchButton, soloButton, muteButton;
+};
+
+} // namespace pacini::editor

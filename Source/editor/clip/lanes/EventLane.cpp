@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/EventLane.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/lanes/CurveLane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr float pickRadius = 8.0f; // pixels
+constexpr double usualSharpness = 0.5;
+constexpr double usualAmplitude = 0.7;
+
+/// Round for dull, pointed for crisp events.
+juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
+{
+    juce::Path path;
+    if (sharpness < 0.34)
+        path.addEllipse(juce::Rectangle<float>(size, size).withCentre(centre));
+    else if (sharpness < 0.67)
+        path.addRectangle(juce::Rectangle<float>(0.85f * size, 0.85f * size).withCentre(centre));
+    else
+        path.addTriangle(centre.x, centre.y - 0.6f * size, centre.x + 0.55f * size, centre.y + 0.45f * size,
+                         centre.x - 0.55f * size, centre.y + 0.45f * size);
+    return path;
+}
+} // namespace
+
+EventLane::EventLane(Session& shared, Shows wanted) : PlotLane(shared), shows(wanted)
+{
+    setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
+    setDescription(
+        shows == Shows::amplitude
+            ? "Short events and their levels: round heads are dull, pointed ones crisp. Double-click adds one"
+            : "How crisp events feel: 0 % dull, 100 % crisp");
+}
+
+PlotLane::Style EventLane::style() const
+{
+    const auto colour = paletteFor(*this).warning;
+    if (shows == Shows::sharpness)
+        return {"Sharpness", "0 to 100 %", colour};
+    return {"Transients", juce::String(static_cast<int>(count())) + " events", colour};
+}
+
+ValueAxis EventLane::valueAxis(double height) const
+{
+    if (shows == Shows::sharpness)
+        // A margin, so that heads at the ends can be seen.
+        return {ValueScale::linear, -0.1, 1.1, height};
+    double highest = 1.0;
+    if (const auto clip = session.clip())
+        for (const Transient& event : clip->transients)
+            highest = std::max(highest, event.amplitude);
+    // Room for the heads of the strongest: a tenth of the height on either scale.
+    const bool decibels = session.amplitudesInDecibels();
+    return amplitudeAxis(decibels, (decibels ? 2.0 : 1.12) * highest, height);
+}
+
+void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
+{
+    const auto clip = session.clip();
+    const Palette& p = paletteFor(*this);
+    const auto& events = clip->transients;
+    const TimeAxis axis = session.axis();
+    const auto less = [](const Transient& event, double time)
+    {
+        return event.time < time;
+    };
+    const auto first = std::lower_bound(events.begin(), events.end(), axis.timeAt(firstColumn - 12.0), less);
+    const auto last = std::lower_bound(first, events.end(), axis.timeAt(lastColumn + 12.0), less);
+    const bool crowded = last - first > std::max(1, lastColumn - firstColumn);
+    const Indices chosen = picked();
+    const float bottom = static_cast<float>(plot.getBottom());
+    for (auto event = first; event != last; ++event)
+    {
+        const auto i = static_cast<std::size_t>(event - events.begin());
+        const auto at = pointOf(place(i));
+        const bool isChosen = std::binary_search(chosen.begin(), chosen.end(), i);
+        g.setColour(isChosen ? p.text : p.warning);
+        g.fillRect(juce::roundToInt(at.x), juce::roundToInt(at.y), 1, juce::roundToInt(bottom - at.y));
+        if (crowded)
+            continue;
+        g.fillPath(headOf(at, isChosen ? 12.0f : 9.0f, event->sharpness));
+    }
+}
+
+std::optional<std::size_t> EventLane::thingAt(juce::Point<float> position) const
+{
+    std::optional<std::size_t> best;
+    float nearest = pickRadius;
+    const auto plot = plotArea();
+    if (!plot.toFloat().contains(position))
+        return best;
+    for (std::size_t i = 0; i < count(); ++i)
+    {
+        const auto at = pointOf(place(i));
+        // The stem can be picked as well as the head.
+        const float down = std::clamp(position.y, at.y, static_cast<float>(plot.getBottom()));
+        const float distance = std::hypot(at.x - position.x, (down - position.y));
+        if (distance > nearest)
+            continue;
+        nearest = distance;
+        best = i;
+    }
+    return best;
+}
+
+std::size_t EventLane::count() const
+{
+    const auto clip = session.clip();
+    return clip ? clip->transients.size() : 0;
+}
+
+Breakpoint EventLane::place(std::size_t thing) const
+{
+    const Transient event = session.clip()->transients[thing];
+    return {event.time, shows == Shows::amplitude ? event.amplitude : event.sharpness};
+}
+
+Selection EventLane::pick(Selection selection, Indices things) const
+{
+    selection.transients = std::move(things);
+    return selection;
+}
+
+void EventLane::addInside(Selection& selection, juce::Rectangle<float> area) const
+{
+    if (!area.intersects(plotArea().toFloat()))
+        return;
+    Indices inside;
+    for (std::size_t i = 0; i < count(); ++i)
+    {
+        const auto at = pointOf(place(i));
+        if (at.x >= area.getX() && at.x <= area.getRight() && area.getBottom() >= at.y)
+            inside.push_back(i);
+    }
+    selection.transients = unionOf(selection.transients, inside);
+}
+
+EditedClip EventLane::added(const Clip& clip, Breakpoint where) const
+{
+    const Transient event = shows == Shows::amplitude ? Transient{where.time, where.value, usualSharpness}
+                                                      : Transient{where.time, usualAmplitude, where.value};
+    EditedClip result{addTransient(clip, event), {}};
+    const auto& events = result.clip.transients;
+    for (std::size_t i = 0; i < events.size(); ++i)
+        if (i >= clip.transients.size() || !(events[i] == clip.transients[i]))
+        {
+            result.selection.transients = {i};
+            break;
+        }
+    return result;
+}
+
+SelectionMove EventLane::move(Breakpoint from, Breakpoint to) const
+{
+    if (shows == Shows::amplitude)
+        return amplitudeMove(from.value, to.value);
+    SelectionMove result;
+    result.sharpness = to.value - from.value;
+    return result;
+}
+
+juce::String EventLane::valueText(double value) const
+{
+    return shows == Shows::amplitude ? amplitudeText(value)
+                                     : juce::String(juce::roundToInt(100.0 * std::clamp(value, 0.0, 1.0))) + " % sharp";
+}
+
+} // namespace pacini::editor

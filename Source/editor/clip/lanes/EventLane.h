@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The transients of the clip as a row: their levels, or how sharp they feel.
+
+#include "editor/clip/lanes/PlotLane.h"
+
+namespace pacini::editor
+{
+
+class EventLane final : public PlotLane
+{
+public:
+    enum class Shows
+    {
+        amplitude,
+        sharpness
+    };
+    EventLane(Session& shared, Shows wanted);
+
+    void addInside(Selection& selection, juce::Rectangle<float> area) const override;
+
+private:
+    Style style() const override;
+    ValueAxis valueAxis(double height) const override;
+    void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) override;
+    std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
+    std::size_t count() const override;
+    Breakpoint place(std::size_t thing) const override;
+    Indices picked() const override { return session.selected().transients; }
+    Selection pick(Selection selection, Indices things) const override;
+    EditedClip added(const Clip& clip, Breakpoint where) const override;
+    SelectionMove move(Breakpoint from, Breakpoint to) const override;
+    juce::String valueText(double value) const override;
+    const char* moveName() const override { return "Move transients"; }
+
+    Shows shows;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace pacini::editor
+{
+
+/// The envelope of the whole clip with a frame around what is visible, which can be dragged and resized.
+class Overview final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+{
+public:
+    explicit Overview(Session& shared);
+    ~Overview() override;
+
+    void paint(juce::Graphics& g) override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    void mouseDrag(const juce::MouseEvent& event) override;
+    void mouseDoubleClick(const juce::MouseEvent& event) override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    [[nodiscard]] TimeAxis whole() const;
+    [[nodiscard]] juce::Rectangle<float> frame() const;
+
+    Session& session;
+    enum class Drag
+    {
+        frame,
+        left,
+        right
+    };
+    Drag drag = Drag::frame;
+    TimeRange before; // the visible range when a drag began
+};
+
+} // namespace pacini::editor

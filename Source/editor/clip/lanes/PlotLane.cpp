@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/PlotLane.h"
+
+#include "document/view/Snap.h"
+#include "editor/Theme.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr float snapReach = 6.0f;                                // pixels
+constexpr juce::uint32 nudgePause = 700;                         // ms: presses nearer than this are one step of undo
+constexpr double floorAmplitude = 0.001;                         // -60 dB
+constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
+
+std::vector<double> eventTimes(const Clip& clip)
+{
+    std::vector<double> times;
+    for (const Transient& event : clip.transients)
+        times.push_back(event.time);
+    return times;
+}
+} // namespace
+
+PlotLane::PlotLane(Session& shared) : session(shared)
+{
+    setOpaque(true);
+    setWantsKeyboardFocus(true);
+    session.listeners.add(this);
+}
+
+PlotLane::~PlotLane()
+{
+    session.listeners.remove(this);
+}
+
+bool PlotLane::concerns(unsigned changes) const
+{
+    return (changes & (Session::content | Session::selection | Session::view | Session::range | Session::look)) != 0;
+}
+
+void PlotLane::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::content | Session::look)) != 0)
+        forgetScale();
+    follow(changes);
+    if (!concerns(changes))
+        return;
+    if ((changes & ~(Session::view | Session::range | Session::selection)) == 0)
+        repaint(plotArea());
+    else
+        repaint();
+}
+
+ValueAxis PlotLane::amplitudeAxis(bool decibels, double highest, double height)
+{
+    ValueAxis axis;
+    axis.scale = decibels ? ValueScale::decibels : ValueScale::linear;
+    axis.low = decibels ? floorAmplitude : 0.0;
+    axis.high = std::max(1.0, highest);
+    axis.height = std::max(1.0, height);
+    return axis;
+}
+
+SelectionMove PlotLane::amplitudeMove(double from, double to)
+{
+    SelectionMove move;
+    if (from > 0.0)
+        move.amplitudeFactor = std::max(0.0, to) / from;
+    else
+        move.amplitudeOffset = std::max(0.0, to); // silence has no ratio
+    return move;
+}
+
+const ValueAxis& PlotLane::scale() const
+{
+    const double height = std::max(1, plotArea().getHeight());
+    if (!scaleNow || scaleNow->height != height)
+        scaleNow = valueAxis(height);
+    return *scaleNow;
+}
+
+juce::Point<float> PlotLane::pointOf(Breakpoint p) const
+{
+    const auto area = plotArea();
+    return {static_cast<float>(area.getX() + session.axis().xOf(p.time)),
+            static_cast<float>(area.getY() + scale().yOf(p.value))};
+}
+
+Breakpoint PlotLane::placeAt(juce::Point<float> position, bool snap) const
+{
+    const auto area = plotArea();
+    const double x = static_cast<double>(position.x) - area.getX();
+    double time = session.axis().timeAt(x);
+    if (const auto clip = session.clip(); snap && clip)
+        time = snapped(time, session.axis(), static_cast<double>(snapReach), eventTimes(*clip));
+    return {time, scale().valueAtY(static_cast<double>(position.y) - area.getY())};
+}
+
+// Painting.
+
+void PlotLane::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    const auto plot = plotArea();
+    const auto clipped = g.getClipBounds();
+    g.fillAll(p.card);
+    if (clipped.getX() < plot.getX())
+        paintHead(g);
+    g.setColour(p.line);
+    g.fillRect(getLocalBounds().removeFromBottom(1));
+    const auto visible = clipped.getIntersection(plot);
+    if (visible.isEmpty())
+        return;
+    const juce::Graphics::ScopedSaveState saved(g);
+    g.reduceClipRegion(visible);
+    g.setColour(p.well);
+    g.fillRect(visible);
+    if (const auto& range = session.timeRange())
+    {
+        const auto from = static_cast<float>(plot.getX() + session.axis().xOf(range->from));
+        const auto to = static_cast<float>(plot.getX() + session.axis().xOf(range->to));
+        g.setColour(p.accent.withAlpha(0.10f));
+        g.fillRect(juce::Rectangle<float>(from, static_cast<float>(plot.getY()), to - from,
+                                          static_cast<float>(plot.getHeight())));
+    }
+    const ValueAxis axis = scale();
+    if (axis.scale == ValueScale::decibels)
+    {
+        g.setColour(p.line.withAlpha(0.6f));
+        g.fillRect(plot.getX(), plot.getY() + juce::roundToInt(axis.yOf(lines[1])), plot.getWidth(), 1);
+    }
+    if (const auto clip = session.clip())
+    {
+        paintPlot(g, plot, visible.getX() - plot.getX(), visible.getRight() - plot.getX());
+        // Behind the clip's end there is nothing.
+        const int end = plot.getX() + juce::roundToInt(std::min(1e6, session.axis().xOf(clip->duration)));
+        if (end < plot.getRight())
+        {
+            g.setColour(p.background);
+            g.fillRect(plot.withLeft(std::max(plot.getX(), end)));
+        }
+    }
+    if (hovered && *hovered < count())
+    {
+        const auto centre = pointOf(place(*hovered));
+        g.setColour(p.text);
+        g.drawEllipse(juce::Rectangle<float>(11.0f, 11.0f).withCentre(centre), 1.5f);
+    }
+}
+
+void PlotLane::paintHead(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    const Style look = style();
+    auto head = getLocalBounds().removeFromLeft(laneHeadWidth).withTrimmedBottom(1);
+    g.setColour(look.colour);
+    g.fillRect(head.removeFromLeft(3));
+    if (hasKeyboardFocus(false))
+    {
+        g.setColour(p.accent);
+        g.drawRect(head, 2);
+    }
+    auto text = head.withTrimmedLeft(grid).withTrimmedRight(grid / 2);
+    g.setColour(p.text);
+    g.setFont(usualFont());
+    const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
+    if (two)
+        text = text.withSizeKeepingCentre(text.getWidth(), 36);
+    g.drawFittedText(look.name, two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1, 0.8f);
+    if (!two)
+        return;
+    g.setColour(p.dim);
+    g.setFont(smallFont());
+    g.drawFittedText(look.note, text, juce::Justification::centredLeft, 1, 0.7f);
+}
+
+// The mouse.
+
+void PlotLane::mouseMove(const juce::MouseEvent& event)
+{
+    const auto now = plotArea().contains(event.getPosition()) ? thingAt(event.position) : std::nullopt;
+    setMouseCursor(now ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
+    if (!plotArea().contains(event.getPosition()) || !session.clip())
+        setTooltip(getDescription());
+    else
+    {
+        const Breakpoint p = now ? place(*now) : placeAt(event.position, false);
+        setTooltip(juce::String(p.time, 3) + " s, " + valueText(p.value));
+    }
+    if (now == hovered)
+        return;
+    hovered = now;
+    repaint(plotArea());
+}
+
+void PlotLane::mouseExit(const juce::MouseEvent&)
+{
+    if (!hovered)
+        return;
+    hovered.reset();
+    repaint(plotArea());
+}
+
+void PlotLane::mouseDown(const juce::MouseEvent& event)
+{
+    drag = Drag::none;
+    grabKeyboardFocus();
+    if (!session.clip() || !plotArea().contains(event.getPosition()))
+        return;
+    const auto thing = thingAt(event.position);
+    const bool more = event.mods.isShiftDown() || event.mods.isCommandDown();
+    if (!thing)
+    {
+        drag = Drag::marquee;
+        if (onMarquee)
+            onMarquee(*this, event, false);
+        return;
+    }
+    const Indices now = picked();
+    const bool already = std::binary_search(now.begin(), now.end(), *thing);
+    if (more)
+        session.select(pick(session.selected(), toggled(now, {*thing})));
+    else if (!already)
+        session.select(pick({}, {*thing}));
+    if (event.mods.isPopupMenu())
+        return;
+    drag = Drag::things;
+    gesture = session.beginGesture();
+    dragged = session.selected();
+    grabbed = place(*thing);
+}
+
+void PlotLane::mouseDrag(const juce::MouseEvent& event)
+{
+    if (drag == Drag::marquee && onMarquee)
+        onMarquee(*this, event, false);
+    if (drag != Drag::things || !event.mouseWasDraggedSinceMouseDown() || pacini::isEmpty(dragged))
+        return;
+    const auto start = session.gestureStart(gesture);
+    if (!start)
+        return;
+    // What was grabbed keeps its distance to the pointer.
+    const auto begin = pointOf(grabbed);
+    auto offset = event.getOffsetFromDragStart().toFloat();
+    if (event.mods.isShiftDown())
+        (std::abs(offset.x) >= std::abs(offset.y) ? offset.y : offset.x) = 0.0f;
+    Breakpoint target = placeAt(begin + offset, !event.mods.isAltDown());
+    if (offset.y == 0.0f)
+        target.value = grabbed.value;
+    if (offset.x == 0.0f)
+        target.time = grabbed.time;
+    SelectionMove wanted = move(grabbed, target);
+    wanted.time = target.time - grabbed.time;
+    if (session.setEdited(moveName(), moveSelected(*start, dragged, wanted), gesture))
+        say(juce::String(target.time, 3) + " s, " + valueText(target.value));
+}
+
+void PlotLane::mouseUp(const juce::MouseEvent& event)
+{
+    if (drag == Drag::marquee && onMarquee)
+        onMarquee(*this, event, true);
+    drag = Drag::none;
+}
+
+void PlotLane::mouseDoubleClick(const juce::MouseEvent& event)
+{
+    const auto clip = session.clip();
+    if (!clip || !plotArea().contains(event.getPosition()) || thingAt(event.position))
+        return;
+    session.setEdited("Add point", added(*clip, placeAt(event.position, false)));
+}
+
+// Keys.
+
+void PlotLane::nudge(double pixels, double steps)
+{
+    const Indices things = picked();
+    if (!session.clip() || things.empty())
+        return;
+    const auto now = juce::Time::getMillisecondCounter();
+    if (nudging == 0 || now - lastNudge > nudgePause || nudged != session.selected())
+    {
+        nudging = session.beginGesture();
+        dragged = session.selected();
+        grabbed = place(things.front());
+        nudgedPixels = nudgedSteps = 0.0;
+    }
+    lastNudge = now;
+    nudgedPixels += pixels;
+    nudgedSteps += steps;
+    const auto start = session.gestureStart(nudging);
+    const ValueAxis axis = scale();
+    Breakpoint to = grabbed;
+    // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.
+    if (nudgedSteps != 0.0 && axis.scale == ValueScale::decibels)
+        to.value = std::max(grabbed.value, axis.low) * std::pow(10.0, nudgedSteps / 20.0);
+    else if (nudgedSteps != 0.0 && axis.scale == ValueScale::logarithmic)
+        to.value = grabbed.value * std::exp2(nudgedSteps / 12.0);
+    else
+        to.value += nudgedSteps * (axis.high - axis.low) / 50.0;
+    SelectionMove wanted = move(grabbed, to);
+    wanted.time = nudgedPixels * session.axis().secondsPerPixel;
+    session.setEdited(moveName(), moveSelected(*start, dragged, wanted), nudging);
+    nudged = session.selected();
+    say(valueText(to.value));
+}
+
+void PlotLane::step(int direction)
+{
+    if (count() == 0)
+        return;
+    const Indices now = picked();
+    std::size_t next = 0;
+    if (now.empty())
+    {
+        while (next + 1 < count() && place(next).time < session.playhead())
+            ++next;
+    }
+    else if (direction > 0)
+        next = std::min(now.back() + 1, count() - 1);
+    else
+        next = now.front() > 0 ? now.front() - 1 : 0;
+    session.select(pick({}, {next}));
+    const Breakpoint p = place(next);
+    if (const auto shown = session.axis().visible(session.viewWidth()); p.time < shown.from || p.time > shown.to)
+    {
+        TimeAxis moved = session.axis();
+        moved.start = p.time - 0.5 * (shown.to - shown.from);
+        session.setAxis(moved);
+    }
+    say(juce::String(p.time, 3) + " s, " + valueText(p.value));
+}
+
+bool PlotLane::keyPressed(const juce::KeyPress& key)
+{
+    using K = juce::KeyPress;
+    const auto modifiers = key.getModifiers();
+    const double amount = modifiers.isShiftDown() ? 10.0 : 1.0;
+    const int code = key.getKeyCode();
+    if (modifiers.isCommandDown() || modifiers.isAltDown())
+        return false;
+    const bool any = !picked().empty();
+    if (code == ',' || code == '.')
+        step(code == '.' ? 1 : -1);
+    else if (any && (code == K::leftKey || code == K::rightKey))
+        nudge(code == K::leftKey ? -amount : amount, 0.0);
+    else if (any && (code == K::upKey || code == K::downKey))
+        nudge(0.0, code == K::upKey ? amount : -amount);
+    else if (code == K::returnKey)
+    {
+        if (const auto clip = session.clip())
+        {
+            // Where the playhead is, on the curve as it is there or in the middle of the scale.
+            const ValueAxis axis = scale();
+            session.setEdited("Add point", added(*clip, {session.playhead(), axis.valueAtY(0.5 * axis.height)}));
+        }
+    }
+    else if (code == K::escapeKey && !pacini::isEmpty(session.selected()))
+        session.select({});
+    else
+        return false;
+    return true;
+}
+
+void PlotLane::say(const juce::String& text)
+{
+    setTooltip(text);
+    if (auto* handler = getAccessibilityHandler(); handler != nullptr && hasKeyboardFocus(false))
+        juce::AccessibilityHandler::postAnnouncement(getTitle() + " " + text,
+                                                     juce::AccessibilityHandler::AnnouncementPriority::medium);
+}
+
+std::unique_ptr<juce::AccessibilityHandler> PlotLane::createAccessibilityHandler()
+{
+    return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::group);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One row of the clip view: a head with its name, and a plot over time whose things can be picked, moved and added.
+
+#include "document/view/ValueAxis.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <functional>
+#include <optional>
+
+namespace pacini::editor
+{
+
+inline constexpr int laneHeadWidth = 144; ///< pixels, of all rows alike
+
+/// What mouse and keys do in a lane is the same for all kinds; the kinds say where their things are and what moving
+/// them means. Paints only the part that is to be drawn anew.
+class PlotLane : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+{
+public:
+    explicit PlotLane(Session& shared);
+    ~PlotLane() override;
+
+    [[nodiscard]] juce::Rectangle<int> plotArea() const noexcept
+    {
+        return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedBottom(1);
+    }
+
+    /// Adds what lies in a rectangle of this component to a selection. For a marquee over several lanes.
+    virtual void addInside(Selection& selection, juce::Rectangle<float> area) const = 0;
+
+    /// A drag that began where nothing is, in coordinates of this component; `over` when the button is released.
+    std::function<void(PlotLane& lane, const juce::MouseEvent& event, bool over)> onMarquee;
+
+    void paint(juce::Graphics& g) final;
+    void mouseMove(const juce::MouseEvent& event) override;
+    void mouseExit(const juce::MouseEvent& event) override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    void mouseDrag(const juce::MouseEvent& event) override;
+    void mouseUp(const juce::MouseEvent& event) override;
+    void mouseDoubleClick(const juce::MouseEvent& event) override;
+    bool keyPressed(const juce::KeyPress& key) override;
+    void focusGained(FocusChangeType) override { repaint(); }
+    void focusLost(FocusChangeType) override { repaint(); }
+
+protected:
+    struct Style
+    {
+        juce::String name, note; ///< the head's two lines
+        juce::Colour colour;
+    };
+
+    [[nodiscard]] virtual Style style() const = 0;
+    /// Of a plot of `height` pixels; asked again when the content has changed.
+    [[nodiscard]] virtual ValueAxis valueAxis(double height) const = 0;
+    virtual void paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn) = 0;
+    [[nodiscard]] virtual std::optional<std::size_t> thingAt(juce::Point<float> place) const = 0;
+    [[nodiscard]] virtual std::size_t count() const = 0;
+    [[nodiscard]] virtual Breakpoint place(std::size_t thing) const = 0; ///< time and the value that is shown
+    [[nodiscard]] virtual Indices picked() const = 0;
+    [[nodiscard]] virtual Selection pick(Selection selection, Indices things) const = 0;
+    [[nodiscard]] virtual EditedClip added(const Clip& clip, Breakpoint where) const = 0;
+    /// How everything selected moves when the thing at `from` goes to `to`.
+    [[nodiscard]] virtual SelectionMove move(Breakpoint from, Breakpoint to) const = 0;
+    [[nodiscard]] virtual juce::String valueText(double value) const = 0;
+    [[nodiscard]] virtual const char* moveName() const = 0;
+    /// What to redraw for.
+    [[nodiscard]] virtual bool concerns(unsigned changes) const;
+    virtual void follow(unsigned) {}
+
+    [[nodiscard]] const ValueAxis& scale() const;
+    void forgetScale() { scaleNow.reset(); }
+    [[nodiscard]] juce::Point<float> pointOf(Breakpoint p) const;
+    [[nodiscard]] Breakpoint placeAt(juce::Point<float> position, bool snap) const;
+    [[nodiscard]] static ValueAxis amplitudeAxis(bool decibels, double highest, double height);
+    [[nodiscard]] static SelectionMove amplitudeMove(double from, double to);
+
+    Session& session;
+
+private:
+    void sessionChanged(unsigned changes) final;
+    void paintHead(juce::Graphics& g);
+    void nudge(double pixels, double steps);
+    void step(int direction);
+    void say(const juce::String& text);
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
+
+    enum class Drag
+    {
+        none,
+        things,
+        marquee
+    };
+    mutable std::optional<ValueAxis> scaleNow;
+    Drag drag = Drag::none;
+    Gesture gesture = 0;
+    Selection dragged; ///< at the start of the gesture
+    Breakpoint grabbed;
+    Gesture nudging = 0; ///< by keys
+    Selection nudged;    ///< where the last one has brought it
+    double nudgedPixels = 0.0, nudgedSteps = 0.0;
+    juce::uint32 lastNudge = 0;
+    std::optional<std::size_t> hovered;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/TimeRuler.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/lanes/PlotLane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr double leastTickDistance = 90.0; // pixels between two times
+
+/// A round number of seconds for the distance of ticks.
+double tickStep(double secondsPerPixel)
+{
+    const double least = secondsPerPixel * leastTickDistance;
+    constexpr std::array<double, 6> minutes{60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0};
+    if (least > 30.0)
+    {
+        for (double step : minutes)
+            if (step >= least)
+                return step;
+        return 3600.0 * std::ceil(least / 3600.0);
+    }
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (double factor : {1.0, 2.0, 5.0})
+        if (factor * power >= least * 0.999)
+            return factor * power;
+    return least > 20.0 && 10.0 * power >= 60.0 ? 60.0 : 10.0 * power;
+}
+
+juce::String timeText(double time, double step)
+{
+    const int decimals = step >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-9));
+    const auto number = [decimals](double value)
+    {
+        return decimals > 0 ? juce::String(value, decimals) : juce::String(juce::roundToInt(value));
+    };
+    if (time < 60.0)
+        return number(time) + " s";
+    const int minutes = static_cast<int>(time / 60.0 + 1e-9);
+    const auto seconds = number(std::max(0.0, time - 60.0 * minutes));
+    return juce::String(minutes) + ":" + (seconds.indexOfChar('.') == 1 || seconds.length() == 1 ? "0" : "") + seconds;
+}
+} // namespace
+
+TimeRuler::TimeRuler(Session& shared) : session(shared)
+{
+    setOpaque(true);
+    setTitle("Time ruler");
+    setTooltip("Click: playhead. Drag: time range for loops and edits. Double-click: no range");
+    session.listeners.add(this);
+}
+
+TimeRuler::~TimeRuler()
+{
+    session.listeners.remove(this);
+}
+
+void TimeRuler::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::view | Session::range | Session::content)) != 0)
+        repaint();
+}
+
+double TimeRuler::timeAt(float x) const
+{
+    return session.axis().timeAt(static_cast<double>(x) - laneHeadWidth);
+}
+
+void TimeRuler::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.card);
+    const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth);
+    const TimeAxis& axis = session.axis();
+    const juce::Graphics::ScopedSaveState saved(g);
+    g.reduceClipRegion(plot);
+    const auto xOf = [&](double time)
+    {
+        return static_cast<float>(plot.getX() + axis.xOf(time));
+    };
+    if (const auto& range = session.timeRange())
+    {
+        g.setColour(session.isLooping() ? p.accent : p.accent.withAlpha(0.45f));
+        g.fillRect(juce::Rectangle<float>(xOf(range->from), static_cast<float>(plot.getBottom() - 6),
+                                          std::max(1.0f, xOf(range->to) - xOf(range->from)), 6.0f));
+    }
+    const double step = tickStep(axis.secondsPerPixel);
+    const auto first = static_cast<long long>(std::floor(axis.start / step));
+    const auto last = static_cast<long long>(std::ceil(axis.timeAt(plot.getWidth()) / step));
+    g.setFont(smallFont());
+    for (long long i = std::max(0LL, first); i <= last; ++i)
+    {
+        const double time = static_cast<double>(i) * step;
+        const float x = xOf(time);
+        g.setColour(p.line);
+        g.fillRect(x, 4.0f, 1.0f, static_cast<float>(plot.getHeight() - 4));
+        for (int k = 1; k < 5; ++k)
+            g.fillRect(xOf(time + k * step / 5.0), static_cast<float>(plot.getBottom() - 5), 1.0f, 5.0f);
+        g.setColour(p.dim);
+        g.drawText(timeText(time, step), juce::roundToInt(x) + 4, 0, 80, plot.getHeight() - 5,
+                   juce::Justification::centredLeft, false);
+    }
+}
+
+void TimeRuler::mouseDown(const juce::MouseEvent& event)
+{
+    anchor = timeAt(event.position.x);
+    if (event.getNumberOfClicks() == 1)
+        session.setPlayhead(anchor);
+}
+
+void TimeRuler::mouseDrag(const juce::MouseEvent& event)
+{
+    if (!event.mouseWasDraggedSinceMouseDown())
+        return;
+    const double now = timeAt(event.position.x);
+    session.setTimeRange(TimeRange{std::min(anchor, now), std::max(anchor, now)});
+}
+
+void TimeRuler::mouseDoubleClick(const juce::MouseEvent&)
+{
+    session.setTimeRange(std::nullopt);
+}
+
+} // namespace pacini::editor

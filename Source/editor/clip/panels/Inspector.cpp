@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/Inspector.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+#include "editor/clip/lanes/CurveLane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 3 * grid;
+constexpr int preferredHeight = 74 * grid;
+
+/// The first thing selected.
+struct FirstThing
+{
+    double time = 0.0;
+    double value = 0.0;
+    bool hertz = false;
+    std::optional<double> sharpness;
+};
+
+std::optional<FirstThing> firstOf(const Selection& selection, const Clip& clip)
+{
+    if (!selection.lanes.empty())
+    {
+        const LaneSelection& part = selection.lanes.front();
+        const Breakpoint p = (*curveOf(clip, part.lane))[part.points.front()];
+        return FirstThing{p.time, p.value, isFrequency(part.lane.kind), {}};
+    }
+    if (!selection.transients.empty())
+    {
+        const Transient& event = clip.transients[selection.transients.front()];
+        return FirstThing{event.time, event.amplitude, false, event.sharpness};
+    }
+    return std::nullopt;
+}
+} // namespace
+
+Inspector::Inspector(EditorView& shown)
+    : view(shown),
+      session(shown.session()),
+      fadeInButton("Fade in"),
+      fadeOutButton("Fade out"),
+      reverseButton("Reverse clip")
+{
+    setTitle("Inspector");
+    const auto label = [this](juce::Label& one, const juce::String& text)
+    {
+        one.setText(text, juce::dontSendNotification);
+        one.setFont(smallFont());
+        one.setAccessible(false);
+        one.setMinimumHorizontalScale(0.8f);
+        addAndMakeVisible(one);
+    };
+    label(timeLabel, "Time");
+    label(valueLabel, "Level");
+    label(sharpLabel, "Sharpness");
+    label(gainLabel, "Gain");
+    label(keepLabel, "Keep points");
+    for (juce::Label* text : {&scopeText, &cost, &facts})
+    {
+        label(*text, {});
+        text->setAccessible(true);
+        text->setJustificationType(juce::Justification::topLeft);
+    }
+    const auto field = [this](juce::Label& one, const juce::String& title, const juce::String& help)
+    {
+        one.setEditable(true, true, true);
+        one.setTitle(title);
+        one.setTooltip(help);
+        one.setFont(usualFont());
+        one.setJustificationType(juce::Justification::centred);
+        one.setWantsKeyboardFocus(true);
+        addAndMakeVisible(one);
+    };
+    field(timeField, "Time of what is selected", "Time in s of the first thing selected; the others move along");
+    field(valueField, "Value of what is selected",
+          "Level in dB, or frequency in Hz, of the first thing selected; the others follow in proportion");
+    field(sharpField, "Sharpness of what is selected",
+          "0 % dull to 100 % crisp, of the first transient selected; the others follow");
+    timeField.onTextChange = [this]
+    {
+        const auto clip = session.clip();
+        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        if (!first)
+            return;
+        SelectionMove move;
+        move.time = timeField.getText().getDoubleValue() - first->time;
+        session.setEdited("Move points", moveSelected(*clip, session.selected(), move));
+    };
+    valueField.onTextChange = [this]
+    {
+        const auto clip = session.clip();
+        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        if (!first)
+            return;
+        SelectionMove move;
+        const double number = valueField.getText().getDoubleValue();
+        if (first->hertz)
+            move.frequencyFactor = number > 0.0 && first->value > 0.0 ? number / first->value : 1.0;
+        else if (first->value > 0.0)
+            move.amplitudeFactor = std::pow(10.0, number / 20.0) / first->value;
+        else
+            move.amplitudeOffset = std::pow(10.0, number / 20.0);
+        session.setEdited("Change value", moveSelected(*clip, session.selected(), move));
+    };
+    sharpField.onTextChange = [this]
+    {
+        const auto clip = session.clip();
+        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        if (!first || !first->sharpness)
+            return;
+        SelectionMove move;
+        move.sharpness = 0.01 * sharpField.getText().getDoubleValue() - *first->sharpness;
+        session.setEdited("Change sharpness", moveSelected(*clip, session.selected(), move));
+    };
+    const auto slider = [this](juce::Slider& one, const juce::String& title, const juce::String& help)
+    {
+        one.setSliderStyle(juce::Slider::LinearHorizontal);
+        one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, rowHeight);
+        one.setTitle(title);
+        one.setTooltip(help);
+        one.setWantsKeyboardFocus(true);
+        one.onDragStart = [this]
+        {
+            gesture = session.beginGesture();
+        };
+        addAndMakeVisible(one);
+    };
+    slider(gain, "Gain", "Makes the levels of the scope louder or softer, in dB; back to 0 when it is let go");
+    gain.setRange(-24.0, 24.0, 0.1);
+    gain.setTextValueSuffix(" dB");
+    gain.setNumDecimalPlacesToDisplay(1);
+    gain.setDoubleClickReturnValue(true, 0.0);
+    gain.onValueChange = [this]
+    {
+        gainMoved();
+    };
+    slider(keep, "Points to keep", "Simplifies the curves of the scope to this share of their points, in percent");
+    keep.setRange(2.0, 100.0, 1.0);
+    keep.setTextValueSuffix(" %");
+    keep.setValue(100.0, juce::dontSendNotification);
+    keep.setDoubleClickReturnValue(true, 100.0);
+    keep.onValueChange = [this]
+    {
+        simplifyMoved();
+    };
+    gain.onDragEnd = [this]
+    {
+        gesture = 0;
+        gain.setValue(0.0, juce::dontSendNotification);
+    };
+    keep.onDragEnd = [this]
+    {
+        gesture = 0;
+        keep.setValue(100.0, juce::dontSendNotification);
+    };
+    const auto button = [this](juce::TextButton& one, Command command, const juce::String& help)
+    {
+        one.setTooltip(help);
+        one.onClick = [this, command]
+        {
+            view.doCommand(command);
+        };
+        addAndMakeVisible(one);
+    };
+    button(fadeInButton, fadeIn, "Fades in over the scope");
+    button(fadeOutButton, fadeOut, "Fades out over the scope");
+    button(reverseButton, reverse, "Plays the whole clip from its end");
+    setSize(200, preferredHeight);
+    session.listeners.add(this);
+    lookAndFeelChanged();
+    showSelection();
+    showFacts();
+}
+
+Inspector::~Inspector()
+{
+    session.listeners.remove(this);
+}
+
+void Inspector::lookAndFeelChanged()
+{
+    const Palette& p = paletteFor(*this);
+    for (juce::Label* one : {&timeField, &valueField, &sharpField})
+    {
+        one->setColour(juce::Label::backgroundColourId, p.well);
+        one->setColour(juce::Label::textColourId, p.text);
+    }
+    for (juce::Label* one : {&scopeText, &cost, &facts, &timeLabel, &valueLabel, &sharpLabel, &gainLabel, &keepLabel})
+        one->setColour(juce::Label::textColourId, p.dim);
+}
+
+void Inspector::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::content | Session::selection | Session::range)) != 0)
+        showSelection();
+    if ((changes & (Session::content | Session::project)) != 0)
+        showFacts();
+}
+
+void Inspector::showSelection()
+{
+    const auto clip = session.clip();
+    const Selection& selection = session.selected();
+    const auto first = clip ? firstOf(selection, *clip) : std::nullopt;
+    const auto set = [](juce::Label& label, juce::Label& field, bool shown, const juce::String& text)
+    {
+        label.setEnabled(shown);
+        field.setEnabled(shown);
+        if (!field.isBeingEdited())
+            field.setText(shown ? text : juce::String(), juce::dontSendNotification);
+    };
+    set(timeLabel, timeField, first.has_value(), first ? juce::String(first->time, 4) + " s" : "");
+    valueLabel.setText(first && first->hertz ? "Frequency" : "Level", juce::dontSendNotification);
+    set(valueLabel, valueField, first.has_value(),
+        first ? first->hertz ? hertzText(first->value) : amplitudeText(first->value) : juce::String());
+    const bool sharp = first && first->sharpness;
+    set(sharpLabel, sharpField, sharp,
+        sharp ? juce::String(juce::roundToInt(100.0 * *first->sharpness)) + " %" : juce::String());
+    juce::String scope;
+    const auto count = static_cast<int>(selectedCount(selection));
+    if (count > 0)
+    {
+        const auto range = *timeOf(selection, *clip);
+        scope = juce::String(count) + (count == 1 ? " point selected" : " points selected");
+        if (count > 1)
+            scope << "\n" << juce::String(range.from, 3) << " to " << juce::String(range.to, 3) << " s, their lanes";
+    }
+    else if (const auto& range = session.timeRange())
+        scope = "Range " + juce::String(range->from, 3) + " to " + juce::String(range->to, 3) + " s,\nall lanes";
+    else
+        scope = "Nothing selected:\nedits are for the whole clip";
+    scopeText.setText(scope, juce::dontSendNotification);
+}
+
+void Inspector::showFacts()
+{
+    const auto clip = session.clip();
+    if (!clip)
+        return;
+    juce::String text;
+    text << juce::String(clip->duration, 2) << " s, " << static_cast<int>(clip->bands.size()) << " bands\n"
+         << static_cast<int>(breakpointCount(*clip)) << " points, " << static_cast<int>(clip->transients.size())
+         << " transients";
+    if (const auto item = session.item(); item && !item->unfitting.empty())
+        text << "\n" << static_cast<int>(item->unfitting.size()) << " edits wait for another analysis";
+    facts.setText(text, juce::dontSendNotification);
+}
+
+std::vector<Lane> Inspector::scopeLanes() const
+{
+    const auto clip = session.clip();
+    const EditScope scope = session.scope();
+    return scope.allLanes ? lanesOf(*clip) : scope.lanes;
+}
+
+void Inspector::gainMoved()
+{
+    const bool single = gesture == 0; // typed, or by keys
+    if (session.clip() && gain.getValue() != 0.0)
+        session.edit("Gain", GainEdit{session.scope(), gain.getValue()}, single ? session.beginGesture() : gesture);
+    if (single)
+        gain.setValue(0.0, juce::dontSendNotification);
+}
+
+void Inspector::simplifyMoved()
+{
+    if (!session.clip())
+        return;
+    const bool single = gesture == 0;
+    const Gesture own = single ? session.beginGesture() : gesture;
+    const auto start = session.gestureStart(own);
+    const auto lanes = scopeLanes();
+    auto simplified = keepShare(*start, lanes, keep.getValue() / 100.0);
+    if (!simplified)
+        return cost.setText(juce::String(simplified.error().text()), juce::dontSendNotification);
+    const SimplifyCost& found = simplified->cost;
+    juce::String text;
+    text << static_cast<int>(found.before) << " to " << static_cast<int>(found.after) << " points\nError up to "
+         << juce::String(100.0 * found.amplitudeError, 2) << " % of full drive";
+    if (found.frequencyError > 0.0)
+        text << ", " << juce::String(found.frequencyError, 1) << " Hz";
+    cost.setText(text, juce::dontSendNotification);
+    session.setEdited("Simplify", {std::move(simplified->clip), {}}, own);
+    if (single)
+        keep.setValue(100.0, juce::dontSendNotification);
+}
+
+void Inspector::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.background);
+    drawCard(g, selectionCard, "Selection", p);
+    drawCard(g, levelCard, "Level", p);
+    drawCard(g, simplifyCard, "Simplify", p);
+    drawCard(g, factsCard, "Clip", p);
+}
+
+void Inspector::resized()
+{
+    auto area = getLocalBounds().reduced(grid);
+    const auto card = [&](juce::Rectangle<int>& place, int height)
+    {
+        place = area.removeFromTop(height);
+        area.removeFromTop(grid);
+        return insideOfCard(place);
+    };
+    const auto row = [](juce::Rectangle<int>& inside, juce::Label& label, juce::Component& field)
+    {
+        auto line = inside.removeFromTop(rowHeight);
+        label.setBounds(line.removeFromLeft(9 * grid));
+        field.setBounds(line);
+        inside.removeFromTop(grid / 2);
+    };
+    auto inside = card(selectionCard, 20 * grid);
+    scopeText.setBounds(inside.removeFromTop(4 * grid));
+    inside.removeFromTop(grid / 2);
+    row(inside, timeLabel, timeField);
+    row(inside, valueLabel, valueField);
+    row(inside, sharpLabel, sharpField);
+    inside = card(levelCard, 20 * grid);
+    gainLabel.setBounds(inside.removeFromTop(2 * grid));
+    gain.setBounds(inside.removeFromTop(rowHeight + 4));
+    inside.removeFromTop(grid);
+    auto line = inside.removeFromTop(rowHeight + 4);
+    const int half = (line.getWidth() - grid) / 2;
+    fadeInButton.setBounds(line.removeFromLeft(half));
+    line.removeFromLeft(grid);
+    fadeOutButton.setBounds(line);
+    inside.removeFromTop(grid);
+    reverseButton.setBounds(inside.removeFromTop(rowHeight + 4));
+    inside = card(simplifyCard, 17 * grid);
+    keepLabel.setBounds(inside.removeFromTop(2 * grid));
+    keep.setBounds(inside.removeFromTop(rowHeight + 4));
+    cost.setBounds(inside);
+    inside = card(factsCard, 12 * grid);
+    facts.setBounds(inside);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/SidePanel.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+#include "editor/clip/panels/Inspector.h"
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int tabHeight = 30;
+constexpr int scrollBarWidth = 8;
+
+/// The page is as wide as there is room and as high as it was made.
+class Scrolled final : public juce::Viewport
+{
+public:
+    explicit Scrolled(std::unique_ptr<juce::Component> content)
+    {
+        setScrollBarsShown(true, false);
+        setScrollBarThickness(scrollBarWidth);
+        setWantsKeyboardFocus(false);
+        setViewedComponent(content.release(), true);
+    }
+
+private:
+    void resized() override
+    {
+        auto* page = getViewedComponent();
+        page->setSize(getWidth() - (page->getHeight() > getHeight() ? scrollBarWidth : 0), page->getHeight());
+        Viewport::resized();
+    }
+};
+} // namespace
+
+SidePanel::SidePanel(EditorView& view) : TabbedComponent(juce::TabbedButtonBar::TabsAtTop)
+{
+    setTabBarDepth(tabHeight);
+    setOutline(0);
+    addPage("Edit", std::make_unique<Inspector>(view));
+}
+
+void SidePanel::addPage(const juce::String& name, std::unique_ptr<juce::Component> content)
+{
+    addTab(name, juce::Colours::transparentBlack, new Scrolled(std::move(content)), true);
+    getTabbedButtonBar().getTabButton(getNumTabs() - 1)->setWantsKeyboardFocus(true);
+}
+
+} // namespace pacini::editor

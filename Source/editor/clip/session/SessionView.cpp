@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/Session.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+void Session::select(Selection wanted)
+{
+    if (wanted == selectionNow)
+        return;
+    selectionNow = std::move(wanted);
+    changed(selection);
+}
+
+void Session::setViewWidth(double pixels)
+{
+    if (pixels == width || pixels <= 0.0)
+        return;
+    const bool fitted = clip() && axisNow.secondsPerPixel * width >= clip()->duration;
+    width = pixels;
+    fitted ? fit() : setAxis(axisNow);
+}
+
+void Session::setAxis(TimeAxis wanted)
+{
+    if (const auto now = clip())
+    {
+        wanted.secondsPerPixel = std::min(wanted.secondsPerPixel, std::max(now->duration, 1e-3) / width * 1.02);
+        wanted = wanted.keptInside(now->duration * 1.02, width);
+    }
+    if (wanted == axisNow)
+        return;
+    axisNow = wanted;
+    changed(view);
+}
+
+void Session::zoom(double factor, double x)
+{
+    setAxis(axisNow.zoomed(factor, x));
+}
+
+void Session::fit()
+{
+    if (const auto now = clip())
+        setAxis(TimeAxis::showing({0.0, now->duration * 1.02}, width));
+}
+
+void Session::showRange(TimeRange wanted)
+{
+    if (wanted.to > wanted.from)
+        setAxis(TimeAxis::showing(wanted, width));
+}
+
+void Session::setAmplitudesInDecibels(bool wanted)
+{
+    decibels = wanted;
+    changed(look);
+}
+
+void Session::setLaneHeight(int wanted)
+{
+    laneSize = std::clamp(wanted, 32, 160);
+    changed(look);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/Sound.h"
+
+#include "io/AnyClip.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace pacini::editor
+{
+
+namespace
+{
+bool mayBeClip(const std::filesystem::path& path)
+{
+    auto extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto known = anyClipExtensions();
+    return std::find(known.begin(), known.end(), extension) != known.end();
+}
+} // namespace
+
+Result<Imported> importFile(const std::filesystem::path& path, const EncoderParams& encoder)
+{
+    Imported result;
+    result.encoder = encoder;
+    // The extensions of clips and sounds overlap nowhere but in .wav.
+    auto described = describeAudio(path);
+    if (!described && mayBeClip(path))
+    {
+        auto read = readAnyClip(path);
+        if (!read)
+            return read.error();
+        result.clip = std::move(read->clip);
+        result.warnings = std::move(read->warnings);
+        if (result.clip.name.empty())
+            result.clip.name = path.stem().string();
+        return result;
+    }
+    if (!described)
+        return described.error();
+    auto clip = analyse(described->audio, encoder, described->reference);
+    if (!clip)
+        return clip.error();
+    result.reference = std::move(described->reference);
+    result.sound = std::make_shared<const Sound>(std::move(described->audio));
+    result.clip = std::move(clip).value();
+    return result;
+}
+
+} // namespace pacini::editor

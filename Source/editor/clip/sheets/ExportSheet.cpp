@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/sheets/ExportSheet.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 4 * grid;
+constexpr int labelWidth = 12 * grid;
+constexpr int sourceRate = 1; // of the menu; the others are Hz
+
+juce::String lossText(const FormatLoss& loss)
+{
+    juce::String text = juce::String(loss.time, 2) + " s";
+    if (loss.duration > 0.0)
+        text << " to " << juce::String(loss.time + loss.duration, 2) << " s";
+    text << ": " << toText(loss.message);
+    if (loss.error > 0.0)
+    {
+        if (loss.kind == LossKind::frequency)
+            text << " (up to " << juce::String(loss.error, 2) << " octaves)";
+        else if (loss.kind == LossKind::timeStep)
+            text << " (up to " << juce::String(1000.0 * loss.error, 1) << " ms)";
+        else
+            text << " (up to " << juce::String(100.0 * loss.error, 1) << " % of full drive)";
+    }
+    return text;
+}
+} // namespace
+
+ExportSheet::ExportSheet(Session& shared)
+    : Sheet("Export", 680, 520), session(shared), browseButton("Browse" + toText("…"))
+{
+    const auto label = [this](juce::Label& one, const juce::String& text)
+    {
+        one.setText(text, juce::dontSendNotification);
+        one.setFont(usualFont());
+        one.setAccessible(false);
+        addAndMakeVisible(one);
+    };
+    label(formatLabel, "Format");
+    label(rateLabel, "Sample rate");
+    label(targetLabel, "File");
+    label(lossLabel, "What is kept");
+    format.setTitle("Format");
+    format.setTooltip("The format of the files");
+    for (std::size_t i = 0; i < exportFormats().size(); ++i)
+        format.addItem(toText(exportFormats()[i].title + "  " + exportFormats()[i].extension), 1 + static_cast<int>(i));
+    format.setSelectedId(1, juce::dontSendNotification);
+    format.onChange = [this]
+    {
+        formatChanged();
+    };
+    rate.setTitle("Sample rate");
+    rate.setTooltip("Of formats that are samples, in Hz");
+    rate.addItem("As the sound", sourceRate);
+    for (const int hertz : {48000, 8000, 2000})
+        rate.addItem(juce::String(hertz) + " Hz", hertz);
+    rate.setSelectedId(sourceRate, juce::dontSendNotification);
+    rate.onChange = [this]
+    {
+        showLosses();
+    };
+    const auto count = session.document().project().clips.size();
+    all.setButtonText(count > 1 ? "All " + juce::String(static_cast<int>(count)) + " clips of the project"
+                                : juce::String("All clips of the project"));
+    all.setTitle("Export all clips");
+    all.setTooltip("One file for each clip, named after it, into a folder");
+    all.setEnabled(count > 1);
+    all.onClick = [this]
+    {
+        formatChanged();
+    };
+    target.setTitle("File or folder to write");
+    target.setFont(usualFont());
+    target.setIndents(grid, 7);
+    target.onReturnKey = [this]
+    {
+        run();
+    };
+    target.onEscapeKey = [this]
+    {
+        close();
+    };
+    browseButton.setTooltip("Chooses where to write");
+    browseButton.onClick = [this]
+    {
+        browse();
+    };
+    losses.setMultiLine(true);
+    losses.setReadOnly(true);
+    losses.setCaretVisible(false);
+    losses.setTitle("What is kept and what is lost");
+    losses.setFont(smallFont());
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&format, &rate, &all, &target, &browseButton, &losses})
+        addAndMakeVisible(child);
+    int order = 1;
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&target, &format, &rate, &all, &browseButton, &losses})
+        child->setExplicitFocusOrder(order++);
+    setAnswers({{"Export", {}}, {"Cancel", {}}});
+    setUsualAnswer([this] { run(); });
+    const auto& path = session.document().path();
+    const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                                           : juce::File(toText(path.parent_path().string()));
+    target.setText(folder.getFullPathName(), false);
+    formatChanged();
+}
+
+const ExportFormat& ExportSheet::chosenFormat() const
+{
+    return exportFormats()[static_cast<std::size_t>(std::max(0, format.getSelectedId() - 1))];
+}
+
+ExportChoice ExportSheet::choice() const
+{
+    ExportChoice result;
+    result.format = chosenFormat().name;
+    if (chosenFormat().rendered && rate.getSelectedId() != sourceRate)
+        result.sampleRate = rate.getSelectedId();
+    result.profile = session.profile();
+    return result;
+}
+
+/// Keeps the folder; the file follows the format.
+void ExportSheet::formatChanged()
+{
+    const auto clip = session.clip();
+    juce::File now(juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()));
+    const juce::File folder = now.isDirectory() ? now : now.getParentDirectory();
+    targetLabel.setText(all.getToggleState() ? "Folder" : "File", juce::dontSendNotification);
+    target.setText(all.getToggleState()
+                       ? folder.getFullPathName()
+                       : folder.getChildFile(toText(exportName(*clip, chosenFormat()))).getFullPathName(),
+                   false);
+    rate.setEnabled(chosenFormat().rendered);
+    rateLabel.setEnabled(chosenFormat().rendered);
+    showLosses();
+}
+
+void ExportSheet::showLosses()
+{
+    const juce::String kept = toText(whatIsKept(chosenFormat().name));
+    losses.setText(kept + "\n", false);
+    const int number = ++asked;
+    jobs.run([clip = session.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },
+             [this, kept, number](Result<std::vector<FormatLoss>> found)
+             {
+                 if (number != asked)
+                     return;
+                 juce::StringArray lines;
+                 lines.add(kept);
+                 lines.add(juce::String());
+                 if (!found)
+                     lines.add("Cannot be written: " + toText(found.error().text()));
+                 else if (found->empty())
+                     lines.add("Nothing of this clip is lost.");
+                 else
+                 {
+                     lines.add(juce::String(static_cast<int>(found->size())) + " losses:");
+                     for (const FormatLoss& loss : *found)
+                         lines.add(lossText(loss));
+                 }
+                 losses.setText(lines.joinIntoString("\n"), false);
+                 losses.applyColourToAllText(paletteFor(*this).text);
+                 setAnswerEnabled(found.ok());
+             });
+}
+
+void ExportSheet::browse()
+{
+    using Browser = juce::FileBrowserComponent;
+    const bool folder = all.getToggleState();
+    chooser =
+        std::make_unique<juce::FileChooser>(folder ? "Export into a folder" : "Export to a file",
+                                            juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
+                                            folder ? juce::String() : "*" + toText(chosenFormat().extension));
+    chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
+                                : Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
+                         [this](const juce::FileChooser& done)
+                         {
+                             if (done.getResult() != juce::File())
+                                 target.setText(done.getResult().getFullPathName(), false);
+                         });
+}
+
+void ExportSheet::run()
+{
+    ExportChoice wanted = choice();
+    std::vector<std::shared_ptr<const Clip>> clips;
+    const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
+    if (all.getToggleState())
+    {
+        for (const auto& item : session.document().project().clips)
+            clips.push_back(item->clip);
+        wanted.folder = pathOf(place);
+    }
+    else
+    {
+        clips.push_back(session.clip());
+        wanted.folder = pathOf(place.getParentDirectory());
+        wanted.file = place.getFileName().toStdString();
+        if (!place.hasFileExtension(toText(chosenFormat().extension)))
+            wanted.file += chosenFormat().extension;
+    }
+    setAnswerEnabled(false);
+    ++asked;
+    losses.setText(toText("Writing…"), false);
+    jobs.run([clips, wanted] { return pacini::exportClips(clips, wanted); },
+             [this](Result<std::vector<ExportReport>> done)
+             {
+                 setAnswerEnabled(true);
+                 if (!done)
+                     return losses.setText("Not written: " + toText(done.error().text()), false);
+                 close();
+             });
+}
+
+void ExportSheet::layOut(juce::Rectangle<int> area)
+{
+    const auto row = [&](juce::Label& label)
+    {
+        auto line = area.removeFromTop(rowHeight);
+        label.setBounds(line.removeFromLeft(labelWidth));
+        area.removeFromTop(grid);
+        return line;
+    };
+    format.setBounds(row(formatLabel));
+    auto line = row(rateLabel);
+    rate.setBounds(line.removeFromLeft(20 * grid));
+    line.removeFromLeft(2 * grid);
+    all.setBounds(line.removeFromRight(28 * grid));
+    line = row(targetLabel);
+    browseButton.setBounds(line.removeFromRight(11 * grid));
+    line.removeFromRight(grid);
+    target.setBounds(line);
+    lossLabel.setBounds(area.removeFromLeft(labelWidth).removeFromTop(rowHeight));
+    losses.setBounds(area);
+    target.applyColourToAllText(paletteFor(*this).text);
+    losses.applyColourToAllText(paletteFor(*this).text);
+}
+
+} // namespace pacini::editor

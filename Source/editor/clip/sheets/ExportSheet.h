@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Clips for use elsewhere: which, in what format, with what losses, and where to.
+
+#include "document/ExportBatch.h"
+#include "editor/clip/session/Jobs.h"
+#include "editor/clip/session/Session.h"
+#include "editor/clip/sheets/Sheet.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <memory>
+
+namespace pacini::editor
+{
+
+class ExportSheet final : public Sheet
+{
+public:
+    explicit ExportSheet(Session& shared);
+
+private:
+    void layOut(juce::Rectangle<int> area) override;
+    juce::Component* firstFocus() override { return &target; }
+    void formatChanged();
+    void showLosses();
+    void browse();
+    void run();
+    [[nodiscard]] const ExportFormat& chosenFormat() const;
+    [[nodiscard]] ExportChoice choice() const;
+
+    Session& session;
+    juce::Label formatLabel, rateLabel, targetLabel, lossLabel;
+    juce::ComboBox format, rate;
+    juce::ToggleButton all;
+    juce::TextEditor target, losses;
+    juce::TextButton browseButton;
+    std::unique_ptr<juce::FileChooser> chooser;
+    int asked = 0; ///< counts what losses were asked for
+    Jobs jobs;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/sheets/ShortcutsSheet.h"
+
+#include "editor/Theme.h"
+
+#include <vector>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 3 * grid;
+constexpr int keyWidth = 25 * grid;
+} // namespace
+
+class ShortcutsSheet::Table final : public juce::Component
+{
+public:
+    explicit Table(const std::vector<Menu>& menus)
+    {
+        rows = {
+            {"In lanes", {}},
+            {"Double-click", "Adds a point or a transient"},
+            {"Drag a point", "Moves all that is selected; Shift: one direction only, Alt: no snapping"},
+            {"Drag elsewhere", "Selects what is inside, over several lanes; Shift adds"},
+            {"Arrow keys", "Move what is selected by a pixel, 1 dB, a semitone; Shift: ten times"},
+            {", and .", "Select the point before and the next one"},
+            {"Return", "Adds a point at the playhead"},
+            {"Tab, Shift+Tab", "Next and previous lane or control"},
+            {"Wheel", "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: moves in time; Alt: lane height"}};
+        for (const Menu& menu : menus)
+        {
+            rows.push_back({menu.name, {}});
+            for (const Action& action : menu.actions)
+                if (!action.keys.empty())
+                    rows.push_back(
+                        {action.keys.front().getTextDescription(), juce::String(action.name) + ": " + action.help});
+        }
+        setSize(600, static_cast<int>(rows.size()) * rowHeight);
+        setTitle("Keys and mouse");
+        juce::StringArray lines;
+        for (const auto& [key, text] : rows)
+            lines.add(key + " " + text);
+        setDescription(lines.joinIntoString(". "));
+    }
+
+    void paint(juce::Graphics& g) override
+    {
+        const Palette& p = paletteFor(*this);
+        auto area = getLocalBounds();
+        for (const auto& [key, text] : rows)
+        {
+            auto row = area.removeFromTop(rowHeight);
+            if (text.isEmpty())
+            {
+                g.setColour(p.accent);
+                g.setFont(usualFont().boldened());
+                g.drawText(key, row, juce::Justification::bottomLeft);
+                continue;
+            }
+            g.setFont(smallFont());
+            g.setColour(p.text);
+            g.drawFittedText(key, row.removeFromLeft(keyWidth).withTrimmedRight(grid), juce::Justification::centredLeft,
+                             1);
+            g.setColour(p.dim);
+            g.drawFittedText(text, row, juce::Justification::centredLeft, 1, 0.8f);
+        }
+    }
+
+private:
+    std::vector<std::pair<juce::String, juce::String>> rows;
+};
+
+ShortcutsSheet::ShortcutsSheet(const std::vector<Menu>& menus) : Sheet("Keys and mouse", 760, 600)
+{
+    viewport.setViewedComponent(new Table(menus), true);
+    viewport.setScrollBarsShown(true, false);
+    addAndMakeVisible(viewport);
+    setAnswers({{"Close", {}}});
+}
+
+void ShortcutsSheet::layOut(juce::Rectangle<int> area)
+{
+    viewport.setBounds(area);
+    auto* table = viewport.getViewedComponent();
+    table->setSize(area.getWidth() - viewport.getScrollBarThickness() - grid, table->getHeight());
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What keys and mouse do.
+
+#include "editor/clip/commands/Action.h"
+#include "editor/clip/sheets/Sheet.h"
+
+namespace pacini::editor
+{
+
+class ShortcutsSheet final : public Sheet
+{
+public:
+    explicit ShortcutsSheet(const std::vector<Menu>& menus);
+
+private:
+    class Table;
+    void layOut(juce::Rectangle<int> area) override;
+
+    juce::Viewport viewport;
+};
+
+} // namespace pacini::editor
