@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -37,6 +38,9 @@ class Document
 public:
     /// A new project without a file.
     Document() : Document(Project{}, {}, true) {}
+
+    /// A project without a file, as it was saved elsewhere.
+    explicit Document(Project project) : Document(std::move(project), {}, true) {}
 
     /// Opens a project file. Errors: io as in readWholeFile, and those of readProjectJson().
     [[nodiscard]] static Result<Document> open(const std::filesystem::path& path);

@@ -72,7 +72,8 @@ void ClipChip::mouseDrag(const juce::MouseEvent& event)
         juce::DragAndDropContainer::performExternalDragDropOfFiles({dragged.getFullPathName()}, false, this);
 }
 
-CapturePanel::CapturePanel(LiveSource& heard) : source(heard), button("Capture"), saveButton("Save" + toText("…"))
+CapturePanel::CapturePanel(LiveSource& heard)
+    : source(heard), button("Capture"), editButton("Edit"), saveButton("Save" + toText("…"))
 {
     for (const int seconds : lengths)
         length.addItem("Last " + juce::String(seconds) + " s", seconds);
@@ -85,6 +86,14 @@ CapturePanel::CapturePanel(LiveSource& heard) : source(heard), button("Capture")
     {
         captureNow();
     };
+    editButton.setTooltip("Opens the captured clip in the clip editor");
+    editButton.setDescription("Opens the captured clip in the clip editor");
+    editButton.setEnabled(false);
+    editButton.onClick = [this]
+    {
+        if (onEdit)
+            onEdit(*clip);
+    };
     saveButton.setTooltip("Saves the captured clip, as JSON or packed");
     saveButton.setDescription("Saves the captured clip, as JSON or packed");
     saveButton.setEnabled(false);
@@ -94,7 +103,8 @@ CapturePanel::CapturePanel(LiveSource& heard) : source(heard), button("Capture")
     };
     message.setFont(smallFont());
     message.setJustificationType(juce::Justification::centredLeft);
-    for (juce::Component* child : std::initializer_list<juce::Component*>{&length, &button, &saveButton, &message})
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&length, &button, &editButton, &saveButton, &message})
         addAndMakeVisible(child);
     addChildComponent(chip);
 }
@@ -106,6 +116,8 @@ void CapturePanel::resized()
     button.setBounds(row.removeFromLeft(11 * grid));
     row.removeFromLeft(grid);
     length.setBounds(row.removeFromLeft(13 * grid));
+    row.removeFromLeft(grid);
+    editButton.setBounds(row.removeFromLeft(7 * grid));
     row.removeFromLeft(grid);
     saveButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);
@@ -141,6 +153,7 @@ void CapturePanel::take(Result<Clip> made)
         say("", false);
     chip.show(*clip, file);
     saveButton.setEnabled(true);
+    editButton.setEnabled(true);
 }
 
 void CapturePanel::chooseFile()

@@ -9,6 +9,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <functional>
 #include <memory>
 
 namespace pacini::editor
@@ -35,6 +36,8 @@ class CapturePanel final : public juce::Component
 public:
     explicit CapturePanel(LiveSource& heard);
 
+    std::function<void(const Clip&)> onEdit; ///< opens the clip in an editor; null: there is none
+
     void resized() override;
 
 private:
@@ -46,7 +49,7 @@ private:
 
     LiveSource& source;
     juce::ComboBox length;
-    juce::TextButton button, saveButton;
+    juce::TextButton button, editButton, saveButton;
     ClipChip chip;
     juce::Label message;
     std::optional<Clip> clip;

@@ -13,6 +13,7 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels)
     translator.prepare({sampleRate, pieceFrames});
     mix.prepare(sampleRate);
     routing.prepare(sampleRate);
+    preview.prepare(sampleRate);
     delay.prepare(std::min(mainChannels, mostMainChannels), translator.latencyFrames());
     const auto ringFrames = static_cast<std::size_t>(captureSeconds * std::min(sampleRate, 96000.0));
     if (ring.capacityFrames() == ringFrames)
@@ -70,6 +71,8 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     ring.push(in);
     translator.process(in, out);
     delay.process(main);
+    if (clips != nullptr)
+        preview.process(*clips, out, main);
     routing.process(main, haptic, out);
 }
 

@@ -3,6 +3,7 @@
 
 // All that happens to the sound in the plugin, without any host.
 
+#include "plugin/ClipPreview.h"
 #include "plugin/DriveRouting.h"
 #include "plugin/MainDelay.h"
 #include "plugin/ParameterValues.h"
@@ -41,6 +42,9 @@ public:
     /// Allocates. [message], while no block is processed
     void prepare(double sampleRate, std::size_t mainChannels);
 
+    /// Whose clips are heard in the place of the drive while they play; null: nobody's. [message], before prepare()
+    void setClips(editor::HostedSession* wanted) noexcept { clips = wanted; }
+
     /// As freshly prepared. [audio]
     void reset() noexcept;
 
@@ -60,7 +64,7 @@ public:
     [[nodiscard]] Capture capture(double seconds) const;
 
 private:
-    static constexpr std::size_t pieceFrames = 512;
+    static constexpr std::size_t pieceFrames = ClipPreview::pieceFrames;
 
     void piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
                std::span<const std::span<float>> haptic, std::size_t frames) noexcept;
@@ -69,6 +73,8 @@ private:
     Translator translator;
     SourceMix mix;
     MainDelay delay;
+    ClipPreview preview;
+    editor::HostedSession* clips = nullptr;
     DriveRouting routing;
     CaptureRing ring;
     std::atomic<float> inputPeak{0.0f};

@@ -39,7 +39,8 @@ PluginProcessor::PluginProcessor()
                          .withInput("Main", Layout::stereo(), true)
                          .withInput("Sidechain", Layout::mono(), true)
                          .withOutput("Main", Layout::stereo(), true)
-                         .withOutput("Haptic", Layout::mono(), true))
+                         .withOutput("Haptic", Layout::mono(), true)),
+      clipDesk(shelfProfiles)
 {
     for (const ParameterRow& row : parameterTable)
     {
@@ -49,6 +50,7 @@ PluginProcessor::PluginProcessor()
     }
     applied = shelfProfile(0);
     engine.setSetup(setupFor(applied));
+    engine.setClips(&clipDesk);
     worker->add(*this);
 }
 
@@ -77,6 +79,7 @@ void PluginProcessor::prepareToPlay(double newRate, int)
         catchUp();
         engine.prepare(newRate, static_cast<std::size_t>(std::max(getMainBusNumInputChannels(), 1)));
     }
+    clipDesk.prepare(newRate);
     setLatencySamples(static_cast<int>(engine.latencyFrames()));
 }
 
@@ -166,6 +169,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
     }
     state.values = values();
     state.program = program.load();
+    state.clips = clipDesk.text();
     state.windowWidth = windowWidth.load();
     state.windowHeight = windowHeight.load();
     const std::string text = stateText(state);
@@ -205,6 +209,9 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     program.store(juce::jlimit(0, getNumPrograms() - 1, state.program));
     if (state.windowWidth > 0 && state.windowHeight > 0)
         setWindowSize(state.windowWidth, state.windowHeight);
+    if (const auto restored = clipDesk.setText(state.clips); !restored)
+        noted += (noted.isEmpty() ? "" : "; ") + juce::String("the session's clips cannot be read: ") +
+                 juce::String(restored.error().text());
     say(noted);
     updateHostDisplay(ChangeDetails().withProgramChanged(true));
 }

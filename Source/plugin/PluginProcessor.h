@@ -4,6 +4,7 @@
 // The plugin as hosts see it.
 
 #include "editor/LiveSource.h"
+#include "editor/clip/session/HostedSession.h"
 #include "plugin/LiveEngine.h"
 #include "plugin/PluginState.h"
 #include "plugin/SetupWorker.h"
@@ -63,6 +64,9 @@ public:
     [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
     void setWindowSize(int width, int height) noexcept;
 
+    /// The clips that are edited in the window.
+    [[nodiscard]] editor::HostedSession& clips() noexcept { return clipDesk; }
+
     // LiveSource
     [[nodiscard]] TranslatorMeterReading readMeters() const override { return engine.readMeters(); }
     [[nodiscard]] float takeInputPeak() override { return engine.takeInputPeak(); }
@@ -86,6 +90,7 @@ private:
     [[nodiscard]] std::size_t wantedSlot() const noexcept;
 
     std::array<TableParameter*, parameterCount> table{}; // the base owns them
+    editor::HostedSession clipDesk;
     LiveEngine engine;
 
     /// Guards what follows, and the preparation of the engine. Never taken by the audio thread, except when the host

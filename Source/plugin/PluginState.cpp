@@ -61,6 +61,8 @@ std::string stateText(const PluginState& state)
         tree["profile"] = Json::parse(profileJson(*state.profile));
     if (state.windowWidth > 0 && state.windowHeight > 0)
         tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
+    if (!state.clips.empty())
+        tree["clips"] = Json::parse(state.clips);
     return tree.dump();
 }
 
@@ -86,6 +88,8 @@ Result<ReadState> readState(std::string_view text)
         read.state.windowWidth = sizeOf(*window, "width");
         read.state.windowHeight = sizeOf(*window, "height");
     }
+    if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
+        read.state.clips = clips->dump();
     if (const auto content = tree->find("profile"); content != tree->end() && !content->is_null())
     {
         auto profile = readProfileJson(content->dump());

@@ -19,13 +19,14 @@ inline constexpr std::string_view stateFormatName = "pacini.plugin";
 inline constexpr int stateFormatVersion = 1;
 
 /// Longer states are refused.
-inline constexpr std::size_t largestState = std::size_t(4) << 20;
+inline constexpr std::size_t largestState = std::size_t(64) << 20;
 
 struct PluginState
 {
     ParameterValues values;
     std::optional<Profile> profile; ///< the content of the chosen one, so that a session sounds the same for ever
     int program = 0;
+    std::string clips;   ///< the project of the clip editor, as text; empty: none
     int windowWidth = 0; ///< 0: as it comes
     int windowHeight = 0;
     bool operator==(const PluginState&) const = default;

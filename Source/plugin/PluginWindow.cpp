@@ -17,6 +17,7 @@ constexpr int usualHeight = 648;
 constexpr int leastWidth = 936;
 constexpr int leastHeight = 608;
 constexpr int rowHeight = 3 * grid + 2;
+constexpr int headerHeight = 6 * grid;
 constexpr int topCard = 28 * grid;
 constexpr int framesPerSecond = 30;
 
@@ -108,6 +109,15 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
     };
     adopt(loadButton, nullptr);
     bypassToggle = toggle(Id::bypass, "Bypass");
+    clipsButton.setButtonText("Clips");
+    clipsButton.setTitle("Clip editor");
+    clipsButton.setTooltip("Captured and opened clips, to see, edit and export; they are kept with the session");
+    clipsButton.setClickingTogglesState(true);
+    clipsButton.onClick = [this]
+    {
+        showClips(clipsButton.getToggleState());
+    };
+    adopt(clipsButton, nullptr);
     themeButton.setTooltip("Light or dark");
     themeButton.onClick = [this]
     {
@@ -141,6 +151,10 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
     gateThreshold = slider(Id::gateThreshold, Shape::knob);
     gateRelease = slider(Id::gateRelease, Shape::knob);
 
+    capture.onEdit = [this](const Clip& clip)
+    {
+        editClip(clip);
+    };
     adopt(capture, nullptr);
     status.setFont(editor::smallFont());
     status.setJustificationType(juce::Justification::centredRight);
@@ -159,6 +173,7 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
 PluginWindow::~PluginWindow()
 {
     stopTimer();
+    clipView.reset();
     setLookAndFeel(nullptr);
 }
 
@@ -201,9 +216,39 @@ void PluginWindow::setDark(bool dark)
     themeButton.setTitle(dark ? "Light colours" : "Dark colours");
     status.setColour(juce::Label::textColourId, look.palette().dim);
     sendLookAndFeelChange();
+    if (clipView)
+        clipView->setDark(dark);
     repaint();
     if (onThemeChange)
         onThemeChange();
+}
+
+void PluginWindow::showClips(bool wanted)
+{
+    if (wanted && !clipView)
+    {
+        clipView = std::make_unique<editor::EditorView>(processor.clips().session(), editor::Surroundings{});
+        clipView->setDark(look.isDark());
+        clipView->setExplicitFocusOrder(++focusOrder);
+        addChildComponent(*clipView);
+    }
+    // What is behind must not be reached by keys.
+    for (juce::Component* child : getChildren())
+        if (child->getY() >= headerHeight || child == &lamp)
+            child->setVisible(!wanted);
+    clipsButton.setToggleState(wanted, juce::dontSendNotification);
+    if (clipView)
+        clipView->setVisible(wanted);
+    resized();
+    repaint();
+}
+
+void PluginWindow::editClip(const Clip& clip)
+{
+    showClips(true);
+    editor::Imported captured;
+    captured.clip = clip;
+    processor.clips().session().add(std::move(captured));
 }
 
 void PluginWindow::refresh()
@@ -276,6 +321,8 @@ void PluginWindow::paint(juce::Graphics& g)
     g.setFont(editor::titleFont());
     g.drawText("Pacini", juce::Rectangle<int>(2 * grid, grid, 10 * grid, 4 * grid), juce::Justification::centredLeft,
                false);
+    if (clipView && clipView->isVisible())
+        return;
     for (const Card& card : cards)
         editor::drawCard(g, card.area, card.name, palette);
 }
@@ -288,6 +335,8 @@ void PluginWindow::resized()
         cards.push_back({area, name});
         return editor::insideOfCard(area);
     };
+    if (clipView)
+        clipView->setBounds(getLocalBounds().withTrimmedTop(headerHeight));
     auto area = getLocalBounds().reduced(grid);
     placeHeader(area.removeFromTop(4 * grid).reduced(grid, 0));
     area.removeFromTop(grid);
@@ -354,7 +403,9 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     themeButton.setBounds(area.removeFromRight(7 * grid));
     area.removeFromRight(grid);
     bypassToggle->setBounds(area.removeFromRight(9 * grid));
-    area.removeFromRight(3 * grid);
+    area.removeFromRight(grid);
+    clipsButton.setBounds(area.removeFromRight(8 * grid));
+    area.removeFromRight(2 * grid);
     loadButton.setBounds(area.removeFromRight(9 * grid));
     area.removeFromRight(grid);
     actuator->setBounds(area.removeFromRight(area.getWidth() / 2).withTrimmedLeft(grid));

@@ -8,6 +8,7 @@
 #include "editor/Meters.h"
 #include "editor/ParameterControls.h"
 #include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
 #include "plugin/PluginProcessor.h"
 
 #include <juce_audio_processors/juce_audio_processors.h>
@@ -32,6 +33,9 @@ public:
     /// Looks at everything that may have changed, as the timer does.
     void refresh();
     void setDark(bool dark);
+    /// The clip editor in the place of the live controls.
+    void showClips(bool wanted);
+    [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
     std::function<void()> onThemeChange; ///< for what shares the look
 
 private:
@@ -45,6 +49,7 @@ private:
     void chooseActuator();
     void showMeters();
     void showRouting();
+    void editClip(const Clip& clip);
     void placeHeader(juce::Rectangle<int> area);
     void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
     [[nodiscard]] juce::String statusText() const;
@@ -57,7 +62,7 @@ private:
 
     juce::ComboBox programChoice;
     std::unique_ptr<editor::ParameterChoice> actuator;
-    juce::TextButton loadButton, themeButton;
+    juce::TextButton loadButton, themeButton, clipsButton;
     std::unique_ptr<editor::ParameterToggle> bypassToggle;
 
     std::unique_ptr<editor::ParameterChoice> sourceChoice;
@@ -77,6 +82,7 @@ private:
     std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
 
     editor::CapturePanel capture;
+    std::unique_ptr<editor::EditorView> clipView; ///< made when it is shown for the first time
     juce::Label status;
     std::unique_ptr<juce::FileChooser> chooser;
 

@@ -7,7 +7,9 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace pacini::plugin
 {
@@ -41,6 +43,15 @@ std::optional<Profile> shelfProfile(std::size_t slot)
         return profile ? std::optional(std::move(profile).value()) : std::nullopt;
     }
     return std::nullopt;
+}
+
+std::vector<editor::NamedProfile> shelfProfiles()
+{
+    std::vector<editor::NamedProfile> profiles;
+    for (std::size_t slot = 0; slot < names.size(); ++slot)
+        if (auto profile = shelfProfile(slot))
+            profiles.push_back({std::string(names[slot]), std::make_shared<const Profile>(std::move(profile).value())});
+    return profiles;
 }
 
 } // namespace pacini::plugin

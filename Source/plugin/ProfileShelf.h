@@ -3,11 +3,14 @@
 
 // The actuator profiles that come with the plugin, compiled in.
 
+#include "editor/clip/session/Session.h"
+
 #include <pacini/actuator/Profile.h>
 
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace pacini::plugin
 {
@@ -17,5 +20,8 @@ namespace pacini::plugin
 
 /// Reads the profile in a slot; none for a free slot. Not for the audio thread. [any]
 [[nodiscard]] std::optional<Profile> shelfProfile(std::size_t slot);
+
+/// All of them. Not for the audio thread. [any]
+[[nodiscard]] std::vector<editor::NamedProfile> shelfProfiles();
 
 } // namespace pacini::plugin

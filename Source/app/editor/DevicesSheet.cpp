@@ -13,31 +13,58 @@ constexpr int none = 1; // menus know no item 0; channels follow
 } // namespace
 
 DevicesSheet::DevicesSheet(PreviewRig& wanted)
-    : Sheet("Sound devices", 640, 560),
+    : Sheet("Sound devices", 760, 560),
       rig(wanted),
       selector(wanted.devices(), 0, 0, 0, 256, false, false, false, false)
 {
-    const auto prepare =
-        [this](juce::Label& label, juce::ComboBox& box, const juce::String& name, const juce::String& help)
-    {
-        label.setText(name, juce::dontSendNotification);
-        label.setFont(editor::usualFont());
-        label.setAccessible(false);
-        box.setTitle(name);
-        box.setTooltip(help);
-        box.onChange = [this]
-        {
-            rig.setOutputs({sound.getSelectedId() - none - 1, haptic.getSelectedId() - none - 1});
-        };
-        addAndMakeVisible(label);
-        addAndMakeVisible(box);
-    };
-    prepare(soundLabel, sound, "Sound out", "The two channels where the sound is heard");
-    prepare(hapticLabel, haptic, "Haptic out", "The channel that the actuator's amplifier hangs on");
+    prepare(sound, "Sound out", "The two channels where the sound is heard", rig.soundTrim(), 6.0);
+    prepare(haptic, "Haptic out", "The channel that the actuator's amplifier hangs on", rig.hapticTrim(), 0.0);
     addAndMakeVisible(selector);
     rig.devices().addChangeListener(this);
     setAnswers({{"Close", {}}});
     fill();
+}
+
+void DevicesSheet::prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
+                           double mostLevel)
+{
+    output.label.setText(name, juce::dontSendNotification);
+    output.label.setFont(editor::usualFont());
+    output.label.setAccessible(false);
+    output.channel.setTitle(name);
+    output.channel.setTooltip(help);
+    output.channel.onChange = [this]
+    {
+        rig.setOutputs({sound.channel.getSelectedId() - none - 1, haptic.channel.getSelectedId() - none - 1});
+    };
+    const auto slider = [](juce::Slider& one, const juce::String& title, const juce::String& tip,
+                           const juce::String& unit, juce::Range<double> range, double step)
+    {
+        one.setSliderStyle(juce::Slider::LinearHorizontal);
+        one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, 3 * grid);
+        one.setTitle(title);
+        one.setTooltip(tip);
+        one.setRange(range, step);
+        one.setTextValueSuffix(unit);
+        one.setDoubleClickReturnValue(true, 0.0);
+        one.setWantsKeyboardFocus(true);
+    };
+    slider(output.level, name + ": level", "How loud, in dB", " dB", {-60.0, mostLevel}, 0.5);
+    slider(output.delay, name + ": delay", "How much later than the other, in ms: both should be felt at once", " ms",
+           {0.0, 1000.0 * editor::OutputTrim::longestDelay}, 1.0);
+    output.level.setValue(juce::Decibels::gainToDecibels(trim.levelNow(), -60.0), juce::dontSendNotification);
+    output.delay.setValue(1000.0 * trim.delayNow(), juce::dontSendNotification);
+    output.level.onValueChange = [&output, &trim]
+    {
+        trim.setLevel(juce::Decibels::decibelsToGain(output.level.getValue(), -60.0));
+    };
+    output.delay.onValueChange = [&output, &trim]
+    {
+        trim.setDelay(0.001 * output.delay.getValue());
+    };
+    for (juce::Component* part :
+         std::initializer_list<juce::Component*>{&output.label, &output.channel, &output.level, &output.delay})
+        addAndMakeVisible(part);
 }
 
 DevicesSheet::~DevicesSheet()
@@ -49,27 +76,31 @@ void DevicesSheet::fill()
 {
     const auto names = rig.outputNames();
     const PreviewOutputs now = rig.outputs();
-    sound.clear(juce::dontSendNotification);
-    haptic.clear(juce::dontSendNotification);
-    sound.addItem("Nowhere", none);
-    haptic.addItem("Nowhere", none);
+    sound.channel.clear(juce::dontSendNotification);
+    haptic.channel.clear(juce::dontSendNotification);
+    sound.channel.addItem("Nowhere", none);
+    haptic.channel.addItem("Nowhere", none);
     for (int c = 0; c < names.size(); ++c)
     {
         if (c % 2 == 0)
-            sound.addItem("Outputs " + juce::String(c + 1) + "+" + juce::String(c + 2), none + 1 + c);
-        haptic.addItem(juce::String(c + 1) + "  " + names[c], none + 1 + c);
+            sound.channel.addItem("Outputs " + juce::String(c + 1) + "+" + juce::String(c + 2), none + 1 + c);
+        haptic.channel.addItem(juce::String(c + 1) + "  " + names[c], none + 1 + c);
     }
-    sound.setSelectedId(none + 1 + now.sound, juce::dontSendNotification);
-    haptic.setSelectedId(none + 1 + std::min(now.haptic, std::max(-1, names.size() - 1)), juce::dontSendNotification);
+    sound.channel.setSelectedId(none + 1 + now.sound, juce::dontSendNotification);
+    haptic.channel.setSelectedId(none + 1 + std::min(now.haptic, std::max(-1, names.size() - 1)),
+                                 juce::dontSendNotification);
 }
 
 void DevicesSheet::layOut(juce::Rectangle<int> area)
 {
-    for (auto [label, box] : {std::pair(&soundLabel, &sound), std::pair(&hapticLabel, &haptic)})
+    for (Output* output : {&sound, &haptic})
     {
         auto row = area.removeFromTop(4 * grid);
-        label->setBounds(row.removeFromLeft(12 * grid));
-        box->setBounds(row);
+        output->label.setBounds(row.removeFromLeft(11 * grid));
+        const int third = row.getWidth() / 3;
+        output->channel.setBounds(row.removeFromLeft(third).reduced(0, 2));
+        output->level.setBounds(row.removeFromLeft(third).withTrimmedLeft(grid));
+        output->delay.setBounds(row.withTrimmedLeft(grid));
         area.removeFromTop(grid);
     }
     selector.setBounds(area);

@@ -23,8 +23,17 @@ private:
     void fill();
 
     PreviewRig& rig;
-    juce::Label soundLabel, hapticLabel;
-    juce::ComboBox sound, haptic;
+    /// One output: where it goes, how loud and how late.
+    struct Output
+    {
+        juce::Label label;
+        juce::ComboBox channel;
+        juce::Slider level, delay;
+    };
+    void prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
+                 double mostLevel);
+
+    Output sound, haptic;
     juce::AudioDeviceSelectorComponent selector;
 };
 

@@ -17,19 +17,7 @@ namespace pacini::app
 
 namespace
 {
-constexpr std::size_t profileSlots = 64;
-
 using editor::pathOf;
-
-std::vector<editor::NamedProfile> shelf()
-{
-    std::vector<editor::NamedProfile> profiles;
-    for (std::size_t slot = 0; slot < profileSlots; ++slot)
-        if (auto profile = plugin::shelfProfile(slot))
-            profiles.push_back(
-                {std::string(plugin::profileNameOf(slot)), std::make_shared<const Profile>(std::move(*profile))});
-    return profiles;
-}
 
 /// The sounds in Resources/demo or share/pacini/demo in the program's folder or one of those above it.
 std::vector<std::filesystem::path> demoSounds()
@@ -82,12 +70,17 @@ public:
         editor::Session::Folders folders;
         if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
-        session = std::make_unique<editor::Session>(folders, shelf());
+        session = std::make_unique<editor::Session>(folders, plugin::shelfProfiles());
         rig = std::make_unique<PreviewRig>(session->player);
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
         {
             devices = settings->getXmlValue("devices");
+            for (auto [name, trim] : {std::pair("sound", &rig->soundTrim()), std::pair("haptic", &rig->hapticTrim())})
+            {
+                trim->setLevel(settings->getDoubleValue(juce::String(name) + "Level", 1.0));
+                trim->setDelay(settings->getDoubleValue(juce::String(name) + "Delay", 0.0));
+            }
             rig->setOutputs({settings->getIntValue("soundOutput", 0), settings->getIntValue("hapticOutput", 2)});
         }
         if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
@@ -126,6 +119,11 @@ public:
             settings->setValue("window", window->getWindowStateAsString());
             settings->setValue("soundOutput", rig->outputs().sound);
             settings->setValue("hapticOutput", rig->outputs().haptic);
+            for (auto [name, trim] : {std::pair("sound", &rig->soundTrim()), std::pair("haptic", &rig->hapticTrim())})
+            {
+                settings->setValue(juce::String(name) + "Level", trim->levelNow());
+                settings->setValue(juce::String(name) + "Delay", trim->delayNow());
+            }
             if (const auto devices = rig->devices().createStateXml())
                 settings->setValue("devices", devices.get());
             settings->saveIfNeeded();

@@ -63,7 +63,10 @@ void PreviewRig::handleAsyncUpdate()
     running.store(false);
     while (inside.load())
         std::this_thread::yield();
-    player.prepare(std::clamp(rate.load(), 2000.0, 192000.0));
+    const double now = std::clamp(rate.load(), 2000.0, 192000.0);
+    player.prepare(now);
+    soundLevel.prepare(now);
+    hapticLevel.prepare(now);
     running.store(true);
 }
 
@@ -87,7 +90,10 @@ void PreviewRig::audioDeviceIOCallbackWithContext(const float* const*, int, floa
                 return std::span<float>(buffer.getWritePointer(c), static_cast<std::size_t>(n));
             };
             const std::array<std::span<float>, 2> sound{channel(1), channel(2)};
-            player.process(channel(0), sound);
+            const std::array<std::span<float>, 1> touch{channel(0)};
+            player.process(touch[0], sound);
+            soundLevel.process(sound);
+            hapticLevel.process(touch);
             const auto add = [&](int from, int to)
             {
                 if (to >= 0 && to < outs && out[to] != nullptr)

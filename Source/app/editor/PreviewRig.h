@@ -3,6 +3,7 @@
 
 // The sound device of the editor: sound and drive signal on channels of their own.
 
+#include "editor/clip/session/OutputTrim.h"
 #include "editor/clip/session/Player.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
@@ -38,6 +39,9 @@ public:
     }
     void setOutputs(PreviewOutputs wanted) noexcept;
 
+    [[nodiscard]] editor::OutputTrim& soundTrim() noexcept { return soundLevel; }
+    [[nodiscard]] editor::OutputTrim& hapticTrim() noexcept { return hapticLevel; }
+
 private:
     static constexpr int pieceFrames = 1024;
     static constexpr int mostChannels = 256;
@@ -51,6 +55,7 @@ private:
     editor::Player& player;
     juce::AudioDeviceManager manager;
     std::atomic<int> soundOutput{0}, hapticOutput{2};
+    editor::OutputTrim soundLevel, hapticLevel;
     std::atomic<double> rate{48000.0};
     std::atomic<bool> running{false}; ///< the player knows the device's rate
     std::atomic<bool> inside{false};  ///< the callback uses the player

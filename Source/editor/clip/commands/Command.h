@@ -59,6 +59,7 @@ enum Command : int
     smallerInterface,
     soundDevices,
 
+    manual,
     shortcuts
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
+#include "editor/clip/sheets/HelpSheet.h"
 #include "editor/clip/sheets/ShortcutsSheet.h"
 
 namespace pacini::editor
@@ -10,6 +11,11 @@ Menu helpMenu(EditorView& view)
 {
     return {"Help",
             {
+                {.id = manual,
+                 .name = "Manual",
+                 .help = "Explains the editor, step by step",
+                 .run = [&view] { view.showSheet(std::make_unique<HelpSheet>()); },
+                 .keys = {juce::KeyPress(juce::KeyPress::F1Key, juce::ModifierKeys::shiftModifier, 0)}},
                 {.id = shortcuts,
                  .name = "Keys and mouse",
                  .help = "Shows what keys and mouse do",

@@ -135,6 +135,11 @@ Result<void> Session::openProject(const std::filesystem::path& file)
     return {};
 }
 
+void Session::openProject(Project content)
+{
+    take(Document(std::move(content)));
+}
+
 Result<void> Session::recover(const Recoverable& entry)
 {
     auto recovered = Document::recover(entry.file);

@@ -108,6 +108,8 @@ public:
 
     void newProject();
     Result<void> openProject(const std::filesystem::path& file);
+    /// One that has no file; a host keeps it.
+    void openProject(Project content);
     Result<void> recover(const Recoverable& entry);
     Result<void> save();
     Result<void> saveAs(const std::filesystem::path& file);
