@@ -30,6 +30,7 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<unsigned>::is
 
 namespace
 {
+std::atomic<bool> signalHasCome{false};
 constexpr int deadly[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 struct sigaction before[std::size(deadly)];
 } // namespace
@@ -49,6 +50,7 @@ bool EmergencyStop::writeAll() noexcept
 void stopControllers(int signal) noexcept
 {
     const int error = errno;
+    signalHasCome.store(true);
     if (EmergencyStop::writeAll())
     {
         const timespec pause{0, 20'000'000};
@@ -119,6 +121,11 @@ void EmergencyStop::count() noexcept
         place->sent.fetch_add(1);
 }
 
+bool EmergencyStop::hasCome() noexcept
+{
+    return signalHasCome.load();
+}
+
 } // namespace pacini::devices
 
 #else
@@ -130,6 +137,10 @@ EmergencyStop::EmergencyStop(int fileDescriptor) noexcept : descriptor(fileDescr
 EmergencyStop::~EmergencyStop() = default;
 void EmergencyStop::arm(const StopReports&) noexcept {}
 void EmergencyStop::count() noexcept {}
+bool EmergencyStop::hasCome() noexcept
+{
+    return false;
+}
 
 } // namespace pacini::devices
 

@@ -10,8 +10,8 @@ namespace pacini::devices
 /// While it lives, a signal that ends the program first writes a report that silences a controller: SIGSEGV, SIGBUS,
 /// SIGILL, SIGFPE, SIGSYS and SIGABRT, and also SIGINT, SIGTERM, SIGHUP and SIGQUIT where the program does not take
 /// them in itself. Then the signal does what it would have done. Everything is prepared before: the handler only reads
-/// this object's lasting place and calls write(). Once more after 20 ms, as another thread may just be sending. SIGKILL
-/// cannot be caught. Does nothing where there are no such signals.
+/// this object's lasting place and calls write(). Once more after 20 ms, as another thread may have been about to send.
+/// SIGKILL cannot be caught. Does nothing where there are no such signals.
 class EmergencyStop
 {
 public:
@@ -27,6 +27,9 @@ public:
 
     /// A report has been written: the next counter is due. [worker]
     void count() noexcept;
+
+    /// Whether such a signal has come: nothing else may be written any more. [any]
+    [[nodiscard]] static bool hasCome() noexcept;
 
 private:
     struct Place;

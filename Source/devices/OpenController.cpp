@@ -56,6 +56,8 @@ OpenController::File::~File()
 
 Result<void> OpenController::send(const Report& report)
 {
+    if (EmergencyStop::hasCome())
+        return Error{ErrorCode::io, "", "is silent, as the program is about to end"};
     const auto bytes = report.content();
     ::ssize_t written = -1;
     do
