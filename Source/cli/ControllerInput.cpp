@@ -18,7 +18,7 @@ using devices::ControllerHaptics;
 using devices::ControllerModel;
 using devices::Transport;
 
-constexpr std::array<std::pair<std::string_view, ControllerModel>, 7> models{{
+constexpr std::array<std::pair<std::string_view, ControllerModel>, 7> knownModels{{
     {"switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
     {"switch-usb", {ControllerHaptics::hdRumble, Transport::usb}},
     {"dualshock4", {ControllerHaptics::dualShock4, Transport::usb}},
@@ -33,7 +33,7 @@ char lowered(char c)
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-bool holds(std::string_view text, std::string_view part)
+bool holdsText(std::string_view text, std::string_view part)
 {
     const auto alike = [](char a, char b)
     {
@@ -86,15 +86,16 @@ std::string_view transportName(Transport transport)
 std::vector<std::string> modelNames()
 {
     std::vector<std::string> names;
-    for (const auto& [name, model] : models)
+    for (const auto& [name, model] : knownModels)
         names.emplace_back(name);
     return names;
 }
 
 ControllerModel modelNamed(std::string_view name)
 {
-    const auto found = std::find_if(models.begin(), models.end(), [&](const auto& m) { return m.first == name; });
-    return found != models.end() ? found->second : models.front().second;
+    const auto found =
+        std::find_if(knownModels.begin(), knownModels.end(), [&](const auto& m) { return m.first == name; });
+    return found != knownModels.end() ? found->second : knownModels.front().second;
 }
 
 Result<std::optional<Controller>> chosenController(const std::vector<Controller>& connected, const std::string& named)
@@ -110,7 +111,7 @@ Result<std::optional<Controller>> chosenController(const std::vector<Controller>
     {
         if (!named.empty() && controller.path == named)
             return std::optional(controller);
-        if (holds(controller.name, named))
+        if (holdsText(controller.name, named))
             meant.push_back(controller);
     }
     if (meant.size() > 1)

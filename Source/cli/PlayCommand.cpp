@@ -56,7 +56,7 @@ std::string hexText(const devices::Report& report)
     return text;
 }
 
-std::string titleOf(const devices::Controller& controller)
+std::string shownName(const devices::Controller& controller)
 {
     return printable(controller.name.empty() ? controller.path : controller.name);
 }
@@ -135,7 +135,7 @@ Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& cons
             if (!wait || ++refused > patience)
             {
                 Error error = opened.error();
-                error.where = titleOf(**chosen);
+                error.where = shownName(**chosen);
                 return error;
             }
         }
@@ -228,7 +228,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     {
         const double position = player.position().value;
         console.progress(loop ? 1.0 : position / length,
-                         fmt::format("{}  {}", durationText(position), titleOf(controller)));
+                         fmt::format("{}  {}", durationText(position), shownName(controller)));
         ended = interruption.wait(Seconds(0.02));
     }
     player.stop();
@@ -237,7 +237,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     if (!result)
     {
         Error error = result.error();
-        error.where = titleOf(controller);
+        error.where = shownName(controller);
         console.error(input, error);
         return Exit::failed;
     }
@@ -254,7 +254,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
                           .dump(2, ' ', false, Json::error_handler_t::replace));
     else
         console.note(fmt::format("{} played on {}: {}, {} packets, at most {:.1f} ms late{}", printable(input),
-                                 titleOf(controller), durationText(length), result->sent, 1e3 * result->latest.value,
+                                 shownName(controller), durationText(length), result->sent, 1e3 * result->latest.value,
                                  result->leftOut > 0 ? fmt::format(", {} left out", result->leftOut) : ""));
     return Exit::ok;
 }

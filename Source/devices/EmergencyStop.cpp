@@ -32,7 +32,7 @@ namespace
 {
 std::atomic<bool> signalHasCome{false};
 constexpr int deadly[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-struct sigaction before[std::size(deadly)];
+struct sigaction formerActions[std::size(deadly)];
 } // namespace
 
 bool EmergencyStop::writeAll() noexcept
@@ -59,7 +59,7 @@ void stopControllers(int signal) noexcept
     }
     for (std::size_t i = 0; i < std::size(deadly); ++i)
         if (deadly[i] == signal)
-            ::sigaction(signal, &before[i], nullptr);
+            ::sigaction(signal, &formerActions[i], nullptr);
     errno = error;
     ::raise(signal); // held back until this returns
 }
@@ -75,7 +75,7 @@ void installHandlers() noexcept
 {
     for (std::size_t i = 0; i < std::size(deadly); ++i)
     {
-        if (::sigaction(deadly[i], nullptr, &before[i]) != 0 || before[i].sa_handler == SIG_IGN)
+        if (::sigaction(deadly[i], nullptr, &formerActions[i]) != 0 || formerActions[i].sa_handler == SIG_IGN)
             continue;
         struct sigaction action = {};
         action.sa_handler = stopControllersOnSignal;

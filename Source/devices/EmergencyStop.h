@@ -9,7 +9,8 @@ namespace pacini::devices
 
 /// While it lives, a signal that ends the program first writes a report that silences a controller: SIGSEGV, SIGBUS,
 /// SIGILL, SIGFPE, SIGSYS and SIGABRT, and also SIGINT, SIGTERM, SIGHUP and SIGQUIT where the program does not take
-/// them in itself. Then the signal does what it would have done. Everything is prepared before: the handler only reads
+/// them in itself. Then the signal does what it would have done; who
+/// lives on nevertheless sends nothing more. Everything is prepared before: the handler only reads
 /// this object's lasting place and calls write(). Once more after 20 ms, as another thread may have been about to send.
 /// SIGKILL cannot be caught. Does nothing where there are no such signals.
 class EmergencyStop
@@ -37,8 +38,8 @@ private:
     static bool writeAll() noexcept; ///< whether there was something to silence
     friend void stopControllers(int signal) noexcept;
 
-    Place* place = nullptr;
-    int descriptor;
+    [[maybe_unused]] Place* place = nullptr;
+    [[maybe_unused]] int descriptor;
 };
 
 } // namespace pacini::devices

@@ -5,6 +5,11 @@
 #include <optional>
 #include <utility>
 
+#if defined(__linux__)
+#include <pthread.h>
+#include <sched.h>
+#endif
+
 namespace pacini::devices
 {
 
@@ -49,6 +54,16 @@ private:
     Seconds since; ///< when it became so
     Seconds sent;
 };
+
+/// Before other work, where the user is allowed that: a packet takes some microseconds, but should not wait.
+void raisePriority() noexcept
+{
+#if defined(__linux__)
+    sched_param lowest{};
+    lowest.sched_priority = sched_get_priority_min(SCHED_RR);
+    static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_RR, &lowest));
+#endif
+}
 } // namespace
 
 RumblePlayer::RumblePlayer(const ControllerModel& controller, ClipRumble whatToPlay, ReportSink& where, SendClock& when)
@@ -79,6 +94,7 @@ Result<PlayReport> RumblePlayer::finish()
 
 void RumblePlayer::run()
 {
+    raisePriority();
     play();
     // Also after an error, should it have been one that passes. Once more after an interval: the first may come too
     // soon after the packet before it, and be ignored.

@@ -22,7 +22,7 @@ Clip steadyClip(std::vector<Transient> events = {}, double amplitude = 0.5)
     return clip;
 }
 
-constexpr PlayRange whole{Seconds(0.0), Seconds(1.0), false};
+constexpr PlayRange wholeClip{Seconds(0.0), Seconds(1.0), false};
 
 // The packets that begin an event, of the first `count`.
 std::vector<std::int64_t> packetsWithEvents(ClipPackets& packets, std::int64_t count)
@@ -47,7 +47,7 @@ const MotorLevels& motorsOf(const std::optional<RumbleState>& state)
 
 TEST_CASE("A clip's bands are as long as the clip, the last packet in proportion", "[devices]")
 {
-    ClipPackets packets(steadyClip(), whole, 2.0, 15_ms);
+    ClipPackets packets(steadyClip(), wholeClip, 2.0, 15_ms);
     CHECK(packets.count() == 68); // 66.7 packets, and one for an event at the very end
     CHECK(packets.at(0).bands[0].amplitude == Approx(1.0));
     CHECK(packets.at(65).bands[0].amplitude == Approx(1.0));
@@ -70,11 +70,11 @@ TEST_CASE("A part of a clip starts and ends where it is told to", "[devices]")
 TEST_CASE("Every event is played once, in the packet that starts nearest to it", "[devices]")
 {
     const std::vector<Transient> events{{0.0, 1.0, 0.0}, {0.0221, 1.0, 0.0}, {0.3, 1.0, 1.0}, {1.0, 1.0, 1.0}};
-    ClipPackets packets(steadyClip(events), whole, 1.0, 15_ms);
+    ClipPackets packets(steadyClip(events), wholeClip, 1.0, 15_ms);
     CHECK(packetsWithEvents(packets, 80) == std::vector<std::int64_t>{0, 1, 20, 67});
 
     // Those of packets that were left out come in the next.
-    ClipPackets late(steadyClip(events), whole, 1.0, 15_ms);
+    ClipPackets late(steadyClip(events), wholeClip, 1.0, 15_ms);
     static_cast<void>(late.at(0));
     CHECK(late.at(30).event);
     CHECK_FALSE(late.at(31).event);
@@ -93,7 +93,7 @@ TEST_CASE("A loop goes on where it starts, with its events each time", "[devices
 
 TEST_CASE("An event has the pulse of the decoder and does not play the energy of the bands twice", "[devices]")
 {
-    ClipPackets dull(steadyClip({{0.5, 0.8, 0.0}}), whole, 0.5, 15_ms);
+    ClipPackets dull(steadyClip({{0.5, 0.8, 0.0}}), wholeClip, 0.5, 15_ms);
     static_cast<void>(dull.at(0));
     const auto event = dull.at(33).event;
     REQUIRE(event);
@@ -102,7 +102,7 @@ TEST_CASE("An event has the pulse of the decoder and does not play the energy of
 
     Clip clip = steadyClip({{0.5, 0.5, 1.0}, {0.6, 1.0, 1.0}});
     clip.envelope = {{0.0, 0.3}, {1.0, 0.3}}; // bands reach twice as much, 0.6
-    ClipPackets masked(clip, whole, 1.0, 15_ms);
+    ClipPackets masked(clip, wholeClip, 1.0, 15_ms);
     const auto first = masked.at(35).event;
     CHECK_FALSE(first);
     const auto second = masked.at(45).event;
@@ -113,7 +113,7 @@ TEST_CASE("An event has the pulse of the decoder and does not play the energy of
 
 TEST_CASE("A pulse joins the carrier that it is nearest to and is over with its packet", "[devices]")
 {
-    ClipRumble rumble(steadyClip({{0.3, 0.9, 1.0}}, 0.25), whole, 0_dB, ControllerHaptics::hdRumble);
+    ClipRumble rumble(steadyClip({{0.3, 0.9, 1.0}}, 0.25), wholeClip, 0_dB, ControllerHaptics::hdRumble);
     RumbleTones before{}, with{}, after{};
     for (std::int64_t packet = 0; packet <= 21; ++packet)
     {
@@ -136,7 +136,7 @@ TEST_CASE("Motors share energy at the border of the carriers and are held up for
     CHECK(devices::motorsOf(bands).strong == Approx(0.5));
     CHECK(devices::motorsOf(bands).weak == Approx(1.0));
 
-    ClipRumble rumble(steadyClip({{0.32, 0.8, 0.36}}, 0.1), whole, 0_dB, ControllerHaptics::xbox);
+    ClipRumble rumble(steadyClip({{0.32, 0.8, 0.36}}, 0.1), wholeClip, 0_dB, ControllerHaptics::xbox);
     for (std::int64_t packet = 0; packet < 24; ++packet)
     {
         const MotorLevels levels = motorsOf(rumble.at(packet));
@@ -151,7 +151,7 @@ TEST_CASE("What a clip plays fades out and ends", "[devices]")
 {
     for (const auto haptics : {ControllerHaptics::hdRumble, ControllerHaptics::dualSense})
     {
-        ClipRumble rumble(steadyClip({{1.0, 1.0, 1.0}}), whole, 20_dB, haptics);
+        ClipRumble rumble(steadyClip({{1.0, 1.0, 1.0}}), wholeClip, 20_dB, haptics);
         const Seconds interval = pacingOf(haptics).interval;
         std::int64_t packet = 0;
         std::optional<RumbleState> last;
