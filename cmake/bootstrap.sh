@@ -12,9 +12,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
     libkissfft-dev libeigen3-dev libcairo2-dev libhidapi-dev)
-# The plugin, and the hosts that it is tried in.
+# The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)
-host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour)
+host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
+    umockdev gir1.2-umockdev-1.0 python3-gi)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 test_packages=(catch2 python3 python3-jsonschema clang-format "${plugin_packages[@]}" "${host_packages[@]}")
 

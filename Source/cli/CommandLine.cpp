@@ -6,6 +6,7 @@
 #include "cli/EncodeCommand.h"
 #include "cli/InfoCommand.h"
 #include "cli/LintCommand.h"
+#include "cli/PlayCommand.h"
 #include "cli/PlotCommand.h"
 #include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
@@ -32,6 +33,7 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<LintCommand>());
     commands.push_back(std::make_unique<ProfilesCommand>());
     commands.push_back(std::make_unique<DevicesCommand>());
+    commands.push_back(std::make_unique<PlayCommand>());
     commands.push_back(std::make_unique<CompareCommand>());
     commands.push_back(std::make_unique<MeasureCommand>());
     commands.push_back(std::make_unique<PlotCommand>());

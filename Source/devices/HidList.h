@@ -12,14 +12,6 @@
 namespace pacini::devices
 {
 
-/// How a controller is connected.
-enum class Transport
-{
-    unknown,
-    usb,
-    bluetooth,
-};
-
 struct Controller
 {
     std::string name; ///< as the controller gives it, UTF-8; may be empty

@@ -18,6 +18,14 @@ enum class ControllerHaptics
     xbox,       ///< XboxReport.h
 };
 
+/// How a controller is connected.
+enum class Transport
+{
+    unknown,
+    usb,
+    bluetooth,
+};
+
 /// What a controller understands, by its maker's and its product's USB numbers, which it has on Bluetooth too; nothing
 /// for others. Xbox controllers are known by the numbers that they have on Bluetooth only, as they are no HID devices
 /// on a cable. Source: SDL, usb_ids.h. [any]

@@ -13,6 +13,9 @@
 namespace pacini::devices
 {
 
+/// From here on, in Hz, a tone is nearer to the carrier at 320 Hz than to the one at 160 Hz.
+inline constexpr Hertz carrierBorder{160.0 * std::numbers::sqrt2};
+
 /// Two tones as one, frequencies above 0: energies add up, and they weigh the logarithms of the frequencies. A tone
 /// between two bands sounds in both and so comes out at its own pitch.
 [[nodiscard]] inline RumbleTone joinedTones(const RumbleTone& a, const RumbleTone& b) noexcept
@@ -42,7 +45,6 @@ namespace pacini::devices
     constexpr RumbleTones home;
     std::array<RumbleTone, 2> high{home.high, home.high};
     std::array<RumbleTone, 2> low{home.low, home.low};
-    constexpr double border = 160.0 * std::numbers::sqrt2; // as far from one as from the other
     const Hertz lowest = rumbleFrequency(lowestLowStep);
     const Hertz highest = rumbleFrequency(highestHighStep);
     for (const RumbleTone& band : bands)
@@ -50,7 +52,7 @@ namespace pacini::devices
         if (!canSound(band))
             continue;
         const RumbleTone tone{std::clamp(band.frequency, lowest, highest), std::min(band.amplitude, 1.0)};
-        auto& strongest = tone.frequency.value < border ? low : high;
+        auto& strongest = tone.frequency < carrierBorder ? low : high;
         if (tone.amplitude > strongest[0].amplitude)
             strongest = {tone, strongest[0]};
         else if (tone.amplitude > strongest[1].amplitude)

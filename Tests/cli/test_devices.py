@@ -11,7 +11,7 @@ class Devices(CommandTest):
         done = subprocess.run([COMMAND, "devices", "--json"], capture_output=True, timeout=60)
         if done.returncode == 0:
             for entry in json.loads(done.stdout)["controllers"]:
-                self.assertEqual(set(entry), {"name", "haptics", "transport", "path"})
+                self.assertEqual(set(entry), {"number", "name", "haptics", "transport", "path"})
             self.assertNotEqual(self.succeeds("devices"), "")
         else:
             self.assertEqual(done.returncode, 1)

@@ -1,0 +1,127 @@
+#include "cli/ControllerInput.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using devices::Controller;
+using devices::ControllerHaptics;
+using devices::ControllerModel;
+using devices::Transport;
+
+constexpr std::array<std::pair<std::string_view, ControllerModel>, 7> knownModels{{
+    {"switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
+    {"switch-usb", {ControllerHaptics::hdRumble, Transport::usb}},
+    {"dualshock4", {ControllerHaptics::dualShock4, Transport::usb}},
+    {"dualshock4-bluetooth", {ControllerHaptics::dualShock4, Transport::bluetooth}},
+    {"dualsense", {ControllerHaptics::dualSense, Transport::usb}},
+    {"dualsense-bluetooth", {ControllerHaptics::dualSense, Transport::bluetooth}},
+    {"xbox", {ControllerHaptics::xbox, Transport::bluetooth}},
+}};
+
+char lowered(char c)
+{
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool holdsText(std::string_view text, std::string_view part)
+{
+    const auto alike = [](char a, char b)
+    {
+        return lowered(a) == lowered(b);
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), alike) != text.end();
+}
+
+/// The whole of `text` as a number.
+std::optional<std::size_t> numberIn(std::string_view text)
+{
+    std::size_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure != std::errc() || end != text.data() + text.size())
+        return std::nullopt;
+    return number;
+}
+} // namespace
+
+std::string_view hapticsName(ControllerHaptics haptics)
+{
+    switch (haptics)
+    {
+    case ControllerHaptics::hdRumble:
+        return "HD rumble";
+    case ControllerHaptics::dualShock4:
+        return "DualShock 4";
+    case ControllerHaptics::dualSense:
+        return "DualSense";
+    case ControllerHaptics::xbox:
+        return "Xbox";
+    }
+    return "";
+}
+
+std::string_view transportName(Transport transport)
+{
+    switch (transport)
+    {
+    case Transport::usb:
+        return "USB";
+    case Transport::bluetooth:
+        return "Bluetooth";
+    case Transport::unknown:
+        break;
+    }
+    return "unknown";
+}
+
+std::vector<std::string> modelNames()
+{
+    std::vector<std::string> names;
+    for (const auto& [name, model] : knownModels)
+        names.emplace_back(name);
+    return names;
+}
+
+ControllerModel modelNamed(std::string_view name)
+{
+    const auto found =
+        std::find_if(knownModels.begin(), knownModels.end(), [&](const auto& m) { return m.first == name; });
+    return found != knownModels.end() ? found->second : knownModels.front().second;
+}
+
+Result<std::optional<Controller>> chosenController(const std::vector<Controller>& connected, const std::string& named)
+{
+    if (const auto number = numberIn(named))
+    {
+        if (*number < 1 || *number > connected.size())
+            return std::optional<Controller>();
+        return std::optional(connected[*number - 1]);
+    }
+    std::vector<Controller> meant;
+    for (const Controller& controller : connected)
+    {
+        if (!named.empty() && controller.path == named)
+            return std::optional(controller);
+        if (holdsText(controller.name, named))
+            meant.push_back(controller);
+    }
+    if (meant.size() > 1)
+        return Error{
+            ErrorCode::invalidArgument, "",
+            fmt::format("{} controllers could be meant; name one by --device and its number in 'pacini devices'",
+                        meant.size())};
+    if (meant.empty())
+        return std::optional<Controller>();
+    return std::optional(meant.front());
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+// Game controllers that the user names.
+
+#include "devices/ControllerReports.h"
+#include "devices/HidList.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// "HD rumble", "DualShock 4" ...
+[[nodiscard]] std::string_view hapticsName(devices::ControllerHaptics haptics);
+
+/// "USB", "Bluetooth" or "unknown".
+[[nodiscard]] std::string_view transportName(devices::Transport transport);
+
+/// The controllers that can be named without being connected: "switch", "dualsense-bluetooth" ...
+[[nodiscard]] std::vector<std::string> modelNames();
+
+/// The controller of one of those names; of any other, the first.
+[[nodiscard]] devices::ControllerModel modelNamed(std::string_view name);
+
+/// The one of `connected` that is meant: by its number from 1 on, its path, or a part of its name, upper and lower case
+/// alike; the only one when nothing is named. Nothing when it is not there. Errors: `invalidArgument` when several
+/// could be meant.
+[[nodiscard]] Result<std::optional<devices::Controller>>
+chosenController(const std::vector<devices::Controller>& connected, const std::string& named);
+
+} // namespace pacini::cli

@@ -1,0 +1,60 @@
+#pragma once
+
+// What each kind of controller is sent, and how often.
+
+#include "devices/KnownControllers.h"
+#include "devices/MotorLevels.h"
+#include "devices/Report.h"
+#include "devices/SwitchReports.h"
+
+#include <pacini/foundation/Units.h>
+
+#include <variant>
+#include <vector>
+
+namespace pacini::devices
+{
+
+/// What a controller can be told depends on its kind and on its connection; an unknown connection counts as a cable.
+struct ControllerModel
+{
+    ControllerHaptics haptics = ControllerHaptics::hdRumble;
+    Transport transport = Transport::unknown;
+    bool operator==(const ControllerModel&) const = default;
+};
+
+/// What a controller is to play: SidesRumble for HD rumble, MotorLevels for the others.
+using RumbleState = std::variant<SidesRumble, MotorLevels>;
+
+/// The state in which nothing moves. [any]
+[[nodiscard]] RumbleState silentState(ControllerHaptics haptics) noexcept;
+
+/// How often a controller is sent what.
+struct Pacing
+{
+    Seconds interval;          ///< from packet to packet, at least
+    Seconds refresh;           ///< a state that has not changed is sent again after this time
+    Seconds quietAfter{0.300}; ///< silence is repeated for this long, then not sent any more
+    bool operator==(const Pacing&) const = default;
+};
+
+/// HD rumble: every 15 ms, as a Switch does; the controller stops by itself when it hears nothing for long. Motors keep
+/// their level: changes at most every 10 ms (Sony) or 16 ms (Xbox, whose firmware can crash on reports less than 10 ms
+/// apart), repeats twice a second, well within the 2.55 s of an Xbox report. None needs anything sent while it is
+/// silent. Sources: dekuNukem, Nintendo_Switch_Reverse_Engineering; Linux, hid-nintendo.c; xpadneo, rumble throttle.
+/// [any]
+[[nodiscard]] Pacing pacingOf(ControllerHaptics haptics) noexcept;
+
+/// What must be sent before the first packet, one per interval. HD rumble has to be enabled. On a cable, a Pro
+/// Controller also listens to reports only after a handshake, and for good only after it is told not to fall back to
+/// Bluetooth; if a driver has done this already, once more does no harm. [worker]
+[[nodiscard]] std::vector<Report> openingReports(const ControllerModel& model);
+
+/// The report of a state, which is the one of the controller's kind. Of `counter`, the number of all reports sent
+/// before, some reports hold a part. [any]
+[[nodiscard]] Report reportOf(const ControllerModel& model, const RumbleState& state, unsigned counter) noexcept;
+
+/// What is sent after the last silent packet: a DualSense is given back to its audio. [worker]
+[[nodiscard]] std::vector<Report> closingReports(const ControllerModel& model, unsigned counter);
+
+} // namespace pacini::devices

@@ -1,0 +1,30 @@
+#pragma once
+
+// Where reports go.
+
+#include "devices/Report.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <array>
+
+namespace pacini::devices
+{
+
+/// One report that silences a controller for each value of the four-bit counters in reports.
+using StopReports = std::array<Report, 16>;
+
+class ReportSink
+{
+public:
+    virtual ~ReportSink() = default;
+
+    /// Called before the first report: should the program crash after n reports, `stops[n % 16]` silences the
+    /// controller. [worker]
+    virtual void prepare(const StopReports& stops) = 0;
+
+    /// Errors: `io`, with a message for people. [worker]
+    [[nodiscard]] virtual Result<void> send(const Report& report) = 0;
+};
+
+} // namespace pacini::devices

@@ -1,0 +1,161 @@
+#include "devices/RumblePlayer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#if defined(__linux__)
+#include <pthread.h>
+#include <sched.h>
+#endif
+
+namespace pacini::devices
+{
+
+namespace
+{
+/// Which packets say nothing that the controller does not know.
+class Repeats
+{
+public:
+    explicit Repeats(const ControllerModel& controller)
+        : model(controller), pacing(pacingOf(controller.haptics)), silence(contentOf(silentState(controller.haptics)))
+    {
+    }
+
+    /// Whether `state`, due at `time`, is to be sent.
+    [[nodiscard]] bool needs(const RumbleState& state, Seconds time)
+    {
+        constexpr double rounding = 1e-6; // s
+        const Report content = contentOf(state);
+        if (last == content)
+        {
+            if (content == silence && time.value - since.value > pacing.quietAfter.value)
+                return false;
+            if (time.value - sent.value < pacing.refresh.value - rounding)
+                return false;
+        }
+        else
+            since = time;
+        last = content;
+        sent = time;
+        return true;
+    }
+
+private:
+    /// What a controller can tell states by.
+    [[nodiscard]] Report contentOf(const RumbleState& state) const noexcept { return reportOf(model, state, 0); }
+
+    ControllerModel model;
+    Pacing pacing;
+    Report silence;
+    std::optional<Report> last;
+    Seconds since; ///< when it became so
+    Seconds sent;
+};
+
+/// Before other work, where the user is allowed that: a packet takes some microseconds, but should not wait.
+void raisePriority() noexcept
+{
+#if defined(__linux__)
+    sched_param lowest{};
+    lowest.sched_priority = sched_get_priority_min(SCHED_RR);
+    static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_RR, &lowest));
+#endif
+}
+} // namespace
+
+RumblePlayer::RumblePlayer(const ControllerModel& controller, ClipRumble whatToPlay, ReportSink& where, SendClock& when)
+    : model(controller), pacing(pacingOf(controller.haptics)), rumble(std::move(whatToPlay)), sink(where), clock(when)
+{
+    StopReports stops;
+    for (unsigned i = 0; i < stops.size(); ++i)
+        stops[i] = reportOf(model, silentState(model.haptics), i);
+    sink.prepare(stops);
+    thread = std::thread([this] { run(); });
+}
+
+void RumblePlayer::stop()
+{
+    clock.interrupt();
+    if (thread.joinable())
+        thread.join();
+}
+
+Result<PlayReport> RumblePlayer::finish()
+{
+    if (thread.joinable())
+        thread.join();
+    if (!failure)
+        return failure.error();
+    return report;
+}
+
+void RumblePlayer::run()
+{
+    raisePriority();
+    play();
+    // Also after an error, should it have been one that passes. Once more after an interval: the first may come too
+    // soon after the packet before it, and be ignored.
+    const auto silence = [&]
+    {
+        return send(reportOf(model, silentState(model.haptics), counter));
+    };
+    if (silence())
+    {
+        clock.pause(pacing.interval);
+        static_cast<void>(silence());
+        for (const Report& closing : closingReports(model, counter))
+            static_cast<void>(send(closing));
+    }
+    playing.store(false, std::memory_order_release);
+}
+
+void RumblePlayer::play()
+{
+    if (!open())
+        return;
+    const double interval = pacing.interval.value;
+    const double start = clock.now().value;
+    Repeats repeats(model);
+    std::int64_t packet = 0;
+    while (const auto state = rumble.at(packet))
+    {
+        const Seconds due(static_cast<double>(packet) * interval);
+        if (!clock.waitUntil(Seconds(start + due.value)))
+            return;
+        played.store(due.value, std::memory_order_relaxed);
+        report.latest.value = std::max(report.latest.value, clock.now().value - start - due.value);
+        if (repeats.needs(*state, due) && !send(reportOf(model, *state, counter)))
+            return;
+        const auto next = static_cast<std::int64_t>(std::floor((clock.now().value - start) / interval));
+        report.leftOut += std::max(next - packet - 1, std::int64_t{0});
+        packet = std::max(next, packet + 1);
+    }
+    static_cast<void>(clock.waitUntil(Seconds(start + static_cast<double>(packet) * interval)));
+}
+
+bool RumblePlayer::open()
+{
+    for (const Report& opening : openingReports(model))
+    {
+        const double sentAt = clock.now().value;
+        if (!send(opening) || !clock.waitUntil(Seconds(sentAt + pacing.interval.value)))
+            return false;
+    }
+    return true;
+}
+
+bool RumblePlayer::send(const Report& toSend)
+{
+    const auto done = sink.send(toSend);
+    ++counter;
+    if (done)
+        ++report.sent;
+    else if (failure)
+        failure = done;
+    return done.ok();
+}
+
+} // namespace pacini::devices
