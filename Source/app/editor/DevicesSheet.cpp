@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/DevicesSheet.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
+
+#include <algorithm>
 
 namespace pacini::app
 {
@@ -9,16 +12,31 @@ namespace pacini::app
 namespace
 {
 using editor::grid;
-constexpr int none = 1; // menus know no item 0; channels follow
+constexpr int controllerPoll = 1000; // ms
+constexpr int none = 1;              // menus know no item 0; channels follow
 } // namespace
 
-DevicesSheet::DevicesSheet(PreviewRig& wanted)
+DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControllers)
     : Sheet("Sound devices", 760, 560),
       rig(wanted),
+      controllerOutput(wantedControllers),
       selector(wanted.devices(), 0, 0, 0, 256, false, false, false, false)
 {
     prepare(sound, "Sound out", "The two channels where the sound is heard", rig.soundTrim(), 6.0);
     prepare(haptic, "Haptic out", "The channel that the actuator's amplifier hangs on", rig.hapticTrim(), 0.0);
+    controllerLabel.setText("Controller", juce::dontSendNotification);
+    controllerLabel.setFont(editor::usualFont());
+    controllerLabel.setAccessible(false);
+    controllerNote.setFont(editor::smallFont());
+    controllerChoice.setTitle("Game controller");
+    controllerChoice.setTooltip("A connected controller that plays the clip as well, by its motors");
+    controllerChoice.onChange = [this]
+    {
+        chooseController();
+    };
+    for (juce::Component* part :
+         std::initializer_list<juce::Component*>{&controllerLabel, &controllerChoice, &controllerNote})
+        addAndMakeVisible(part);
     addAndMakeVisible(selector);
     rig.devices().addChangeListener(this);
     setAnswers({{"Close", {}}});
@@ -91,6 +109,52 @@ void DevicesSheet::fill()
                                  juce::dontSendNotification);
 }
 
+/// Controllers come and go while the sheet is open.
+void DevicesSheet::fillControllers()
+{
+    const auto connected = ControllerOutput::connected();
+    const auto found = connected ? *connected : std::vector<devices::Controller>();
+    const auto same = [](const devices::Controller& a, const devices::Controller& b)
+    {
+        return a.path == b.path && a.name == b.name;
+    };
+    if (!std::equal(found.begin(), found.end(), controllers.begin(), controllers.end(), same))
+    {
+        controllers = found;
+        controllerChoice.clear(juce::dontSendNotification);
+        controllerChoice.addItem("None", none);
+        for (std::size_t i = 0; i < controllers.size(); ++i)
+            controllerChoice.addItem(editor::toText(controllers[i].name), none + 1 + static_cast<int>(i));
+    }
+    int chosen = none;
+    for (std::size_t i = 0; i < controllers.size(); ++i)
+        if (controllerOutput.chosen() && controllerOutput.chosen()->path == controllers[i].path)
+            chosen = none + 1 + static_cast<int>(i);
+    controllerChoice.setSelectedId(chosen, juce::dontSendNotification);
+    controllerChoice.setEnabled(!controllers.empty());
+    if (!connected)
+        say(editor::toText(connected.error().text()));
+    else if (controllers.empty())
+        say("No controller that Pacini knows is connected");
+    else if (controllerNote.getText().startsWith("No controller"))
+        say({});
+}
+
+void DevicesSheet::chooseController()
+{
+    const int index = controllerChoice.getSelectedId() - none - 1;
+    const auto opened =
+        controllerOutput.choose(index < 0 ? std::nullopt : std::optional(controllers[static_cast<std::size_t>(index)]));
+    say(opened ? juce::String() : editor::toText(opened.error().text()));
+    fillControllers();
+}
+
+void DevicesSheet::say(const juce::String& text)
+{
+    controllerNote.setText(text, juce::dontSendNotification);
+    controllerNote.setTooltip(text);
+}
+
 void DevicesSheet::layOut(juce::Rectangle<int> area)
 {
     for (Output* output : {&sound, &haptic})
@@ -103,6 +167,11 @@ void DevicesSheet::layOut(juce::Rectangle<int> area)
         output->delay.setBounds(row.withTrimmedLeft(grid));
         area.removeFromTop(grid);
     }
+    auto row = area.removeFromTop(4 * grid);
+    controllerLabel.setBounds(row.removeFromLeft(11 * grid));
+    controllerChoice.setBounds(row.removeFromLeft(row.getWidth() / 3).reduced(0, 2));
+    controllerNote.setBounds(row.withTrimmedLeft(grid));
+    area.removeFromTop(grid);
     selector.setBounds(area);
 }
 

@@ -3,6 +3,7 @@
 
 // The sound device, and which of its channels carry what.
 
+#include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewRig.h"
 #include "editor/clip/sheets/Sheet.h"
 
@@ -11,18 +12,23 @@
 namespace pacini::app
 {
 
-class DevicesSheet final : public editor::Sheet, private juce::ChangeListener
+class DevicesSheet final : public editor::Sheet, private juce::ChangeListener, private juce::Timer
 {
 public:
-    explicit DevicesSheet(PreviewRig& wanted);
+    DevicesSheet(PreviewRig& wanted, ControllerOutput& controllers);
     ~DevicesSheet() override;
 
 private:
     void layOut(juce::Rectangle<int> area) override;
     void changeListenerCallback(juce::ChangeBroadcaster*) override { fill(); }
+    void timerCallback() override { fillControllers(); }
     void fill();
+    void fillControllers();
+    void chooseController();
+    void say(const juce::String& text);
 
     PreviewRig& rig;
+    ControllerOutput& controllerOutput;
     /// One output: where it goes, how loud and how late.
     struct Output
     {
@@ -34,6 +40,9 @@ private:
                  double mostLevel);
 
     Output sound, haptic;
+    juce::Label controllerLabel, controllerNote;
+    juce::ComboBox controllerChoice;
+    std::vector<devices::Controller> controllers; ///< of the choice, from its second item on
     juce::AudioDeviceSelectorComponent selector;
 };
 

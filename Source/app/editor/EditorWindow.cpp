@@ -9,6 +9,7 @@ namespace pacini::app
 EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
+      controllers(session),
       content(session, {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
                         [this]
                         {
@@ -38,7 +39,7 @@ void EditorWindow::closeButtonPressed()
 
 void EditorWindow::showDevices()
 {
-    content.showSheet(std::make_unique<DevicesSheet>(rig));
+    content.showSheet(std::make_unique<DevicesSheet>(rig, controllers));
 }
 
 } // namespace pacini::app

@@ -3,6 +3,7 @@
 
 // The window of the editor.
 
+#include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewRig.h"
 #include "editor/clip/EditorView.h"
 
@@ -28,6 +29,7 @@ private:
     void showDevices();
 
     PreviewRig& rig;
+    ControllerOutput controllers;
     editor::EditorView content;
 };
 

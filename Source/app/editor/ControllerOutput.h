@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A game controller that plays what the editor plays.
+
+#include "devices/HidList.h"
+#include "devices/OpenController.h"
+#include "devices/RumblePlayer.h"
+#include "editor/clip/session/Session.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini::app
+{
+
+/// Follows the session: plays when it plays, from the same place, and is silent when it is. Edits are felt from the
+/// next restart on, which follows the last of them within a fifth of a second. The sender has a thread of its own.
+/// [message]
+class ControllerOutput final : private editor::Session::Listener, private juce::Timer
+{
+public:
+    explicit ControllerOutput(editor::Session& shared);
+    ~ControllerOutput() override;
+
+    /// What is connected now. Errors as in connectedControllers().
+    [[nodiscard]] static Result<std::vector<devices::Controller>> connected()
+    {
+        return devices::connectedControllers();
+    }
+
+    /// Opens a controller, by its path; none: closes it. Errors: those of OpenController::open().
+    Result<void> choose(const std::optional<devices::Controller>& wanted);
+    [[nodiscard]] const std::optional<devices::Controller>& chosen() const noexcept { return controller; }
+
+private:
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override;
+    void start();
+    void silence();
+    void tellFailure();
+
+    editor::Session& session;
+    std::optional<devices::Controller> controller;
+    juce::uint32 restartAt = 0; ///< ms, 0: no restart is due
+    bool loops = false;         ///< what plays comes back to the start of the loop by itself
+    double lastPlayhead = 0.0;
+    std::unique_ptr<devices::OpenController> target;
+    std::unique_ptr<devices::SteadyClock> clock;
+    std::unique_ptr<devices::RumblePlayer> player; // ends before the others
+};
+
+} // namespace pacini::app
