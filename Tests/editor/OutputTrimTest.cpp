@@ -75,7 +75,7 @@ TEST_CASE("Level and delay change without a click, and arrive")
     }
     // Two tones cross within 480 frames: each moves as it did, and the step between them is at most 2 / 480.
     for (std::size_t i = 1; i < out.size(); ++i)
-        REQUIRE(std::abs(out[i] - out[i - 1]) <= steepest + 2.0 / 480.0 + 1e-6);
+        REQUIRE(static_cast<double>(std::abs(out[i] - out[i - 1])) <= steepest + 2.0 / 480.0 + 1e-6);
     CHECK(out[47000] == Approx(0.25f * in[47000 - 24000]).margin(1e-6));
     CHECK(trim.delayNow() == 0.5);
 }
