@@ -221,6 +221,12 @@ juce::Label* Look::createSliderTextBox(juce::Slider& slider)
     return label;
 }
 
+void Look::drawMenuBarBackground(juce::Graphics& g, int width, int height, bool, juce::MenuBarComponent&)
+{
+    g.setColour(palette().card);
+    g.fillRect(0, 0, width, height);
+}
+
 int Look::getTabButtonBestWidth(juce::TabBarButton& tab, int)
 {
     // All alike, over the whole bar.

@@ -44,6 +44,7 @@ public:
     juce::Font getLabelFont(juce::Label&) override;
     juce::Label* createSliderTextBox(juce::Slider&) override;
     void drawLabel(juce::Graphics&, juce::Label&) override;
+    void drawMenuBarBackground(juce::Graphics&, int width, int height, bool, juce::MenuBarComponent&) override;
     int getTabButtonBestWidth(juce::TabBarButton&, int depth) override;
     void drawTabButton(juce::TabBarButton&, juce::Graphics&, bool over, bool down) override;
     void drawTabAreaBehindFrontButton(juce::TabbedButtonBar&, juce::Graphics&, int width, int height) override;

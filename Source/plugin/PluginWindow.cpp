@@ -248,7 +248,10 @@ void PluginWindow::editClip(const Clip& clip)
     showClips(true);
     editor::Imported captured;
     captured.clip = clip;
-    processor.clips().session().add(std::move(captured));
+    editor::Session& session = processor.clips().session();
+    if (session.isEmpty())
+        session.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
+    session.add(std::move(captured));
 }
 
 void PluginWindow::refresh()
