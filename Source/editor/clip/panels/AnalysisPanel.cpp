@@ -17,8 +17,7 @@ namespace
 constexpr int rowHeight = 3 * grid;
 constexpr int preferredHeight = 84 * grid;
 constexpr int labelWidth = 9 * grid;
-constexpr int pause = 350;      // ms without a change
-constexpr int ownSettings = 99; // of the menu; presets from 1
+constexpr int pause = 350; // ms without a change
 constexpr int logarithmic = 1, linear = 2;
 constexpr double leastWidth = 5.0; // Hz between the ends of the bands
 } // namespace
@@ -56,7 +55,7 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     preset.onChange = [this]
     {
         const int chosen = preset.getSelectedId();
-        if (chosen < 1 || chosen == ownSettings)
+        if (chosen < 1)
             return;
         set(encoderPresets()[static_cast<std::size_t>(chosen - 1)].params);
         edited();
@@ -151,7 +150,7 @@ void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::S
     one.name.setAccessible(false);
     one.name.setBorderSize({});
     one.slider.setSliderStyle(juce::Slider::LinearHorizontal);
-    one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, rowHeight);
+    one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 7 * grid + 4, rowHeight);
     one.slider.setTextValueSuffix(unit);
     one.slider.setTitle(name);
     one.slider.setTooltip(help);
@@ -194,18 +193,19 @@ void AnalysisPanel::set(const EncoderParams& wanted)
     put(bits, wanted.quantise);
     spacing.setSelectedId(wanted.spacing == BandSpacing::linear ? linear : logarithmic, juce::dontSendNotification);
     normalise.setToggleState(wanted.normalise, juce::dontSendNotification);
+    showPreset(wanted);
+}
+
+void AnalysisPanel::showPreset(const EncoderParams& wanted)
+{
     const EncoderPreset* known = presetOf(wanted);
-    preset.setSelectedId(known != nullptr ? 1 + static_cast<int>(known - encoderPresets().data()) : 0,
-                         juce::dontSendNotification);
-    preset.setTextWhenNothingSelected("Own settings");
+    preset.setText(known != nullptr ? toText(known->name) : juce::String("Own settings"), juce::dontSendNotification);
 }
 
 void AnalysisPanel::edited()
 {
     waiting = params();
-    const EncoderPreset* known = presetOf(*waiting);
-    preset.setSelectedId(known != nullptr ? 1 + static_cast<int>(known - encoderPresets().data()) : 0,
-                         juce::dontSendNotification);
+    showPreset(*waiting);
     startTimer(pause);
 }
 

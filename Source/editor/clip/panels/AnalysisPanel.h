@@ -54,6 +54,7 @@ private:
     void timerCallback() override { carryOut(); }
     void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
     void set(const EncoderParams& wanted);
+    void showPreset(const EncoderParams& wanted);
     void show();
     void edited();
     [[nodiscard]] juce::Slider& knob(Which which) { return knobs[which].slider; }

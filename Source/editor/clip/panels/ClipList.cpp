@@ -16,9 +16,9 @@ constexpr int timeWidth = 6 * grid;
 
 juce::String lengthText(double seconds)
 {
+    const int whole = juce::roundToInt(seconds);
     return seconds < 60.0 ? juce::String(seconds, 2) + " s"
-                          : juce::String(static_cast<int>(seconds / 60.0)) + " min " +
-                                juce::String(static_cast<int>(seconds) % 60) + " s";
+                          : juce::String(whole / 60) + ":" + juce::String(whole % 60).paddedLeft('0', 2);
 }
 } // namespace
 
