@@ -233,6 +233,48 @@ TEST_CASE("A copy inside the project makes it independent of the file, and the o
     CHECK_FALSE(session.document().isDirty());
 }
 
+#ifdef __linux__
+TEST_CASE("A project that cannot be written says why, stays open with its changes, and lets nothing follow")
+{
+    TempFolder folder;
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    bench.openDemo("knock_wood_bridge");
+    REQUIRE(session.saveAs(folder / "p.pacini"));
+    REQUIRE(session.edit("Reverse", ReverseEdit{}));
+    const Clip edited = bench.clip();
+    std::filesystem::remove(folder / "p.pacini");
+    std::filesystem::create_symlink("/dev/full", folder / "p.pacini");
+    bool followed = false;
+    bench.view.files().save([&] { followed = true; });
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "Not saved");
+    CHECK(bench.view.sheet()->getDescription().contains("p.pacini"));
+    CHECK(bench.view.sheet()->getDescription().contains("the disk is full"));
+    CHECK_FALSE(followed);
+    CHECK(session.document().isDirty());
+    CHECK(bench.clip() == edited);
+    std::filesystem::remove(folder / "p.pacini");
+    bench.view.files().save([&] { followed = true; });
+    CHECK(followed);
+    CHECK_FALSE(session.document().isDirty());
+}
+#endif
+
+TEST_CASE("No message is lost behind another")
+{
+    EditorBench bench;
+    bench.session.onError("First", "one");
+    bench.session.onError("Second", "two");
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "First");
+    bench.view.showSheet(nullptr);
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "Second");
+    bench.view.showSheet(nullptr);
+    CHECK(bench.view.sheet() == nullptr);
+}
+
 TEST_CASE("Opening a minute of stereo, in figures", "[.bench]")
 {
     using Clock = std::chrono::steady_clock;

@@ -224,9 +224,18 @@ TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in 
     CHECK(list.chosenRow() == 2);
     list.addGroup(0);
     CHECK(pages.names() == Names{"drums_tabla_pattern", "Second", "[Group]", "Knock"});
+    CHECK(list.chosenRow() == 1);
+    list.choose(2);
     list.rename(2, "Doors");
+    CHECK(list.chosenRow() == 2);
     list.setGroup(0, "Doors");
     CHECK(pages.names() == Names{"Second", "[Doors]", "Knock", "drums_tabla_pattern"});
+    list.choose(2);
+    list.move(2, 1);
+    CHECK(pages.names() == Names{"Second", "Knock", "[Doors]", "drums_tabla_pattern"});
+    CHECK(list.chosenRow() == 1);
+    list.move(1, 3);
+    CHECK(list.chosenRow() == 2);
     list.remove(1);
     CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern", "Second"});
     list.remove(0);

@@ -119,7 +119,8 @@ void ProjectFiles::whenSaved(std::function<void()> next)
                                                                   {"Cancel", {}}}));
 }
 
-void ProjectFiles::finishSaving(const Result<void>& saved, const std::function<void()>& next)
+void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem::path& file,
+                                const std::function<void()>& next)
 {
     if (saved)
     {
@@ -133,7 +134,7 @@ void ProjectFiles::finishSaving(const Result<void>& saved, const std::function<v
     };
     view.showMessage(std::make_unique<MessageSheet>(
         "Not saved",
-        toText(saved.error().text()) +
+        pathText(file) + "\n" + toText(saved.error().text()) +
             "\n\nThe project is still open with all changes. Make room, or save it in another place.",
         std::vector<Sheet::Answer>{{"Save as" + toText("…"), elsewhere}, {"Close", {}}}));
 }
@@ -142,7 +143,7 @@ void ProjectFiles::save(std::function<void()> next)
 {
     if (view.session().document().path().empty())
         return saveAs(std::move(next));
-    finishSaving(view.session().save(), next);
+    finishSaving(view.session().save(), view.session().document().path(), next);
 }
 
 void ProjectFiles::saveAs(std::function<void()> next)
@@ -150,8 +151,10 @@ void ProjectFiles::saveAs(std::function<void()> next)
     choose("Save the project", Purpose::saving,
            [this, next](const juce::Array<juce::File>& chosen)
            {
-               if (!chosen.isEmpty())
-                   finishSaving(view.session().saveAs(pathOf(chosen[0].withFileExtension("pacini"))), next);
+               if (chosen.isEmpty())
+                   return;
+               const auto file = pathOf(chosen[0].withFileExtension("pacini"));
+               finishSaving(view.session().saveAs(file), file, next);
            });
 }
 

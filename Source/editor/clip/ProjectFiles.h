@@ -52,7 +52,7 @@ private:
     };
     void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen,
                 const std::filesystem::path& wantedStart = {});
-    void finishSaving(const Result<void>& saved, const std::function<void()>& next);
+    void finishSaving(const Result<void>& saved, const std::filesystem::path& file, const std::function<void()>& next);
 
     EditorView& view;
     std::unique_ptr<juce::FileChooser> chooser;

@@ -29,6 +29,7 @@ ClipList::ClipList(Session& shared) : session(shared)
     list.setTooltip("Choose a clip to see it. Return renames, Delete removes, Alt with the arrow keys moves");
     list.setOutlineThickness(0);
     list.addKeyListener(this);
+    list.addMouseListener(this, true); // a ListBox drags in windows of their own
     addAndMakeVisible(list);
     session.listeners.add(this);
     refresh();
@@ -38,6 +39,7 @@ ClipList::~ClipList()
 {
     session.listeners.remove(this);
     list.removeKeyListener(this);
+    list.removeMouseListener(this);
     list.setModel(nullptr);
 }
 
@@ -49,21 +51,33 @@ void ClipList::sessionChanged(unsigned changes)
 
 void ClipList::refresh()
 {
+    // A heading stays chosen while its clips change.
+    ClipRow chosen{session.activeId(), {}};
+    if (const ClipRow* now = at(list.getSelectedRow()); now != nullptr && now->clip == 0)
+        chosen = *now;
     auto wanted = clipRows(session.document().project());
     if (wanted != rowsNow)
     {
         rowsNow = std::move(wanted);
         list.updateContent();
     }
-    // A heading stays chosen while its clips change.
-    const ClipRow* chosen = at(list.getSelectedRow());
-    for (std::size_t i = 0; i < rowsNow.size(); ++i)
-        if (rowsNow[i].clip != 0 && rowsNow[i].clip == session.activeId() && (chosen == nullptr || chosen->clip != 0))
-        {
-            juce::SparseSet<int> shown;
-            shown.addRange({static_cast<int>(i), static_cast<int>(i) + 1});
-            list.setSelectedRows(shown, juce::dontSendNotification);
-        }
+    const auto isChosen = [&](const ClipRow& row)
+    {
+        return row.clip == chosen.clip && (row.clip != 0 || row.group == chosen.group);
+    };
+    auto found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
+    if (found == rowsNow.end())
+    {
+        chosen.clip = session.activeId();
+        found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
+    }
+    juce::SparseSet<int> shown;
+    if (found != rowsNow.end())
+    {
+        const int row = static_cast<int>(found - rowsNow.begin());
+        shown.addRange({row, row + 1});
+    }
+    list.setSelectedRows(shown, juce::dontSendNotification);
     list.repaint();
 }
 
@@ -248,14 +262,18 @@ void ClipList::rename(int row, const juce::String& name)
     const std::string wanted = name.trim().toStdString();
     if (shown == nullptr || wanted.empty() || nameOf(*shown) == toText(wanted))
         return;
+    const ClipRow was = *shown;
     session.change(
-        [was = *shown, &wanted](Document& document) -> Result<void>
+        [&was, &wanted](Document& document) -> Result<void>
         {
             if (was.clip != 0)
                 return document.edit(was.clip, "Rename clip", RenameEdit{wanted});
             document.renameGroup(was.group, wanted, "Rename group");
             return {};
         });
+    for (std::size_t i = 0; was.clip == 0 && i < rowsNow.size(); ++i)
+        if (rowsNow[i] == ClipRow{0, wanted})
+            list.selectRow(static_cast<int>(i));
 }
 
 void ClipList::remove(int row)
@@ -378,10 +396,23 @@ void ClipList::beginRename(int row)
         nameField->grabKeyboardFocus();
 }
 
-juce::var ClipList::getDragSourceDescription(const juce::SparseSet<int>& chosen)
+void ClipList::mouseDrag(const juce::MouseEvent& event)
 {
-    const ClipRow* dragged = chosen.size() == 1 ? at(chosen[0]) : nullptr;
-    return dragged != nullptr && dragged->clip != 0 ? juce::var(chosen[0]) : juce::var();
+    constexpr int threshold = 5; // pixels
+    if (isDragAndDropActive() || event.mods.isPopupMenu() || event.getDistanceFromDragStart() < threshold ||
+        dynamic_cast<juce::ScrollBar*>(event.eventComponent) != nullptr)
+        return;
+    const auto here = event.getEventRelativeTo(&list);
+    const auto start = here.getMouseDownPosition();
+    const int row = list.getRowContainingPosition(start.x, start.y);
+    if (const ClipRow* dragged = at(row); dragged == nullptr || dragged->clip == 0)
+        return;
+    juce::SparseSet<int> rows;
+    rows.addRange({row, row + 1});
+    int x = 0, y = 0;
+    const auto image = list.createSnapshotOfRows(rows, x, y);
+    const juce::Point<int> offset(x - here.x, y - here.y);
+    startDragging(row, &list, image, false, &offset, &event.source);
 }
 
 bool ClipList::isInterestedInDragSource(const SourceDetails& details)

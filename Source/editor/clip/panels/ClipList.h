@@ -48,6 +48,7 @@ public:
     [[nodiscard]] juce::PopupMenu menuOf(int row);
     [[nodiscard]] juce::PopupMenu groupMenuOf(int row);
 
+    void mouseDrag(const juce::MouseEvent& event) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
 
@@ -67,7 +68,6 @@ private:
     void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { beginRename(row); }
     void returnKeyPressed(int row) override { beginRename(row); }
     void deleteKeyPressed(int row) override { remove(row); }
-    juce::var getDragSourceDescription(const juce::SparseSet<int>& chosen) override;
     using juce::Component::keyPressed;
     bool keyPressed(const juce::KeyPress& key, juce::Component*) override;
 

@@ -174,7 +174,7 @@ void Importer::finish()
     if (!failed.isEmpty())
     {
         title = all > 1 ? juce::String(failed.size()) + " of " + juce::String(static_cast<int>(all)) +
-                              " files were not opened"
+                              (failed.size() == 1 ? " files was not opened" : " files were not opened")
                         : juce::String("Not opened");
         text = shortened(failed);
     }
