@@ -77,7 +77,7 @@ def main():
         check("Escape stays", app.poll() is None)
         screen.keys("ctrl+q")
         time.sleep(0.5)
-        screen.keys("Tab", "Tab", "Return")  # don't save
+        screen.keys("shift+Tab", "Return")  # don't save
         check("not saving closes", until(lambda: app.poll() is not None, 10))
 
         start()
