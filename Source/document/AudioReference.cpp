@@ -90,6 +90,28 @@ Result<LocatedAudio> locateAudio(const AudioReference& reference, std::span<cons
                  "is not there any more; the clip is kept, show where the sound is to analyse it again"};
 }
 
+std::vector<AudioReference> foundBy(const fs::path& chosen, std::span<const AudioReference> missing)
+{
+    std::error_code error;
+    const fs::path file = fs::absolute(chosen, error).lexically_normal();
+    const std::vector<fs::path> folders = {file.parent_path()};
+    std::vector<AudioReference> found;
+    for (const AudioReference& sound : missing)
+    {
+        AudioReference here = sound;
+        here.path = file;
+        if (!sameContent(file, sound))
+        {
+            const auto located = locateAudio(sound, folders);
+            if (!located || located->changed)
+                continue;
+            here.path = located->path;
+        }
+        found.push_back(std::move(here));
+    }
+    return found;
+}
+
 Result<AudioData> loadAudio(const AudioReference& reference, std::span<const fs::path> folders,
                             const fs::path& temporaryFolder)
 {

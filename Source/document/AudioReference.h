@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pacini
 {
@@ -61,6 +62,11 @@ struct LocatedAudio
 /// inside them, where size and hash must agree. Error io when it is nowhere; its message names the file.
 [[nodiscard]] Result<LocatedAudio> locateAudio(const AudioReference& reference,
                                                std::span<const std::filesystem::path> folders);
+
+/// Those of `missing` that `chosen` is, or that lie under their own name in its folder or directly inside: by their
+/// content, with their new place. [worker]
+[[nodiscard]] std::vector<AudioReference> foundBy(const std::filesystem::path& chosen,
+                                                  std::span<const AudioReference> missing);
 
 /// The samples of a sound: the embedded copy where there is one, else the file as locateAudio() finds it. An embedded
 /// copy passes through a temporary file in `temporaryFolder`.

@@ -320,6 +320,23 @@ Result<void> Document::moveClip(int id, std::size_t index, std::string name)
     return {};
 }
 
+Result<void> Document::placeClip(int id, std::size_t index, std::string group, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    Project next = content;
+    if (!group.empty() && std::find(next.groups.begin(), next.groups.end(), group) == next.groups.end())
+        next.groups.push_back(group);
+    auto moved = std::make_shared<ClipItem>(*old);
+    moved->group = std::move(group);
+    std::erase(next.clips, old);
+    const std::size_t place = std::min(index, next.clips.size());
+    next.clips.insert(next.clips.begin() + static_cast<std::ptrdiff_t>(place), std::move(moved));
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
 Result<int> Document::splitClipAt(int id, double time, std::string name)
 {
     const auto old = clip(id);
@@ -387,6 +404,24 @@ void Document::setGroups(std::vector<std::string> groups, std::string name)
     commit(std::move(name), std::move(next));
 }
 
+void Document::renameGroup(const std::string& from, const std::string& to, std::string name)
+{
+    Project next = content;
+    const bool known = to.empty() || std::find(next.groups.begin(), next.groups.end(), to) != next.groups.end();
+    if (known)
+        std::erase(next.groups, from);
+    else
+        std::replace(next.groups.begin(), next.groups.end(), from, to);
+    for (auto& place : next.clips)
+        if (place->group == from)
+        {
+            auto item = std::make_shared<ClipItem>(*place);
+            item->group = to;
+            place = std::move(item);
+        }
+    commit(std::move(name), std::move(next));
+}
+
 Result<void> Document::setProfile(ProjectProfile profile, std::string name)
 {
     if (profile.embedded)
@@ -400,15 +435,24 @@ Result<void> Document::setProfile(ProjectProfile profile, std::string name)
 
 Result<void> Document::setSound(AudioReference sound, std::string name)
 {
+    std::vector<AudioReference> one;
+    one.push_back(std::move(sound));
+    return setSounds(std::move(one), std::move(name));
+}
+
+Result<void> Document::setSounds(std::vector<AudioReference> sounds, std::string name)
+{
     Project next = content;
-    for (AudioReference& known : next.sources)
-        if (known.id == sound.id)
-        {
-            known = std::move(sound);
-            commit(std::move(name), std::move(next));
-            return {};
-        }
-    return Error{ErrorCode::invalidArgument, "sound", "is not one of the project's sounds"};
+    for (AudioReference& sound : sounds)
+    {
+        const auto known = std::find_if(next.sources.begin(), next.sources.end(),
+                                        [&](const AudioReference& one) { return one.id == sound.id; });
+        if (known == next.sources.end())
+            return Error{ErrorCode::invalidArgument, "sound", "is not one of the project's sounds"};
+        *known = std::move(sound);
+    }
+    commit(std::move(name), std::move(next));
+    return {};
 }
 
 void Document::goTo(std::size_t state)

@@ -100,14 +100,22 @@ public:
     /// Splits a clip in two; the right part is a new clip behind it, whose id is returned.
     Result<int> splitClipAt(int id, double time, std::string name);
 
+    /// Moves a clip as moveClip() does, and into a group (empty: out of its group), which is added when it is new.
+    Result<void> placeClip(int id, std::size_t index, std::string group, std::string name);
+
     Result<void> setGroup(int id, std::string group, std::string name);
     Result<void> setNotes(int id, std::string notes, std::string name);
     void setProjectNotes(std::string notes, std::string name);
     void setGroups(std::vector<std::string> groups, std::string name);
+
+    /// Gives a group another name; that of another group joins the two, an empty one leaves its clips without a group.
+    void renameGroup(const std::string& from, const std::string& to, std::string name);
     Result<void> setProfile(ProjectProfile profile, std::string name);
 
     /// Another place, or an embedded copy or none, for a sound whose id `sound` has.
     Result<void> setSound(AudioReference sound, std::string name);
+    /// The same for several in one step.
+    Result<void> setSounds(std::vector<AudioReference> sounds, std::string name);
 
     // Undo.
 

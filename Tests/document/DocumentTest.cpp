@@ -300,3 +300,22 @@ TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the cl
         document.undo();
     CHECK(*document.clip(id)->clip == clip);
 }
+
+#ifdef __linux__
+TEST_CASE("A full disk is told with its reason, and the project stays unsaved and whole")
+{
+    const test::TempFolder folder;
+    Document document;
+    (void)document.addClip("Add", fileClip(1));
+    const Project before = document.project();
+    const auto full = document.saveAs("/dev/full");
+    REQUIRE_FALSE(full);
+    CHECK(full.error().code == ErrorCode::io);
+    CHECK(full.error().text().find("the disk is full") != std::string::npos);
+    CHECK(document.path().empty());
+    CHECK(document.isDirty());
+    CHECK(document.project() == before);
+    REQUIRE(document.saveAs(folder / "p.pacini"));
+    CHECK(Document::open(folder / "p.pacini")->project() == before);
+}
+#endif

@@ -14,6 +14,8 @@ namespace
 constexpr int menuHeight = 26;
 constexpr int toolbarHeight = 42;
 constexpr int sideWidth = 248;
+constexpr int workBarWidth = 440;
+constexpr int workBarHeight = 48;
 } // namespace
 
 EditorView::EditorView(Session& shared, Surroundings around)
@@ -23,7 +25,8 @@ EditorView::EditorView(Session& shared, Surroundings around)
       toolbar(shared),
       clipPart(shared),
       side(*this),
-      empty(shared, host.demoSounds)
+      empty(shared, host.demoSounds),
+      workBar(shared)
 {
     setLookAndFeel(&look);
     tooltips.setLookAndFeel(&look);
@@ -33,6 +36,7 @@ EditorView::EditorView(Session& shared, Surroundings around)
     addAndMakeVisible(body);
     for (juce::Component* child : std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &empty})
         body.addAndMakeVisible(child);
+    body.addChildComponent(workBar);
     addKeyListener(menuList.keys());
     toolbar.onCommand = [this](Command command)
     {
@@ -48,7 +52,11 @@ EditorView::EditorView(Session& shared, Surroundings around)
     };
     open.onError = [this](const juce::String& title, const juce::String& text)
     {
-        showSheet(std::make_unique<MessageSheet>(title, text, std::vector<Sheet::Answer>{{"Close", {}}}));
+        showMessage(std::make_unique<MessageSheet>(title, text, std::vector<Sheet::Answer>{{"Close", {}}}));
+    };
+    open.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
+    {
+        fileQuestions.tellMissing(missing);
     };
     open.listeners.add(this);
     arrange();
@@ -58,6 +66,7 @@ EditorView::~EditorView()
 {
     open.listeners.remove(this);
     open.onError = nullptr;
+    open.onSoundsMissing = nullptr;
     removeKeyListener(menuList.keys());
     menuBar.setModel(nullptr);
     sheetNow.reset();
@@ -90,7 +99,7 @@ void EditorView::sessionChanged(unsigned changes)
 {
     if ((changes & (Session::project | Session::content | Session::work)) != 0)
         arrange();
-    if ((changes & (Session::project | Session::selection | Session::range | Session::playback)) != 0)
+    if ((changes & (Session::project | Session::selection | Session::range | Session::playback | Session::work)) != 0)
     {
         menuList.refresh();
         if (onTitleChanged)
@@ -100,7 +109,7 @@ void EditorView::sessionChanged(unsigned changes)
 
 void EditorView::arrange()
 {
-    const bool any = open.clip() != nullptr;
+    const bool any = open.clip() != nullptr || open.isShowingUnanalysed();
     clipPart.setVisible(any);
     side.setVisible(any);
     empty.setVisible(!any);
@@ -123,6 +132,9 @@ void EditorView::resized()
     empty.setBounds(area);
     side.setBounds(area.removeFromRight(sideWidth));
     clipPart.setBounds(area);
+    workBar.setBounds(area.withTrimmedBottom(7 * grid)
+                          .removeFromBottom(workBarHeight)
+                          .withSizeKeepingCentre(std::min(workBarWidth, area.getWidth() - 2 * grid), workBarHeight));
 }
 
 void EditorView::takeFocus()
@@ -136,6 +148,11 @@ void EditorView::takeFocus()
 void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
 {
     sheetNow = std::move(wanted);
+    if (!sheetNow && !messages.empty())
+    {
+        sheetNow = std::move(messages.front());
+        messages.pop_front();
+    }
     if (!sheetNow)
         return takeFocus();
     sheetNow->onClose = [this]
@@ -151,6 +168,14 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
     body.addAndMakeVisible(*sheetNow);
     sheetNow->setBounds(body.getLocalBounds());
     sheetNow->takeFocus();
+}
+
+void EditorView::showMessage(std::unique_ptr<Sheet> wanted)
+{
+    if (sheetNow)
+        messages.push_back(std::move(wanted));
+    else
+        showSheet(std::move(wanted));
 }
 
 void EditorView::filesDropped(const juce::StringArray& files, int, int)

@@ -7,6 +7,7 @@
 #include "editor/clip/EmptyState.h"
 #include "editor/clip/ProjectFiles.h"
 #include "editor/clip/Toolbar.h"
+#include "editor/clip/WorkBar.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/lanes/ClipView.h"
 #include "editor/clip/panels/SidePanel.h"
@@ -15,6 +16,7 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -49,6 +51,8 @@ public:
     [[nodiscard]] double scale() const noexcept { return scaleNow; }
 
     void showSheet(std::unique_ptr<Sheet> wanted);
+    /// Shows it when the sheets before it are closed: no question is lost behind another.
+    void showMessage(std::unique_ptr<Sheet> wanted);
     [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
     /// Gives the keyboard to what is in front.
     void takeFocus();
@@ -87,7 +91,9 @@ private:
     ClipView clipPart;
     SidePanel side;
     EmptyState empty;
+    WorkBar workBar;
     std::unique_ptr<Sheet> sheetNow;
+    std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     juce::TooltipWindow tooltips{&body, 600};
 };
 

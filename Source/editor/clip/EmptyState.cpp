@@ -31,7 +31,6 @@ EmptyState::EmptyState(Session& shared, std::vector<std::filesystem::path> demoS
         onOpen();
     };
     addAndMakeVisible(openButton);
-    addChildComponent(progress);
     session.listeners.add(this);
     fill();
 }
@@ -43,7 +42,7 @@ EmptyState::~EmptyState()
 
 void EmptyState::sessionChanged(unsigned changes)
 {
-    if ((changes & (Session::work | Session::project)) != 0)
+    if ((changes & Session::project) != 0)
         fill();
 }
 
@@ -68,13 +67,6 @@ void EmptyState::fill()
     for (const auto& file : session.recentFiles().files())
         if (recentButtons.size() < mostRecent && RecentFiles::exists(file))
             make(recentButtons, file, "Opens the project ");
-    const bool working = session.workText().isNotEmpty();
-    progress.setVisible(working);
-    progress.setTextToDisplay(session.workText());
-    openButton.setVisible(!working);
-    for (auto* list : {&demoButtons, &recentButtons})
-        for (auto& button : *list)
-            button->setVisible(!working);
     resized();
     repaint();
 }
@@ -112,8 +104,6 @@ void EmptyState::paint(juce::Graphics& g)
     g.setFont(usualFont());
     g.drawFittedText("It is analysed into curves and events that you can reshape, feel and export.",
                      text.removeFromTop(3 * grid), juce::Justification::centred, 1);
-    if (progress.isVisible())
-        return;
     g.setFont(smallFont());
     const auto heading = [&](const std::vector<std::unique_ptr<juce::TextButton>>& list, const juce::String& words)
     {
@@ -132,7 +122,6 @@ void EmptyState::resized()
     auto area = field().reduced(4 * grid).withTrimmedTop(9 * grid);
     auto row = area.removeFromTop(rowHeight + grid);
     openButton.setBounds(row.withSizeKeepingCentre(20 * grid, rowHeight));
-    progress.setBounds(row.withSizeKeepingCentre(48 * grid, 3 * grid));
     const auto grid4 = [&](std::vector<std::unique_ptr<juce::TextButton>>& list)
     {
         if (list.empty())

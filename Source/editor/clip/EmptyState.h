@@ -37,8 +37,6 @@ private:
     std::vector<std::filesystem::path> demos;
     juce::TextButton openButton;
     std::vector<std::unique_ptr<juce::TextButton>> demoButtons, recentButtons;
-    double unknown = -1.0; // progress
-    juce::ProgressBar progress{unknown};
     bool dropNow = false;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/ProjectFiles.h"
 
+#include "document/FolderFiles.h"
 #include "editor/Text.h"
 #include "editor/clip/EditorView.h"
-#include "io/AnyClip.h"
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ namespace
 {
 juce::String readablePattern()
 {
-    juce::String pattern = "*.pacini;*.wav;*.flac;*.ogg;*.opus;*.mp3;*.aif;*.aiff;*.caf;*.w64;*.au";
-    for (const auto& extension : anyClipExtensions())
+    juce::String pattern = "*.pacini";
+    for (const auto& extension : openableExtensions())
         pattern << ";*" << extension;
     return pattern;
 }
@@ -50,6 +50,50 @@ void ProjectFiles::askWhatToOpen()
            });
 }
 
+void ProjectFiles::askWhatFolder()
+{
+    choose("Open all sounds and clips of a folder", Purpose::openingFolder,
+           [this](const juce::Array<juce::File>& chosen)
+           {
+               if (!chosen.isEmpty())
+                   open({pathOf(chosen[0])});
+           });
+}
+
+void ProjectFiles::askForSound(const juce::String& title, const std::filesystem::path& start,
+                               std::function<void(const std::filesystem::path&)> chosen)
+{
+    choose(
+        title, Purpose::openingSound,
+        [chosen = std::move(chosen)](const juce::Array<juce::File>& files)
+        {
+            if (!files.isEmpty())
+                chosen(pathOf(files[0]));
+        },
+        start);
+}
+
+void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
+{
+    constexpr std::size_t mostNames = 6;
+    juce::StringArray names;
+    for (std::size_t i = 0; i < std::min(missing.size(), mostNames); ++i)
+        names.add(pathText(missing[i].path));
+    if (missing.size() > mostNames)
+        names.add("and " + juce::String(static_cast<int>(missing.size() - mostNames)) + " more");
+    const auto find = [this, start = missing.front().path]
+    {
+        askForSound("Find " + pathText(start.filename()), start,
+                    [&session = view.session()](const std::filesystem::path& file) { session.findSounds(file); });
+    };
+    const bool one = missing.size() == 1;
+    view.showMessage(std::make_unique<MessageSheet>(
+        one ? "A sound is missing" : juce::String(static_cast<int>(missing.size())) + " sounds are missing",
+        "The clips can be edited, played and exported without " + juce::String(one ? "it" : "them") +
+            "; only analysing again needs " + (one ? "it" : "them") + ".\n\n" + names.joinIntoString("\n"),
+        std::vector<Sheet::Answer>{{(one ? "Find it" : "Find them") + toText("…"), find}, {"Go on without", {}}}));
+}
+
 void ProjectFiles::whenSaved(std::function<void()> next)
 {
     Session& session = view.session();
@@ -75,19 +119,31 @@ void ProjectFiles::whenSaved(std::function<void()> next)
                                                                   {"Cancel", {}}}));
 }
 
-void ProjectFiles::finishSaving(const Result<void>& saved, const std::function<void()>& next)
+void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem::path& file,
+                                const std::function<void()>& next)
 {
-    if (!saved)
-        view.session().onError("Not saved", toText(saved.error().text()));
-    else if (next)
-        next();
+    if (saved)
+    {
+        if (next)
+            next();
+        return;
+    }
+    const auto elsewhere = [this, next]
+    {
+        saveAs(next);
+    };
+    view.showMessage(std::make_unique<MessageSheet>(
+        "Not saved",
+        pathText(file) + "\n" + toText(saved.error().text()) +
+            "\n\nThe project is still open with all changes. Make room, or save it in another place.",
+        std::vector<Sheet::Answer>{{"Save as" + toText("…"), elsewhere}, {"Close", {}}}));
 }
 
 void ProjectFiles::save(std::function<void()> next)
 {
     if (view.session().document().path().empty())
         return saveAs(std::move(next));
-    finishSaving(view.session().save(), next);
+    finishSaving(view.session().save(), view.session().document().path(), next);
 }
 
 void ProjectFiles::saveAs(std::function<void()> next)
@@ -95,13 +151,16 @@ void ProjectFiles::saveAs(std::function<void()> next)
     choose("Save the project", Purpose::saving,
            [this, next](const juce::Array<juce::File>& chosen)
            {
-               if (!chosen.isEmpty())
-                   finishSaving(view.session().saveAs(pathOf(chosen[0].withFileExtension("pacini"))), next);
+               if (chosen.isEmpty())
+                   return;
+               const auto file = pathOf(chosen[0].withFileExtension("pacini"));
+               finishSaving(view.session().saveAs(file), file, next);
            });
 }
 
 void ProjectFiles::choose(const juce::String& title, Purpose purpose,
-                          std::function<void(const juce::Array<juce::File>&)> chosen)
+                          std::function<void(const juce::Array<juce::File>&)> chosen,
+                          const std::filesystem::path& wantedStart)
 {
     const bool saving = purpose == Purpose::saving;
     const auto& path = view.session().document().path();
@@ -109,11 +168,29 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : juce::File(pathText(path));
     if (saving && path.empty())
         start = start.getChildFile("Untitled.pacini");
+    if (!wantedStart.empty())
+        start = juce::File(pathText(wantedStart));
+    // The folder may be gone, too.
+    while (!saving && !start.exists() && start != start.getParentDirectory())
+        start = start.getParentDirectory();
     chooser = std::make_unique<juce::FileChooser>(title, start, saving ? juce::String("*.pacini") : readablePattern());
     using Browser = juce::FileBrowserComponent;
-    chooser->launchAsync(Browser::canSelectFiles | (saving ? Browser::saveMode | Browser::warnAboutOverwriting
-                                                           : Browser::openMode | Browser::canSelectMultipleItems),
-                         [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
+    const int flags = [purpose]() -> int
+    {
+        switch (purpose)
+        {
+        case Purpose::saving:
+            return Browser::canSelectFiles | Browser::saveMode | Browser::warnAboutOverwriting;
+        case Purpose::openingFolder:
+            return Browser::canSelectDirectories | Browser::openMode;
+        case Purpose::openingSound:
+            return Browser::canSelectFiles | Browser::openMode;
+        case Purpose::opening:
+            break;
+        }
+        return Browser::canSelectFiles | Browser::openMode | Browser::canSelectMultipleItems;
+    }();
+    chooser->launchAsync(flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
 }
 
 void ProjectFiles::offerRecovery()
@@ -133,7 +210,7 @@ void ProjectFiles::offerRecovery()
         if (const auto done = session.recover(entry); !done)
             session.onError("Not restored", toText(done.error().text()));
     };
-    view.showSheet(std::make_unique<MessageSheet>(
+    view.showMessage(std::make_unique<MessageSheet>(
         "Restore unsaved work?",
         "Pacini did not end properly. Changes of " +
             (usable->project.empty() ? juce::String("a project that was never saved")

@@ -26,6 +26,12 @@ public:
     /// Sounds, clips and projects. A project takes the place of the open one, which the user is asked to save.
     void open(const std::vector<std::filesystem::path>& files);
     void askWhatToOpen();
+    void askWhatFolder();
+    /// One sound; `start` is where to look first, a file or a folder.
+    void askForSound(const juce::String& title, const std::filesystem::path& start,
+                     std::function<void(const std::filesystem::path&)> chosen);
+    /// Says which sounds are missing, and offers to find them.
+    void tellMissing(const std::vector<AudioReference>& missing);
 
     /// Does `next` when the project is saved, or need not be; asks the user if so. Not at all when the user says no.
     void whenSaved(std::function<void()> next);
@@ -40,10 +46,13 @@ private:
     enum class Purpose
     {
         opening,
+        openingFolder,
+        openingSound,
         saving
     };
-    void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen);
-    void finishSaving(const Result<void>& saved, const std::function<void()>& next);
+    void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen,
+                const std::filesystem::path& wantedStart = {});
+    void finishSaving(const Result<void>& saved, const std::filesystem::path& file, const std::function<void()>& next);
 
     EditorView& view;
     std::unique_ptr<juce::FileChooser> chooser;

@@ -125,7 +125,7 @@ void Toolbar::fillClips()
                           item->id);
     }
     clips.setSelectedId(session.activeId(), juce::dontSendNotification);
-    clips.setTextWhenNothingSelected("No clip");
+    clips.setTextWhenNothingSelected(session.isShowingUnanalysed() ? "Being analysed" : "No clip");
     clips.setEnabled(!items.empty());
 }
 

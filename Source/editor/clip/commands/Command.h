@@ -11,11 +11,13 @@ enum Command : int
 {
     newProject = 1,
     openFile,
+    openFolder,
     openRecent,
     openDemo,
     save,
     saveAs,
     exportClips,
+    stopWork,
     quit,
 
     undo,

@@ -47,6 +47,11 @@ Menu fileMenu(EditorView& view)
          .help = "Opens sounds, clips of all known formats and projects",
          .run = [&view] { view.files().askWhatToOpen(); },
          .keys = {ctrl('o')}},
+        {.id = openFolder,
+         .name = "Open folder...",
+         .help = "Adds every sound and clip in a folder, and in the folders inside it",
+         .run = [&view] { view.files().askWhatFolder(); },
+         .keys = {ctrlShift('o')}},
         {.id = openRecent,
          .name = "Recent projects",
          .help = "Opens a project that was open before",
@@ -87,6 +92,13 @@ Menu fileMenu(EditorView& view)
          .keys = {ctrl('e')},
          .lineBefore = true},
     };
+    menu.actions.push_back({.id = stopWork,
+                            .name = "Stop opening and analysing",
+                            .help = "Leaves out what is not read and analysed yet",
+                            .run = [&view] { view.session().stopWork(); },
+                            .can = [&view] { return view.session().workNow().has_value(); },
+                            .keys = {juce::KeyPress(juce::KeyPress::escapeKey)},
+                            .lineBefore = true});
     if (view.surroundings().quit)
         menu.actions.push_back({.id = quit,
                                 .name = "Quit",

@@ -3,7 +3,9 @@
 
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
+#include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/Inspector.h"
+#include "editor/clip/panels/ProjectPanel.h"
 
 namespace pacini::editor
 {
@@ -13,11 +15,11 @@ namespace
 constexpr int tabHeight = 30;
 constexpr int scrollBarWidth = 8;
 
-/// The page is as wide as there is room and as high as it was made.
+/// The page is as wide as there is room and at least as high as it was made.
 class Scrolled final : public juce::Viewport
 {
 public:
-    explicit Scrolled(std::unique_ptr<juce::Component> content)
+    explicit Scrolled(std::unique_ptr<juce::Component> content) : leastHeight(content->getHeight())
     {
         setScrollBarsShown(true, false);
         setScrollBarThickness(scrollBarWidth);
@@ -29,9 +31,12 @@ private:
     void resized() override
     {
         auto* page = getViewedComponent();
-        page->setSize(getWidth() - (page->getHeight() > getHeight() ? scrollBarWidth : 0), page->getHeight());
+        page->setSize(getWidth() - (leastHeight > getHeight() ? scrollBarWidth : 0),
+                      std::max(leastHeight, getHeight()));
         Viewport::resized();
     }
+
+    const int leastHeight;
 };
 } // namespace
 
@@ -40,6 +45,8 @@ SidePanel::SidePanel(EditorView& view) : TabbedComponent(juce::TabbedButtonBar::
     setTabBarDepth(tabHeight);
     setOutline(0);
     addPage("Edit", std::make_unique<Inspector>(view));
+    addPage("Analysis", std::make_unique<AnalysisPanel>(view));
+    addPage("Project", std::make_unique<ProjectPanel>(view));
 }
 
 void SidePanel::addPage(const juce::String& name, std::unique_ptr<juce::Component> content)

@@ -19,6 +19,10 @@ Session::Session(const Folders& folders, std::vector<NamedProfile> profiles)
 
 Session::~Session()
 {
+    unanalysed.reset();
+    importer.stop();
+    if (again)
+        again->stopped = true;
     // What was not saved can be restored the next time.
     if (autosave)
         autosave->flush();
@@ -46,6 +50,7 @@ void Session::changed(unsigned what)
 
 void Session::openFiles(const std::vector<std::filesystem::path>& files)
 {
+    std::vector<std::filesystem::path> others;
     for (const auto& file : files)
         if (file.extension() == ".pacini")
         {
@@ -53,32 +58,11 @@ void Session::openFiles(const std::vector<std::filesystem::path>& files)
                 report(file.filename().string() + " was not opened", opened.error());
         }
         else
-            waiting.push_back(file);
-    readNext();
+            others.push_back(file);
+    importer.add(others);
 }
 
-void Session::readNext()
-{
-    if (waiting.empty() || busy.isNotEmpty())
-        return;
-    const auto file = waiting.front();
-    waiting.erase(waiting.begin());
-    busy = "Analysing " + pathText(file.filename());
-    jobs.run([file] { return importFile(file, EncoderParams{}); },
-             [this, file](Result<Imported> read)
-             {
-                 busy.clear();
-                 if (read)
-                     add(std::move(read).value());
-                 else
-                     report(file.filename().string() + " was not opened", read.error());
-                 changed(work);
-                 readNext();
-             });
-    changed(work);
-}
-
-void Session::add(Imported imported)
+Result<int> Session::insert(Imported imported)
 {
     Result<int> id = 0;
     if (imported.sound)
@@ -89,23 +73,34 @@ void Session::add(Imported imported)
     }
     else
         id = open->addClip("Add " + imported.clip.name, imported.clip);
+    if (id)
+    {
+        follow();
+        changed(project);
+    }
+    return id;
+}
+
+void Session::add(Imported imported)
+{
+    const auto id = insert(std::move(imported));
     if (!id)
         return report("Not added", id.error());
-    if (!imported.warnings.empty() && onError)
-    {
-        juce::StringArray lines;
-        for (const auto& warning : imported.warnings)
-            lines.add(toText(warning));
-        onError("Read with gaps", lines.joinIntoString("\n"));
-    }
     show(*id);
 }
 
 void Session::take(Document document)
 {
     player.stop();
+    unanalysed.reset();
+    importer.stop();
+    if (again)
+        again->stopped = true;
+    again.reset();
+    ++generation;
     *open = std::move(document);
     sounds.clear();
+    missing.clear();
     active = 0;
     selectionNow = {};
     rangeNow.reset();
@@ -114,10 +109,11 @@ void Session::take(Document document)
     if (!isEmpty())
         active = open->project().clips.front()->id;
     player.setProfile(profile());
+    checkSounds();
     loadSound();
     follow();
     fit();
-    changed(project | content | selection | range | sound | playback);
+    changed(project | content | selection | range | sound | playback | work);
 }
 
 void Session::newProject()
@@ -193,13 +189,24 @@ std::shared_ptr<const Clip> Session::clip() const
 
 std::shared_ptr<const Sound> Session::soundOfClip() const
 {
+    if (unanalysed)
+        return unanalysed;
     const auto shown = item();
     const auto found = shown ? sounds.find(shown->source) : sounds.end();
     return found != sounds.end() ? found->second : nullptr;
 }
 
+double Session::duration() const
+{
+    if (const auto now = clip())
+        return now->duration;
+    return unanalysed ? unanalysed->duration() : 0.0;
+}
+
 void Session::show(int clipId)
 {
+    // A sound that becomes a clip stays as it is seen.
+    const bool stays = unanalysed && open->clip(clipId) && open->clip(clipId)->analysis->duration == duration();
     if (clipId != active)
     {
         player.stop();
@@ -209,44 +216,18 @@ void Session::show(int clipId)
         auditionNow = {};
         startTime = 0.0;
     }
+    unanalysed.reset();
     loadSound();
     follow();
-    fit();
+    if (!stays)
+        fit();
     changed(project | content | selection | range | sound | playback);
-}
-
-void Session::loadSound()
-{
-    const auto shown = item();
-    const AudioReference* reference = shown ? open->project().findSource(shown->source) : nullptr;
-    player.setSound(soundOfClip());
-    if (reference == nullptr || sounds.contains(shown->source))
-        return;
-    const auto folder = open->path().parent_path();
-    const auto temporary = pathOf(juce::File::getSpecialLocation(juce::File::tempDirectory));
-    jobs.run(
-        [reference = *reference, folder, temporary]() -> Result<std::shared_ptr<const Sound>>
-        {
-            const std::vector<std::filesystem::path> folders = {folder};
-            auto audio = loadAudio(reference, folders, temporary);
-            if (!audio)
-                return audio.error();
-            return std::make_shared<const Sound>(std::move(audio).value());
-        },
-        [this, id = shown->source](Result<std::shared_ptr<const Sound>> read)
-        {
-            if (!read)
-                return report("The sound is missing; the clip can be edited without it", read.error());
-            sounds[id] = *read;
-            player.setSound(soundOfClip());
-            changed(sound);
-        });
 }
 
 /// After any change of the document.
 void Session::follow()
 {
-    if (!item() && !isEmpty())
+    if (!item() && !isEmpty() && !unanalysed)
         active = open->project().clips.front()->id;
     if (const auto now = clip())
     {
@@ -261,7 +242,13 @@ void Session::follow()
     else
         selectionNow = {};
     if (autosave)
+    {
+        const auto failure = autosave->lastError();
+        if (failure && !autosaveFailed)
+            report("Changes are not kept safe at the moment. Save the project", *failure);
+        autosaveFailed = failure.has_value();
         autosave->update(open->snapshot());
+    }
     sendPlayback();
 }
 

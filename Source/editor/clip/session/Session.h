@@ -8,6 +8,7 @@
 #include "document/RecentFiles.h"
 #include "document/SelectionEdits.h"
 #include "document/view/TimeAxis.h"
+#include "editor/clip/session/Importer.h"
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/Player.h"
 #include "editor/clip/session/Sound.h"
@@ -20,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -95,16 +97,32 @@ public:
 
     Listeners listeners;
     std::function<void(const juce::String& title, const juce::String& text)> onError;
+    /// Some sounds of the project are not where they were.
+    std::function<void(const std::vector<AudioReference>& missing)> onSoundsMissing;
 
     // The project.
 
     [[nodiscard]] const Document& document() const noexcept { return *open; }
     [[nodiscard]] bool isEmpty() const noexcept { return open->project().clips.empty(); }
 
-    /// Reads sounds, clips and projects; what takes long is done in the background. A project replaces the open one.
+    /// Reads sounds, clips, projects and folders of sounds and clips in the background, see Importer. A project
+    /// replaces the open one.
     void openFiles(const std::vector<std::filesystem::path>& files);
+    /// Adds what was read and shows it.
     void add(Imported imported);
-    [[nodiscard]] juce::String workText() const { return busy; } ///< what is being read; empty: nothing
+    /// The same without showing it.
+    Result<int> insert(Imported imported);
+
+    /// What is being read or analysed; nothing when all is done.
+    [[nodiscard]] std::optional<WorkState> workNow() const;
+    /// What is not done yet is left out.
+    void stopWork();
+
+    /// Shows a sound whose analysis is under way, as a clip without curves, until a clip is shown in its place.
+    void showUnanalysed(std::shared_ptr<const Sound> read);
+    [[nodiscard]] bool isShowingUnanalysed() const noexcept { return unanalysed != nullptr; }
+    /// Goes back to the clip that was shown before.
+    void endUnanalysed();
 
     void newProject();
     Result<void> openProject(const std::filesystem::path& file);
@@ -124,8 +142,24 @@ public:
     [[nodiscard]] std::shared_ptr<const ClipItem> item() const { return open->clip(active); }
     /// Null when there is none.
     [[nodiscard]] std::shared_ptr<const Clip> clip() const;
+    /// Also that of a sound that is being analysed.
     [[nodiscard]] std::shared_ptr<const Sound> soundOfClip() const;
+    /// s: of the clip, or of the sound that is being analysed; 0: nothing is shown.
+    [[nodiscard]] double duration() const;
     void show(int clipId);
+
+    // Its sound and analysis.
+
+    /// Analyses the sound of the clip with other parameters, in the background; the newest wish counts.
+    void reanalyse(const EncoderParams& wanted);
+    /// Puts another sound under the edits of the clip, in the background.
+    void replaceSound(const std::filesystem::path& file);
+    /// Whether a sound is not where it was.
+    [[nodiscard]] bool isMissing(int sourceId) const { return missing.contains(sourceId); }
+    /// Looks for all missing sounds: `chosen` is one of them, or lies beside them.
+    void findSounds(const std::filesystem::path& chosen);
+    /// Keeps a copy of a sound inside the project, or no longer.
+    void keepSound(int sourceId, bool wanted);
 
     // Edits. What fails is told by onError and changes nothing.
 
@@ -137,6 +171,8 @@ public:
     bool setEdited(const char* name, EditedClip edited, Gesture gesture = 0);
     void undo();
     void redo();
+    /// Any other step of the document: what clips are called, their order, groups, notes.
+    bool change(const std::function<Result<void>(Document&)>& step);
     void duplicate();
     void removeClip();
 
@@ -193,6 +229,17 @@ public:
     Player player;
 
 private:
+    friend class Importer;
+
+    /// An analysis for a clip that exists.
+    struct Again
+    {
+        int clip = 0;
+        EncoderParams params;
+        std::string name; ///< of the step
+        std::shared_ptr<Task> task;
+    };
+
     void report(const std::string& title, const Error& error);
     bool take(Result<void> result);
     void changed(unsigned what);
@@ -201,15 +248,23 @@ private:
     void follow();
     void sendPlayback();
     void loadSound();
-    void readNext();
+    void checkSounds();
+    void analyseAgain(Again wanted, const std::function<Result<Imported>()>& read);
+    void putAgain(const Again& done, Result<Imported> analysed, bool otherSound);
 
     std::unique_ptr<Document> open = std::make_unique<Document>();
     std::unique_ptr<Autosave> autosave;
+    bool autosaveFailed = false; ///< and it has been told
     const std::filesystem::path recoveryFolder;
     RecentFiles recent;
     std::vector<NamedProfile> shelf;
     int active = 0;
     std::map<int, std::shared_ptr<const Sound>> sounds; ///< by id of the reference
+    std::set<int> missing;                              ///< ids of references
+    std::shared_ptr<const Sound> unanalysed;            ///< shown in place of a clip: active is 0
+    int beforeUnanalysed = 0;
+    std::shared_ptr<Task> again; ///< the newest analysis of a clip that exists
+    juce::String againText;
     Selection selectionNow;
     std::optional<Fragment> clipboard;
     TimeAxis axisNow;
@@ -221,9 +276,9 @@ private:
     Heard hear = Heard::haptic;
     Audition auditionNow;
     double startTime = 0.0;
-    std::vector<std::filesystem::path> waiting;
-    juce::String busy;
+    std::uint64_t generation = 0; ///< counts the projects that were open
     Jobs jobs;
+    Importer importer{*this, jobs};
 };
 
 } // namespace pacini::editor

@@ -13,14 +13,7 @@ std::shared_ptr<const Clip> Session::gestureStart(Gesture gesture) const
 
 bool Session::edit(const char* name, EditOperation operation, Gesture gesture)
 {
-    const bool done = take(open->edit(active, name, std::move(operation), gesture));
-    if (done)
-    {
-        follow();
-        setAxis(axisNow);
-        changed(project | content | selection);
-    }
-    return done;
+    return change([&](Document& document) { return document.edit(active, name, std::move(operation), gesture); });
 }
 
 bool Session::setClip(const char* name, Clip edited, Gesture gesture)
@@ -58,8 +51,19 @@ void Session::step(bool (Document::*through)())
     if (before != profileName())
         player.setProfile(profile());
     follow();
+    loadSound();
     setAxis(axisNow);
-    changed(project | content | selection | playback);
+    changed(project | content | selection | playback | sound);
+}
+
+bool Session::change(const std::function<Result<void>(Document&)>& step)
+{
+    if (!take(step(*open)))
+        return false;
+    follow();
+    setAxis(axisNow);
+    changed(project | content | selection);
+    return true;
 }
 
 void Session::duplicate()

@@ -18,17 +18,17 @@ void Session::setViewWidth(double pixels)
 {
     if (pixels == width || pixels <= 0.0)
         return;
-    const bool fitted = clip() && axisNow.secondsPerPixel * width >= clip()->duration;
+    const bool fitted = duration() > 0.0 && axisNow.secondsPerPixel * width >= duration();
     width = pixels;
     fitted ? fit() : setAxis(axisNow);
 }
 
 void Session::setAxis(TimeAxis wanted)
 {
-    if (const auto now = clip())
+    if (const double length = duration(); length > 0.0)
     {
-        wanted.secondsPerPixel = std::min(wanted.secondsPerPixel, std::max(now->duration, 1e-3) / width * 1.02);
-        wanted = wanted.keptInside(now->duration * 1.02, width);
+        wanted.secondsPerPixel = std::min(wanted.secondsPerPixel, std::max(length, 1e-3) / width * 1.02);
+        wanted = wanted.keptInside(length * 1.02, width);
     }
     if (wanted == axisNow)
         return;
@@ -43,8 +43,8 @@ void Session::zoom(double factor, double x)
 
 void Session::fit()
 {
-    if (const auto now = clip())
-        setAxis(TimeAxis::showing({0.0, now->duration * 1.02}, width));
+    if (const double length = duration(); length > 0.0)
+        setAxis(TimeAxis::showing({0.0, length * 1.02}, width));
 }
 
 void Session::showRange(TimeRange wanted)

@@ -22,10 +22,9 @@ bool mayBeClip(const std::filesystem::path& path)
 }
 } // namespace
 
-Result<Imported> importFile(const std::filesystem::path& path, const EncoderParams& encoder)
+Result<Imported> readFile(const std::filesystem::path& path)
 {
     Imported result;
-    result.encoder = encoder;
     // The extensions of clips and sounds overlap nowhere but in .wav.
     auto described = describeAudio(path);
     if (!described && mayBeClip(path))
@@ -41,13 +40,22 @@ Result<Imported> importFile(const std::filesystem::path& path, const EncoderPara
     }
     if (!described)
         return described.error();
-    auto clip = analyse(described->audio, encoder, described->reference);
-    if (!clip)
-        return clip.error();
     result.reference = std::move(described->reference);
     result.sound = std::make_shared<const Sound>(std::move(described->audio));
-    result.clip = std::move(clip).value();
     return result;
+}
+
+Result<Imported> importFile(const std::filesystem::path& path, const EncoderParams& encoder)
+{
+    auto read = readFile(path);
+    if (!read || !read->sound)
+        return read;
+    auto clip = analyse(read->sound->audio, encoder, read->reference);
+    if (!clip)
+        return clip.error();
+    read->encoder = encoder;
+    read->clip = std::move(clip).value();
+    return read;
 }
 
 } // namespace pacini::editor

@@ -27,6 +27,11 @@ public:
     Sound(const Sound&) = delete;
     Sound& operator=(const Sound&) = delete;
 
+    [[nodiscard]] double duration() const ///< s
+    {
+        return static_cast<double>(mono.size()) / static_cast<double>(audio.sampleRate);
+    }
+
     const AudioData audio;
     const std::vector<float> mono;
     const WaveformPeaks peaks;
@@ -57,8 +62,11 @@ struct Imported
     std::vector<std::string> warnings; ///< what was let pass in a clip of another format
 };
 
-/// Reads a sound and analyses it, or reads a clip of any format. Errors: those of describeAudio(), analyse() and
-/// readAnyClip(); for a file that is neither, why it is no sound. [worker]
+/// Reads a sound, whose clip is still empty, or a clip of any format, which has no sound. Errors: those of
+/// describeAudio() and readAnyClip(); for a file that is neither, why it is no sound. [worker]
+[[nodiscard]] Result<Imported> readFile(const std::filesystem::path& path);
+
+/// readFile(), and a sound is analysed. Errors: also those of analyse(). [worker]
 [[nodiscard]] Result<Imported> importFile(const std::filesystem::path& path, const EncoderParams& encoder);
 
 } // namespace pacini::editor

@@ -27,6 +27,9 @@ void Sheet::takeFocus()
     if (!isShowing())
         return;
     auto* first = firstFocus();
+    // From the sheet itself Tab would go to what lies behind it.
+    if (first == nullptr && !buttons.empty())
+        first = buttons.front().get();
     (first != nullptr ? *first : static_cast<juce::Component&>(*this)).grabKeyboardFocus();
 }
 

@@ -41,7 +41,7 @@ protected:
     /// Where the content goes, without title and answers.
     [[nodiscard]] juce::Rectangle<int> inside() const;
     virtual void layOut(juce::Rectangle<int>) {}
-    /// What has the keyboard at first; null: the sheet itself.
+    /// What has the keyboard at first; null: the usual answer.
     virtual juce::Component* firstFocus() { return nullptr; }
     /// Whether the usual answer may be given now.
     void setAnswerEnabled(bool enabled);

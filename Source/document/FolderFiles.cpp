@@ -1,0 +1,49 @@
+#include "document/FolderFiles.h"
+
+#include "io/AnyClip.h"
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+namespace pacini
+{
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> openableExtensions()
+{
+    std::vector<std::string> all = {".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au"};
+    for (std::string extension : anyClipExtensions())
+        if (std::find(all.begin(), all.end(), extension) == all.end())
+            all.push_back(std::move(extension));
+    return all;
+}
+
+std::vector<fs::path> openableFiles(const fs::path& folder)
+{
+    const auto extensions = openableExtensions();
+    std::vector<fs::path> files;
+    std::error_code error;
+    fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
+    for (; !error && entry != end; entry.increment(error))
+    {
+        std::error_code ignored;
+        if (entry->path().filename().string().starts_with('.'))
+        {
+            if (entry->is_directory(ignored))
+                entry.disable_recursion_pending();
+            continue;
+        }
+        auto extension = entry->path().extension().string();
+        std::transform(extension.begin(), extension.end(), extension.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (entry->is_regular_file(ignored) &&
+            std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+            files.push_back(entry->path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+} // namespace pacini

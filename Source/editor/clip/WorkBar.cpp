@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/WorkBar.h"
+
+#include "editor/Theme.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int ticksPerSecond = 20;
+constexpr int barHeight = 4;
+} // namespace
+
+WorkBar::WorkBar(Session& shared) : session(shared), stopButton("Stop")
+{
+    setTitle("Progress");
+    stopButton.setTooltip("Leaves out what is not read and analysed yet (Escape)");
+    stopButton.setTitle("Stop opening and analysing");
+    stopButton.onClick = [this]
+    {
+        session.stopWork();
+    };
+    addAndMakeVisible(stopButton);
+    session.listeners.add(this);
+    sessionChanged(Session::work);
+}
+
+WorkBar::~WorkBar()
+{
+    session.listeners.remove(this);
+}
+
+std::unique_ptr<juce::AccessibilityHandler> WorkBar::createAccessibilityHandler()
+{
+    return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::group);
+}
+
+void WorkBar::sessionChanged(unsigned changes)
+{
+    if ((changes & Session::work) == 0)
+        return;
+    if (!session.workNow())
+    {
+        stopTimer();
+        setVisible(false);
+        ticks = 0;
+        return;
+    }
+    // A sound that waits for its curves must say so at once.
+    if (session.isShowingUnanalysed())
+        timerCallback();
+    if (!isTimerRunning())
+        startTimerHz(ticksPerSecond);
+}
+
+void WorkBar::timerCallback()
+{
+    const auto now = session.workNow();
+    if (!now || (++ticks < 3 && !session.isShowingUnanalysed()))
+        return;
+    if (!isVisible() || shown.text != now->text)
+        setDescription(now->text);
+    setVisible(true);
+    const bool moves = now->progress < 0.0;
+    if (moves || shown != *now)
+        repaint();
+    shown = *now;
+}
+
+juce::Rectangle<int> WorkBar::bar() const
+{
+    return getLocalBounds().reduced(2 * grid, grid).removeFromBottom(barHeight);
+}
+
+void WorkBar::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    const auto area = getLocalBounds().toFloat().reduced(0.5f);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area, 6.0f);
+    g.setColour(p.line);
+    g.drawRoundedRectangle(area, 6.0f, 1.0f);
+    g.setColour(p.text);
+    g.setFont(usualFont());
+    juce::String words = shown.text;
+    if (shown.progress >= 0.0)
+        words << ", " << juce::roundToInt(100.0 * shown.progress) << " %";
+    g.drawFittedText(
+        words,
+        getLocalBounds().reduced(2 * grid, grid).withTrimmedBottom(barHeight + 2).withRight(stopButton.getX() - grid),
+        juce::Justification::centredLeft, 1);
+    const auto whole = bar().toFloat();
+    g.setColour(p.well);
+    g.fillRoundedRectangle(whole, 2.0f);
+    g.setColour(p.accent);
+    // How far reading is nobody knows: a piece runs along.
+    const float share = whole.getWidth() / 4.0f;
+    const float place = static_cast<float>(ticks % ticksPerSecond) / static_cast<float>(ticksPerSecond);
+    g.fillRoundedRectangle(shown.progress >= 0.0
+                               ? whole.withWidth(whole.getWidth() * static_cast<float>(std::min(1.0, shown.progress)))
+                               : whole.withWidth(share).translated(place * (whole.getWidth() - share), 0.0f),
+                           2.0f);
+}
+
+void WorkBar::resized()
+{
+    auto area = getLocalBounds().reduced(2 * grid, 6).withTrimmedBottom(barHeight + 4);
+    stopButton.setBounds(area.removeFromRight(8 * grid));
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/AnalysisPanel.h"
+
+#include "document/EncoderPresets.h"
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 3 * grid;
+constexpr int preferredHeight = 84 * grid;
+constexpr int labelWidth = 9 * grid;
+constexpr int pause = 350; // ms without a change
+constexpr int logarithmic = 1, linear = 2;
+constexpr double leastWidth = 5.0; // Hz between the ends of the bands
+} // namespace
+
+AnalysisPanel::AnalysisPanel(EditorView& shown)
+    : view(shown),
+      session(shown.session()),
+      replaceButton("Replace sound" + toText("…")),
+      findButton("Find it" + toText("…")),
+      resetButton("Reset"),
+      normalise("Scale to full drive"),
+      edits(session)
+{
+    setTitle("Analysis");
+    const auto label = [this](juce::Label& one, const juce::String& text)
+    {
+        one.setText(text, juce::dontSendNotification);
+        one.setFont(smallFont());
+        one.setAccessible(false);
+        one.setMinimumHorizontalScale(0.8f);
+        one.setBorderSize({});
+        addAndMakeVisible(one);
+    };
+    label(state, {});
+    state.setAccessible(true);
+    state.setTitle("Sound of the clip");
+    state.setJustificationType(juce::Justification::topLeft);
+    label(presetLabel, "Preset");
+    label(spacingLabel, "Spacing");
+
+    preset.setTitle("Preset");
+    preset.setTooltip("Settings of the analysis that have a name");
+    for (std::size_t i = 0; i < encoderPresets().size(); ++i)
+        preset.addItem(toText(encoderPresets()[i].name), 1 + static_cast<int>(i));
+    preset.onChange = [this]
+    {
+        const int chosen = preset.getSelectedId();
+        if (chosen < 1)
+            return;
+        set(encoderPresets()[static_cast<std::size_t>(chosen - 1)].params);
+        edited();
+    };
+    spacing.setTitle("Spacing of the bands");
+    spacing.setTooltip("Bands of equal width in octaves, as the ear and the skin have them, or in Hz");
+    spacing.addItem("Octaves", logarithmic);
+    spacing.addItem("Equal Hz", linear);
+    spacing.onChange = [this]
+    {
+        edited();
+    };
+    normalise.setTooltip("Scales the loudest moment to full drive; off: full scale of the sound is full drive");
+    normalise.setTitle("Scale to full drive");
+    normalise.onClick = [this]
+    {
+        edited();
+    };
+    resetButton.setTooltip("Back to the settings of the preset Standard");
+    resetButton.onClick = [this]
+    {
+        set({});
+        edited();
+    };
+    replaceButton.setTooltip("Puts another sound file under the edits of this clip");
+    replaceButton.onClick = [this]
+    {
+        const auto item = session.item();
+        const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr;
+        view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
+                                 [this](const std::filesystem::path& file) { session.replaceSound(file); });
+    };
+    findButton.setTooltip("Shows Pacini where the sound is now, or another missing sound beside it");
+    findButton.onClick = [this]
+    {
+        const auto item = session.item();
+        if (const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr)
+            view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
+                                     [this](const std::filesystem::path& file) { session.findSounds(file); });
+    };
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&replaceButton, &findButton, &preset,
+                                                                        &resetButton, &spacing, &normalise, &edits})
+        addAndMakeVisible(one);
+
+    prepare(bands, "Bands", "", "How many frequency bands the sound is split into, 1 to 32");
+    knob(bands).setRange(1.0, 32.0, 1.0);
+    prepare(low, "Lowest", " Hz", "Lower end of the lowest band, in Hz");
+    knob(low).setRange(1.0, 1700.0, 1.0);
+    knob(low).setSkewFactorFromMidPoint(60.0);
+    prepare(high, "Highest", " Hz", "Upper end of the highest band, in Hz");
+    knob(high).setRange(10.0, 1800.0, 1.0);
+    knob(high).setSkewFactorFromMidPoint(400.0);
+    prepare(detail, "Detail", " /s", "At most this many points per second and band; simple sounds take fewer");
+    knob(detail).setRange(0.5, 200.0, 0.5);
+    knob(detail).setSkewFactorFromMidPoint(20.0);
+    prepare(
+        sensitivity, "Events", " x",
+        "How sensitive the search for transients is: above 1 weaker and closer hits count, below 1 only clear ones");
+    knob(sensitivity).setRange(0.25, 4.0, 0.05);
+    knob(sensitivity).setSkewFactorFromMidPoint(1.0);
+    prepare(bits, "Precision", " bit", "Bits of each value, 4 to 16: fewer make smaller files and coarser levels");
+    knob(bits).setRange(4.0, 16.0, 1.0);
+    // The ends of the bands push each other along.
+    knob(low).onValueChange = [this]
+    {
+        knob(high).setValue(std::max(knob(high).getValue(), knob(low).getValue() + leastWidth),
+                            juce::dontSendNotification);
+        edited();
+    };
+    knob(high).onValueChange = [this]
+    {
+        knob(low).setValue(std::min(knob(low).getValue(), knob(high).getValue() - leastWidth),
+                           juce::dontSendNotification);
+        edited();
+    };
+    setSize(200, preferredHeight);
+    session.listeners.add(this);
+    lookAndFeelChanged();
+    show();
+}
+
+AnalysisPanel::~AnalysisPanel()
+{
+    session.listeners.remove(this);
+}
+
+void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help)
+{
+    Knob& one = knobs[which];
+    one.name.setText(name, juce::dontSendNotification);
+    one.name.setFont(smallFont());
+    one.name.setAccessible(false);
+    one.name.setBorderSize({});
+    one.slider.setSliderStyle(juce::Slider::LinearHorizontal);
+    one.slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 7 * grid + 4, rowHeight);
+    one.slider.setTextValueSuffix(unit);
+    one.slider.setTitle(name);
+    one.slider.setTooltip(help);
+    one.slider.setWantsKeyboardFocus(true);
+    one.slider.onValueChange = [this]
+    {
+        edited();
+    };
+    addAndMakeVisible(one.name);
+    addAndMakeVisible(one.slider);
+}
+
+EncoderParams AnalysisPanel::params() const
+{
+    // What has no control stays as it is.
+    const auto item = session.item();
+    EncoderParams wanted = item ? item->encoder : EncoderParams{};
+    wanted.bands = juce::roundToInt(knob(bands).getValue());
+    wanted.lowFrequency = knob(low).getValue();
+    wanted.highFrequency = knob(high).getValue();
+    wanted.breakpoints = knob(detail).getValue();
+    wanted.onsets.sensitivity = knob(sensitivity).getValue();
+    wanted.quantise = juce::roundToInt(knob(bits).getValue());
+    wanted.spacing = spacing.getSelectedId() == linear ? BandSpacing::linear : BandSpacing::logarithmic;
+    wanted.normalise = normalise.getToggleState();
+    return wanted;
+}
+
+void AnalysisPanel::set(const EncoderParams& wanted)
+{
+    const auto put = [this](Which which, double value)
+    {
+        knob(which).setValue(value, juce::dontSendNotification);
+    };
+    put(bands, wanted.bands);
+    put(low, wanted.lowFrequency);
+    put(high, wanted.highFrequency);
+    put(detail, wanted.breakpoints);
+    put(sensitivity, wanted.onsets.sensitivity);
+    put(bits, wanted.quantise);
+    spacing.setSelectedId(wanted.spacing == BandSpacing::linear ? linear : logarithmic, juce::dontSendNotification);
+    normalise.setToggleState(wanted.normalise, juce::dontSendNotification);
+    showPreset(wanted);
+}
+
+void AnalysisPanel::showPreset(const EncoderParams& wanted)
+{
+    const EncoderPreset* known = presetOf(wanted);
+    preset.setText(known != nullptr ? toText(known->name) : juce::String("Own settings"), juce::dontSendNotification);
+}
+
+void AnalysisPanel::edited()
+{
+    waiting = params();
+    showPreset(*waiting);
+    startTimer(pause);
+}
+
+void AnalysisPanel::carryOut()
+{
+    stopTimer();
+    const auto item = session.item();
+    if (!waiting || !item)
+        return;
+    if (*waiting == item->encoder)
+        waiting.reset();
+    else
+        session.reanalyse(*waiting);
+}
+
+void AnalysisPanel::sessionChanged(unsigned changes)
+{
+    // The wish was carried out, or was stopped.
+    if ((changes & Session::work) != 0 && !session.workNow() && !isTimerRunning())
+        waiting.reset();
+    if ((changes & (Session::content | Session::project | Session::sound | Session::work)) != 0)
+        show();
+}
+
+void AnalysisPanel::show()
+{
+    const auto item = session.item();
+    if (shownClip != session.activeId())
+    {
+        stopTimer();
+        waiting.reset();
+        shownClip = session.activeId();
+    }
+    const AudioReference* source = item ? session.document().project().findSource(item->source) : nullptr;
+    const auto sound = item ? session.soundOfClip() : nullptr;
+    const bool missing = source != nullptr && session.isMissing(source->id);
+    juce::String text;
+    if (session.isShowingUnanalysed())
+        text = "The sound is being analysed.";
+    else if (!item)
+        text = "There is no clip.";
+    else if (source == nullptr)
+        text = "This clip was opened without a sound, so that there is nothing to analyse. "
+               "Put a sound under it with the button below.";
+    else
+    {
+        text << pathText(source->path.filename()) << "\n";
+        if (missing)
+            text << "The sound is missing: find it to analyse it again. All edits work without it.";
+        else
+            text << juce::String(source->duration, 2) << " s, " << juce::String(source->sampleRate / 1000.0, 1)
+                 << " kHz, " << juce::String(source->channels) << (source->channels == 1 ? " channel" : " channels")
+                 << (source->embedded ? "\nA copy is kept in the project" : "")
+                 << (!sound ? "\nIt is being read" + toText("…") : juce::String());
+    }
+    state.setText(text, juce::dontSendNotification);
+    replaceButton.setEnabled(item != nullptr);
+    findButton.setVisible(missing);
+    const bool can = sound != nullptr;
+    for (Knob& one : knobs)
+    {
+        one.name.setEnabled(can);
+        one.slider.setEnabled(can);
+    }
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&preset, &presetLabel, &spacing, &spacingLabel,
+                                                                        &normalise, &resetButton})
+        one->setEnabled(can);
+    if (item && waiting && *waiting == item->encoder && !isTimerRunning())
+        waiting.reset();
+    if (item && !waiting)
+        set(item->encoder);
+    edits.refresh();
+    resized();
+    repaint();
+}
+
+void AnalysisPanel::lookAndFeelChanged()
+{
+    const Palette& p = paletteFor(*this);
+    state.setColour(juce::Label::textColourId, p.text);
+    for (juce::Label* one : {&presetLabel, &spacingLabel})
+        one->setColour(juce::Label::textColourId, p.dim);
+    for (Knob& one : knobs)
+        one.name.setColour(juce::Label::textColourId, p.dim);
+}
+
+void AnalysisPanel::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.background);
+    drawCard(g, soundCard, "Sound", p);
+    drawCard(g, settingsCard, "Settings", p);
+    drawCard(g, editsCard, edits.heading(), p);
+}
+
+void AnalysisPanel::resized()
+{
+    auto area = getLocalBounds().reduced(grid);
+    const auto card = [&](juce::Rectangle<int>& place, int height)
+    {
+        place = area.removeFromTop(height);
+        area.removeFromTop(grid);
+        return insideOfCard(place);
+    };
+    auto inside = card(soundCard, 20 * grid);
+    auto line = inside.removeFromBottom(rowHeight + 4);
+    if (findButton.isVisible())
+    {
+        findButton.setBounds(line.removeFromLeft(9 * grid));
+        line.removeFromLeft(grid);
+    }
+    replaceButton.setBounds(line);
+    state.setBounds(inside.withTrimmedBottom(grid));
+
+    inside = card(settingsCard, 41 * grid);
+    const auto row = [&]
+    {
+        auto next = inside.removeFromTop(rowHeight + 4);
+        inside.removeFromTop(grid / 2);
+        return next;
+    };
+    line = row();
+    presetLabel.setBounds(line.removeFromLeft(labelWidth));
+    preset.setBounds(line);
+    for (const Which which : {bands, low, high})
+    {
+        line = row();
+        knobs[which].name.setBounds(line.removeFromLeft(labelWidth - grid));
+        knob(which).setBounds(line);
+    }
+    line = row();
+    spacingLabel.setBounds(line.removeFromLeft(labelWidth));
+    spacing.setBounds(line);
+    for (const Which which : {detail, sensitivity, bits})
+    {
+        line = row();
+        knobs[which].name.setBounds(line.removeFromLeft(labelWidth - grid));
+        knob(which).setBounds(line);
+    }
+    line = row();
+    resetButton.setBounds(line.removeFromRight(7 * grid));
+    line.removeFromRight(grid / 2);
+    normalise.setBounds(line);
+    edits.setBounds(card(editsCard, area.getHeight()));
+}
+
+} // namespace pacini::editor

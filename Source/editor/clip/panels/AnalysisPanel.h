@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How the sound of the clip is analysed, and the hand edits that found no place over the analysis.
+
+#include "editor/clip/panels/UnfittingList.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <array>
+#include <optional>
+
+namespace pacini::editor
+{
+
+class EditorView;
+
+/// A change is carried out when the controls have been still for a moment.
+class AnalysisPanel final : public juce::Component, private Session::Listener, private juce::Timer
+{
+public:
+    explicit AnalysisPanel(EditorView& shown);
+    ~AnalysisPanel() override;
+
+    /// What the controls say.
+    [[nodiscard]] EncoderParams params() const;
+    /// Does at once what waits for the end of the pause.
+    void carryOut();
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void lookAndFeelChanged() override;
+
+private:
+    /// A slider for one number.
+    struct Knob
+    {
+        juce::Label name;
+        juce::Slider slider;
+    };
+    enum Which : std::size_t
+    {
+        bands,
+        low,
+        high,
+        detail,
+        sensitivity,
+        bits,
+        knobCount
+    };
+
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override { carryOut(); }
+    void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
+    void set(const EncoderParams& wanted);
+    void showPreset(const EncoderParams& wanted);
+    void show();
+    void edited();
+    [[nodiscard]] juce::Slider& knob(Which which) { return knobs[which].slider; }
+    [[nodiscard]] const juce::Slider& knob(Which which) const { return knobs[which].slider; }
+
+    EditorView& view;
+    Session& session;
+    juce::Rectangle<int> soundCard, settingsCard, editsCard;
+    juce::Label state; ///< of the sound, or why nothing can be set
+    juce::TextButton replaceButton, findButton, resetButton;
+    juce::Label presetLabel, spacingLabel;
+    juce::ComboBox preset, spacing;
+    std::array<Knob, knobCount> knobs;
+    juce::ToggleButton normalise;
+    UnfittingList edits;
+    std::optional<EncoderParams> waiting; ///< for the end of the pause, or of the analysis under way
+    int shownClip = 0;
+};
+
+} // namespace pacini::editor

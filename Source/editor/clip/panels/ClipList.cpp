@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/ClipList.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 26;
+constexpr int timeWidth = 6 * grid;
+
+juce::String lengthText(double seconds)
+{
+    const int whole = juce::roundToInt(seconds);
+    return seconds < 60.0 ? juce::String(seconds, 2) + " s"
+                          : juce::String(whole / 60) + ":" + juce::String(whole % 60).paddedLeft('0', 2);
+}
+} // namespace
+
+ClipList::ClipList(Session& shared) : session(shared)
+{
+    list.setRowHeight(rowHeight);
+    list.setTitle("Clips of the project");
+    list.setTooltip("Choose a clip to see it. Return renames, Delete removes, Alt with the arrow keys moves");
+    list.setOutlineThickness(0);
+    list.addKeyListener(this);
+    list.addMouseListener(this, true); // a ListBox drags in windows of their own
+    addAndMakeVisible(list);
+    session.listeners.add(this);
+    refresh();
+}
+
+ClipList::~ClipList()
+{
+    session.listeners.remove(this);
+    list.removeKeyListener(this);
+    list.removeMouseListener(this);
+    list.setModel(nullptr);
+}
+
+void ClipList::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::project | Session::content)) != 0)
+        refresh();
+}
+
+void ClipList::refresh()
+{
+    // A heading stays chosen while its clips change.
+    ClipRow chosen{session.activeId(), {}};
+    if (const ClipRow* now = at(list.getSelectedRow()); now != nullptr && now->clip == 0)
+        chosen = *now;
+    auto wanted = clipRows(session.document().project());
+    if (wanted != rowsNow)
+    {
+        rowsNow = std::move(wanted);
+        list.updateContent();
+    }
+    const auto isChosen = [&](const ClipRow& row)
+    {
+        return row.clip == chosen.clip && (row.clip != 0 || row.group == chosen.group);
+    };
+    auto found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
+    if (found == rowsNow.end())
+    {
+        chosen.clip = session.activeId();
+        found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
+    }
+    juce::SparseSet<int> shown;
+    if (found != rowsNow.end())
+    {
+        const int row = static_cast<int>(found - rowsNow.begin());
+        shown.addRange({row, row + 1});
+    }
+    list.setSelectedRows(shown, juce::dontSendNotification);
+    list.repaint();
+}
+
+const ClipRow* ClipList::at(int row) const
+{
+    return row >= 0 && row < static_cast<int>(rowsNow.size()) ? &rowsNow[static_cast<std::size_t>(row)] : nullptr;
+}
+
+juce::String ClipList::nameOf(const ClipRow& row) const
+{
+    if (row.clip == 0)
+        return toText(row.group);
+    const auto item = session.document().clip(row.clip);
+    if (!item)
+        return {};
+    return item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name);
+}
+
+void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool selected)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return;
+    const Palette& p = paletteFor(*this);
+    auto area = juce::Rectangle<int>(width, height);
+    if (selected)
+    {
+        g.setColour(p.accent.withAlpha(list.hasKeyboardFocus(true) ? 0.35f : 0.2f));
+        g.fillRoundedRectangle(area.toFloat().reduced(1.0f), 4.0f);
+    }
+    if (shown->clip == 0)
+    {
+        g.setColour(p.dim);
+        g.setFont(smallFont().boldened());
+        g.drawText(nameOf(*shown), area.reduced(grid / 2, 0), juce::Justification::centredLeft, true);
+        g.setColour(p.line);
+        g.fillRect(area.removeFromBottom(1));
+        return;
+    }
+    const auto item = session.document().clip(shown->clip);
+    if (!item)
+        return;
+    area.reduce(grid / 2, 0);
+    if (!shown->group.empty())
+        area.removeFromLeft(grid);
+    g.setFont(smallFont());
+    g.setColour(p.dim);
+    g.drawText(lengthText(item->clip->duration), area.removeFromRight(timeWidth), juce::Justification::centredRight,
+               false);
+    g.setColour(p.text);
+    g.setFont(usualFont());
+    g.drawText(nameOf(*shown), area.withTrimmedRight(grid / 2), juce::Justification::centredLeft, true);
+}
+
+juce::String ClipList::getNameForRow(int row)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return {};
+    if (shown->clip == 0)
+        return "Group " + nameOf(*shown);
+    const auto item = session.document().clip(shown->clip);
+    return nameOf(*shown) + ", " + (item ? lengthText(item->clip->duration) : juce::String()) +
+           (shown->group.empty() ? juce::String() : ", in group " + toText(shown->group));
+}
+
+juce::String ClipList::getTooltipForRow(int row)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return {};
+    return shown->clip == 0 ? "Group " + nameOf(*shown) + ": clips dropped below come into it"
+                            : nameOf(*shown) + ": drag to move, double-click to rename, right-click for more";
+}
+
+void ClipList::selectedRowsChanged(int row)
+{
+    if (const ClipRow* chosen = at(row); chosen != nullptr && chosen->clip != 0 && chosen->clip != session.activeId())
+        session.show(chosen->clip);
+}
+
+void ClipList::listBoxItemClicked(int row, const juce::MouseEvent& event)
+{
+    if (event.mods.isPopupMenu())
+        showMenu(row, {event.getScreenX(), event.getScreenY(), 1, 1});
+}
+
+void ClipList::showMenu(int row, juce::Rectangle<int> beside)
+{
+    menuOf(row).showMenuAsync(
+        juce::PopupMenu::Options().withTargetScreenArea(beside).withParentComponent(getTopLevelComponent()));
+}
+
+juce::PopupMenu ClipList::groupMenuOf(int row)
+{
+    juce::PopupMenu menu;
+    menu.setLookAndFeel(&getLookAndFeel());
+    const ClipRow* shown = at(row);
+    const bool clip = shown != nullptr && shown->clip != 0;
+    const std::string now = clip ? shown->group : std::string();
+    using Self = juce::Component::SafePointer<ClipList>;
+    if (clip)
+    {
+        menu.addItem("No group", true, now.empty(),
+                     [self = Self(this), row]
+                     {
+                         if (self)
+                             self->setGroup(row, {});
+                     });
+        for (const std::string& group : groupsOf(session.document().project()))
+            menu.addItem(toText(group), true, now == group,
+                         [self = Self(this), row, group]
+                         {
+                             if (self)
+                                 self->setGroup(row, group);
+                         });
+        menu.addSeparator();
+    }
+    menu.addItem("New group",
+                 [self = Self(this), row]
+                 {
+                     if (self)
+                         self->addGroup(row);
+                 });
+    return menu;
+}
+
+juce::PopupMenu ClipList::menuOf(int row)
+{
+    juce::PopupMenu menu;
+    menu.setLookAndFeel(&getLookAndFeel());
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return groupMenuOf(row);
+    using Self = juce::Component::SafePointer<ClipList>;
+    const auto item = [&](const juce::String& text, auto function)
+    {
+        menu.addItem(text,
+                     [self = Self(this), row, function]
+                     {
+                         if (self)
+                             function(*self, row);
+                     });
+    };
+    item("Rename", [](ClipList& self, int at) { self.beginRename(at); });
+    if (shown->clip == 0)
+    {
+        item("Remove group, keep its clips", [](ClipList& self, int at) { self.remove(at); });
+        return menu;
+    }
+    item("Duplicate", [](ClipList& self, int at) { self.duplicate(at); });
+    item("Remove", [](ClipList& self, int at) { self.remove(at); });
+    menu.addSeparator();
+    item("Move up", [](ClipList& self, int at) { self.move(at, static_cast<std::size_t>(std::max(0, at - 1))); });
+    item("Move down", [](ClipList& self, int at) { self.move(at, static_cast<std::size_t>(at) + 2); });
+    menu.addSubMenu("Move to group", groupMenuOf(row));
+    return menu;
+}
+
+bool ClipList::keyPressed(const juce::KeyPress& key, juce::Component*)
+{
+    const int row = list.getSelectedRow();
+    if (at(row) == nullptr)
+        return false;
+    const bool alt = key.getModifiers().isAltDown();
+    if (key.isKeyCode(juce::KeyPress::F2Key))
+        beginRename(row);
+    else if (alt && key.isKeyCode(juce::KeyPress::upKey))
+        move(row, static_cast<std::size_t>(std::max(0, row - 1)));
+    else if (alt && key.isKeyCode(juce::KeyPress::downKey))
+        move(row, static_cast<std::size_t>(row) + 2);
+    else if (key == juce::KeyPress(juce::KeyPress::F10Key, juce::ModifierKeys::shiftModifier, 0))
+        showMenu(row, list.localAreaToGlobal(list.getRowPosition(row, true)));
+    else
+        return false;
+    return true;
+}
+
+void ClipList::rename(int row, const juce::String& name)
+{
+    const ClipRow* shown = at(row);
+    const std::string wanted = name.trim().toStdString();
+    if (shown == nullptr || wanted.empty() || nameOf(*shown) == toText(wanted))
+        return;
+    const ClipRow was = *shown;
+    session.change(
+        [&was, &wanted](Document& document) -> Result<void>
+        {
+            if (was.clip != 0)
+                return document.edit(was.clip, "Rename clip", RenameEdit{wanted});
+            document.renameGroup(was.group, wanted, "Rename group");
+            return {};
+        });
+    for (std::size_t i = 0; was.clip == 0 && i < rowsNow.size(); ++i)
+        if (rowsNow[i] == ClipRow{0, wanted})
+            list.selectRow(static_cast<int>(i));
+}
+
+void ClipList::remove(int row)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return;
+    const ClipRow was = *shown;
+    if (was.clip != 0 && was.clip == session.activeId())
+        return session.removeClip();
+    session.change(
+        [&was](Document& document) -> Result<void>
+        {
+            if (was.clip != 0)
+                return document.removeClip(was.clip, "Remove clip");
+            document.renameGroup(was.group, {}, "Remove group");
+            return {};
+        });
+}
+
+void ClipList::duplicate(int row)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr || shown->clip == 0)
+        return;
+    if (shown->clip != session.activeId())
+        session.show(shown->clip);
+    session.duplicate();
+}
+
+void ClipList::move(int row, std::size_t above)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr || shown->clip == 0)
+        return;
+    const int id = shown->clip;
+    const Project& project = session.document().project();
+    const ClipPlace place = placeAbove(project, rowsNow, above, id);
+    const auto item = project.find(id);
+    if (item && item->group == place.group && place.index < project.clips.size() &&
+        project.clips[place.index]->id == id)
+        return;
+    session.change([&](Document& document) { return document.placeClip(id, place.index, place.group, "Move clip"); });
+}
+
+void ClipList::setGroup(int row, const std::string& group)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr || shown->clip == 0 || shown->group == group)
+        return;
+    const auto& clips = session.document().project().clips;
+    const int id = shown->clip;
+    // Its place among all clips stays.
+    const auto place = std::find_if(clips.begin(), clips.end(), [id](const auto& item) { return item->id == id; });
+    session.change(
+        [&](Document& document)
+        { return document.placeClip(id, static_cast<std::size_t>(place - clips.begin()), group, "Move to group"); });
+}
+
+void ClipList::addGroup(int row)
+{
+    const std::string name = freeGroupName(session.document().project());
+    if (const ClipRow* shown = at(row); shown != nullptr && shown->clip != 0)
+        setGroup(row, name);
+    else
+        session.change(
+            [&](Document& document) -> Result<void>
+            {
+                auto groups = groupsOf(document.project());
+                groups.push_back(name);
+                document.setGroups(std::move(groups), "New group");
+                return {};
+            });
+    for (std::size_t i = 0; i < rowsNow.size(); ++i)
+        if (rowsNow[i].clip == 0 && rowsNow[i].group == name)
+            beginRename(static_cast<int>(i));
+}
+
+void ClipList::beginRename(int row)
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr)
+        return;
+    list.scrollToEnsureRowIsOnscreen(row);
+    nameField = std::make_unique<juce::TextEditor>();
+    nameField->setTitle(shown->clip != 0 ? "Name of the clip" : "Name of the group");
+    nameField->setFont(usualFont());
+    nameField->setText(nameOf(*shown), false);
+    nameField->setSelectAllWhenFocused(true);
+    nameField->setBounds(list.getRowPosition(row, true).reduced(1));
+    const auto end = [this](int renamed, bool keep)
+    {
+        if (!nameField)
+            return;
+        // Not from within one of its own functions.
+        std::shared_ptr<juce::TextEditor> old = std::move(nameField);
+        old->onFocusLost = nullptr;
+        const juce::String text = old->getText();
+        removeChildComponent(old.get());
+        juce::MessageManager::callAsync([old] {});
+        if (keep)
+            rename(renamed, text);
+        if (list.isShowing())
+            list.grabKeyboardFocus();
+    };
+    nameField->onReturnKey = [end, row]
+    {
+        end(row, true);
+    };
+    nameField->onEscapeKey = [end, row]
+    {
+        end(row, false);
+    };
+    nameField->onFocusLost = [end, row]
+    {
+        end(row, true);
+    };
+    addAndMakeVisible(*nameField);
+    if (isShowing())
+        nameField->grabKeyboardFocus();
+}
+
+void ClipList::mouseDrag(const juce::MouseEvent& event)
+{
+    constexpr int threshold = 5; // pixels
+    if (isDragAndDropActive() || event.mods.isPopupMenu() || event.getDistanceFromDragStart() < threshold ||
+        dynamic_cast<juce::ScrollBar*>(event.eventComponent) != nullptr)
+        return;
+    const auto here = event.getEventRelativeTo(&list);
+    const auto start = here.getMouseDownPosition();
+    const int row = list.getRowContainingPosition(start.x, start.y);
+    if (const ClipRow* dragged = at(row); dragged == nullptr || dragged->clip == 0)
+        return;
+    juce::SparseSet<int> rows;
+    rows.addRange({row, row + 1});
+    int x = 0, y = 0;
+    const auto image = list.createSnapshotOfRows(rows, x, y);
+    const juce::Point<int> offset(x - here.x, y - here.y);
+    startDragging(row, &list, image, false, &offset, &event.source);
+}
+
+bool ClipList::isInterestedInDragSource(const SourceDetails& details)
+{
+    return details.description.isInt() && details.sourceComponent.get() == &list;
+}
+
+int ClipList::gapAt(const SourceDetails& details) const
+{
+    const auto place = list.getLocalPoint(this, details.localPosition);
+    return std::max(0, list.getInsertionIndexForPosition(std::clamp(place.x, 1, list.getWidth() - 1), place.y));
+}
+
+void ClipList::itemDragMove(const SourceDetails& details)
+{
+    gap = gapAt(details);
+    repaint();
+}
+
+void ClipList::itemDragExit(const SourceDetails&)
+{
+    gap.reset();
+    repaint();
+}
+
+void ClipList::itemDropped(const SourceDetails& details)
+{
+    const int above = gapAt(details);
+    gap.reset();
+    repaint();
+    move(static_cast<int>(details.description), static_cast<std::size_t>(above));
+}
+
+void ClipList::paintOverChildren(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    if (list.hasKeyboardFocus(true))
+        drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
+    if (rowsNow.empty())
+    {
+        g.setColour(p.dim);
+        g.setFont(smallFont());
+        g.drawFittedText("No clips yet", getLocalBounds(), juce::Justification::centred, 1);
+    }
+    if (!gap)
+        return;
+    const int y = *gap < getNumRows() ? list.getRowPosition(*gap, true).getY()
+                  : getNumRows() > 0  ? list.getRowPosition(getNumRows() - 1, true).getBottom()
+                                      : 0;
+    g.setColour(p.accent);
+    g.fillRect(0, std::clamp(y - 1, 0, getHeight() - 2), getWidth(), 2);
+}
+
+void ClipList::resized()
+{
+    list.setBounds(getLocalBounds());
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The clips of the project under their groups: chosen, renamed, ordered, grouped by mouse and keys.
+
+#include "document/view/ClipRows.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// The chosen clip is the one that is shown. Return or F2 renames, Delete removes, Alt with the arrows moves, a drag
+/// moves too; the menu of a row has it all.
+class ClipList final : public juce::Component,
+                       public juce::DragAndDropContainer,
+                       public juce::DragAndDropTarget,
+                       private juce::ListBoxModel,
+                       private juce::KeyListener,
+                       private Session::Listener
+{
+public:
+    explicit ClipList(Session& shared);
+    ~ClipList() override;
+
+    [[nodiscard]] const std::vector<ClipRow>& rows() const noexcept { return rowsNow; }
+    [[nodiscard]] int chosenRow() const { return list.getSelectedRow(); }
+    void choose(int row) { list.selectRow(row); }
+
+    /// Of a clip or a group. Empty names change nothing.
+    void rename(int row, const juce::String& name);
+    /// Removes a clip, or a group whose clips stay.
+    void remove(int row);
+    void duplicate(int row);
+    /// Puts a clip above row `gap`, see placeAbove().
+    void move(int row, std::size_t gap);
+    /// Empty: out of its group.
+    void setGroup(int row, const std::string& group);
+    /// A new group, with the clip of a row in it if that is one. Its name can be typed at once.
+    void addGroup(int row);
+    void beginRename(int row);
+    /// What can be done with a row.
+    [[nodiscard]] juce::PopupMenu menuOf(int row);
+    [[nodiscard]] juce::PopupMenu groupMenuOf(int row);
+
+    void mouseDrag(const juce::MouseEvent& event) override;
+    void paintOverChildren(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    void refresh();
+    void showMenu(int row, juce::Rectangle<int> beside);
+    [[nodiscard]] juce::String nameOf(const ClipRow& row) const;
+    [[nodiscard]] const ClipRow* at(int row) const;
+
+    int getNumRows() override { return static_cast<int>(rowsNow.size()); }
+    void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool selected) override;
+    juce::String getNameForRow(int row) override;
+    juce::String getTooltipForRow(int row) override;
+    void selectedRowsChanged(int row) override;
+    void listBoxItemClicked(int row, const juce::MouseEvent& event) override;
+    void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { beginRename(row); }
+    void returnKeyPressed(int row) override { beginRename(row); }
+    void deleteKeyPressed(int row) override { remove(row); }
+    using juce::Component::keyPressed;
+    bool keyPressed(const juce::KeyPress& key, juce::Component*) override;
+
+    bool isInterestedInDragSource(const SourceDetails& details) override;
+    void itemDragMove(const SourceDetails& details) override;
+    void itemDragExit(const SourceDetails&) override;
+    void itemDropped(const SourceDetails& details) override;
+    [[nodiscard]] int gapAt(const SourceDetails& details) const;
+
+    Session& session;
+    std::vector<ClipRow> rowsNow;
+    juce::ListBox list{{}, this};
+    std::unique_ptr<juce::TextEditor> nameField; ///< over a row while it is renamed
+    std::optional<int> gap;                      ///< of a drag
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/ProjectPanel.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 3 * grid;
+constexpr int preferredHeight = 76 * grid;
+constexpr int pause = 600; // ms without a change
+
+juce::String sizeText(std::uint64_t bytes)
+{
+    return juce::File::descriptionOfSizeInBytes(static_cast<juce::int64>(bytes));
+}
+} // namespace
+
+ProjectPanel::ProjectPanel(EditorView& shown)
+    : session(shown.session()),
+      list(session),
+      duplicateButton("Duplicate"),
+      removeButton("Remove"),
+      groupButton("Group" + toText("…")),
+      keepCopy("Keep a copy inside")
+{
+    setTitle("Project");
+    addAndMakeVisible(list);
+    const auto button = [this](juce::TextButton& one, const juce::String& help, std::function<void()> click)
+    {
+        one.setTooltip(help);
+        one.onClick = std::move(click);
+        addAndMakeVisible(one);
+    };
+    button(duplicateButton, "Adds a copy of the chosen clip (Ctrl+D)", [this] { list.duplicate(list.chosenRow()); });
+    button(removeButton, "Removes the chosen clip, or the chosen group and keeps its clips (Delete in the list)",
+           [this] { list.remove(list.chosenRow()); });
+    button(groupButton, "Moves the chosen clip into a group, or makes a new one",
+           [this] {
+               list.groupMenuOf(list.chosenRow())
+                   .showMenuAsync(juce::PopupMenu::Options().withTargetComponent(groupButton));
+           });
+    keepCopy.setTitle("Keep a copy of the sound inside the project");
+    keepCopy.setTooltip("The project file then holds the whole sound of this clip and can go anywhere without it");
+    keepCopy.onClick = [this]
+    {
+        const auto item = session.item();
+        const bool wanted = keepCopy.getToggleState();
+        show();
+        if (item)
+            session.keepSound(item->source, wanted);
+    };
+    addAndMakeVisible(keepCopy);
+    const auto label = [this](juce::Label& one, const juce::String& text)
+    {
+        one.setText(text, juce::dontSendNotification);
+        one.setFont(smallFont());
+        one.setBorderSize({});
+        addAndMakeVisible(one);
+    };
+    label(copyNote, {});
+    copyNote.setJustificationType(juce::Justification::topLeft);
+    label(clipNotesLabel, "Clip");
+    label(projectNotesLabel, "Project");
+    clipNotesLabel.setAccessible(false);
+    projectNotesLabel.setAccessible(false);
+    const auto notes = [this](juce::TextEditor& one, const juce::String& title, const juce::String& help)
+    {
+        one.setMultiLine(true);
+        one.setReturnKeyStartsNewLine(true);
+        one.setFont(usualFont());
+        one.setTitle(title);
+        one.setTooltip(help);
+        one.onTextChange = [this]
+        {
+            typed = true;
+            startTimer(pause);
+        };
+        one.onFocusLost = [this]
+        {
+            keepNotes();
+        };
+        addAndMakeVisible(one);
+    };
+    notes(clipNotes, "Notes of the clip", "Notes of the clip, saved with the project");
+    notes(projectNotes, "Notes of the project", "Notes of the project, saved with it");
+    setSize(200, preferredHeight);
+    session.listeners.add(this);
+    lookAndFeelChanged();
+    show();
+}
+
+ProjectPanel::~ProjectPanel()
+{
+    session.listeners.remove(this);
+}
+
+void ProjectPanel::keepNotes()
+{
+    stopTimer();
+    if (!std::exchange(typed, false))
+        return;
+    const std::string ofClip = clipNotes.getText().toStdString();
+    const std::string ofProject = projectNotes.getText().toStdString();
+    const int id = notesOf;
+    if (const auto item = session.document().clip(id); item && item->notes != ofClip)
+        session.change([&](Document& document) { return document.setNotes(id, ofClip, "Notes of the clip"); });
+    if (session.document().project().notes != ofProject)
+        session.change(
+            [&](Document& document) -> Result<void>
+            {
+                document.setProjectNotes(ofProject, "Notes of the project");
+                return {};
+            });
+}
+
+void ProjectPanel::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::project | Session::content | Session::sound)) != 0)
+        show();
+}
+
+void ProjectPanel::show()
+{
+    // What was typed belongs to the clip before.
+    if (notesOf != session.activeId() && typed)
+        keepNotes();
+    const auto item = session.item();
+    notesOf = session.activeId();
+    const auto put = [this](juce::TextEditor& field, const std::string& text)
+    {
+        if (!typed && field.getText() != toText(text))
+            field.setText(toText(text), false);
+    };
+    put(clipNotes, item ? item->notes : std::string());
+    put(projectNotes, session.document().project().notes);
+    clipNotes.setEnabled(item != nullptr);
+    duplicateButton.setEnabled(item != nullptr);
+    removeButton.setEnabled(!list.rows().empty());
+    const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr;
+    keepCopy.setEnabled(sound != nullptr);
+    keepCopy.setToggleState(sound != nullptr && sound->embedded != nullptr, juce::dontSendNotification);
+    juce::String note = "This clip has no sound.";
+    if (sound != nullptr)
+        note = pathText(sound->path.filename()) + ", " + sizeText(sound->bytes) +
+               (session.isMissing(sound->id) && !sound->embedded ? ", missing" : "");
+    copyNote.setText(note, juce::dontSendNotification);
+    copyNote.setTooltip(sound != nullptr ? pathText(sound->path) : juce::String());
+}
+
+void ProjectPanel::lookAndFeelChanged()
+{
+    const Palette& p = paletteFor(*this);
+    for (juce::Label* one : {&copyNote, &clipNotesLabel, &projectNotesLabel})
+        one->setColour(juce::Label::textColourId, p.dim);
+    for (juce::TextEditor* one : {&clipNotes, &projectNotes})
+    {
+        one->setColour(juce::TextEditor::backgroundColourId, p.well);
+        one->setColour(juce::TextEditor::outlineColourId, p.line);
+        one->setColour(juce::TextEditor::focusedOutlineColourId, p.accent);
+        one->applyColourToAllText(p.text);
+    }
+}
+
+void ProjectPanel::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.background);
+    drawCard(g, clipsCard, "Clips", p);
+    drawCard(g, soundCard, "Sound", p);
+    drawCard(g, notesCard, "Notes", p);
+}
+
+void ProjectPanel::resized()
+{
+    auto area = getLocalBounds().reduced(grid);
+    notesCard = area.removeFromBottom(26 * grid);
+    area.removeFromBottom(grid);
+    soundCard = area.removeFromBottom(11 * grid);
+    area.removeFromBottom(grid);
+    clipsCard = area;
+
+    auto inside = insideOfCard(clipsCard);
+    auto line = inside.removeFromBottom(rowHeight + 4);
+    const int third = (line.getWidth() - grid) / 3;
+    duplicateButton.setBounds(line.removeFromLeft(third + grid / 2));
+    line.removeFromLeft(grid / 2);
+    removeButton.setBounds(line.removeFromLeft(third - grid / 4));
+    line.removeFromLeft(grid / 2);
+    groupButton.setBounds(line);
+    list.setBounds(inside.withTrimmedBottom(grid));
+
+    inside = insideOfCard(soundCard);
+    keepCopy.setBounds(inside.removeFromTop(rowHeight));
+    copyNote.setBounds(inside.withTrimmedTop(2));
+
+    inside = insideOfCard(notesCard);
+    const int half = inside.getHeight() / 2;
+    auto upper = inside.removeFromTop(half);
+    clipNotesLabel.setBounds(upper.removeFromTop(2 * grid));
+    clipNotes.setBounds(upper.withTrimmedBottom(grid / 2));
+    projectNotesLabel.setBounds(inside.removeFromTop(2 * grid));
+    projectNotes.setBounds(inside);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The clips of the project, notes, and whether sounds go with it.
+
+#include "editor/clip/panels/ClipList.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace pacini::editor
+{
+
+class EditorView;
+
+/// What is typed becomes a step when it has not changed for a moment, or the keyboard goes elsewhere.
+class ProjectPanel final : public juce::Component, private Session::Listener, private juce::Timer
+{
+public:
+    explicit ProjectPanel(EditorView& shown);
+    ~ProjectPanel() override;
+
+    [[nodiscard]] ClipList& clips() noexcept { return list; }
+    /// Takes over at once what has been typed.
+    void keepNotes();
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void lookAndFeelChanged() override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override { keepNotes(); }
+    void show();
+
+    Session& session;
+    juce::Rectangle<int> clipsCard, soundCard, notesCard;
+    ClipList list;
+    juce::TextButton duplicateButton, removeButton, groupButton;
+    juce::ToggleButton keepCopy;
+    juce::Label copyNote, clipNotesLabel, projectNotesLabel;
+    juce::TextEditor clipNotes, projectNotes;
+    int notesOf = 0; ///< the clip whose notes are shown
+    bool typed = false;
+};
+
+} // namespace pacini::editor

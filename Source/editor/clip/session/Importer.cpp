@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/Importer.h"
+
+#include "document/FolderFiles.h"
+#include "editor/Text.h"
+#include "editor/clip/session/Session.h"
+
+#include <utility>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int mostLines = 12; // of a message
+
+juce::String shortened(const juce::StringArray& lines)
+{
+    juce::StringArray shown(lines);
+    shown.removeRange(mostLines, shown.size());
+    if (lines.size() > mostLines)
+        shown.add("and " + juce::String(lines.size() - mostLines) + " more");
+    return shown.joinIntoString("\n");
+}
+} // namespace
+
+void Importer::add(const std::vector<std::filesystem::path>& files)
+{
+    waiting.insert(waiting.end(), files.begin(), files.end());
+    if (!task)
+        next();
+    else
+        tellWork();
+}
+
+void Importer::stop()
+{
+    waiting.clear();
+    if (!task)
+        return;
+    task->stopped = true;
+    task.reset();
+    if (session.isShowingUnanalysed())
+        session.endUnanalysed();
+    finish();
+}
+
+std::optional<WorkState> Importer::state() const
+{
+    if (!task)
+        return std::nullopt;
+    WorkState now{doing, task->progress};
+    if (const std::size_t all = begun + waiting.size(); all > 1)
+        now.text << " (" << juce::String(static_cast<int>(begun)) << " of " << juce::String(static_cast<int>(all))
+                 << ")";
+    return now;
+}
+
+void Importer::tellWork()
+{
+    session.changed(Session::work);
+}
+
+void Importer::next()
+{
+    task.reset();
+    if (waiting.empty())
+        return finish();
+    const auto file = waiting.front();
+    waiting.pop_front();
+    task = std::make_shared<Task>();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        list(file);
+    else
+        read(file);
+    tellWork();
+}
+
+void Importer::list(const std::filesystem::path& folder)
+{
+    doing = "Looking into " + pathText(folder.filename());
+    jobs.run([folder] { return openableFiles(folder); },
+             [this, folder, mine = task](const std::vector<std::filesystem::path>& found)
+             {
+                 if (mine->stopped)
+                     return;
+                 waiting.insert(waiting.begin(), found.begin(), found.end());
+                 if (found.empty())
+                     failures.add(pathText(folder.filename()) + ": holds no sounds and no clips");
+                 next();
+             });
+}
+
+void Importer::read(const std::filesystem::path& file)
+{
+    ++begun;
+    doing = "Reading " + pathText(file.filename());
+    jobs.run(
+        [file, mine = task] {
+            return mine->stopped ? Result<Imported>(Error{ErrorCode::io, "", "was stopped"}) : readFile(file);
+        },
+        [this, file, mine = task](Result<Imported> imported)
+        {
+            if (mine->stopped)
+                return;
+            if (!imported)
+                return fail(file, imported.error());
+            if (imported->sound)
+                return analyseSound(std::move(imported).value());
+            put(std::move(imported).value());
+        });
+}
+
+void Importer::analyseSound(Imported imported)
+{
+    if (!anyShown)
+        session.showUnanalysed(imported.sound);
+    doing = "Analysing " + pathText(imported.reference.path.filename());
+    task->progress = 0.0;
+    jobs.run(
+        [imported, mine = task]
+        {
+            return analyse(imported.sound->audio, imported.encoder, imported.reference,
+                           [mine](double done) { return mine->goOn(done); });
+        },
+        [this, imported, mine = task](Result<Clip> clip)
+        {
+            if (mine->stopped)
+                return;
+            if (!clip)
+                return fail(imported.reference.path, clip.error());
+            Imported whole = imported;
+            whole.clip = std::move(clip).value();
+            put(std::move(whole));
+        });
+    tellWork();
+}
+
+void Importer::put(Imported imported)
+{
+    const juce::String name = toText(imported.clip.name);
+    for (const auto& warning : imported.warnings)
+        gaps.add(name + ": " + toText(warning));
+    // A sound was shown unless the user has turned to another clip since.
+    const bool shown = !anyShown && (!imported.sound || session.isShowingUnanalysed());
+    const auto id = session.insert(std::move(imported));
+    if (!id)
+        failures.add(name + ": " + toText(id.error().text()));
+    else if (shown)
+        session.show(*id);
+    anyShown = true;
+    next();
+}
+
+void Importer::fail(const std::filesystem::path& file, const Error& error)
+{
+    if (session.isShowingUnanalysed())
+        session.endUnanalysed();
+    failures.add(pathText(file.filename()) + ": " + toText(error.message));
+    next();
+}
+
+void Importer::finish()
+{
+    const auto failed = std::exchange(failures, {});
+    const auto missed = std::exchange(gaps, {});
+    const std::size_t all = std::exchange(begun, 0);
+    anyShown = false;
+    tellWork();
+    if (!session.onError || (failed.isEmpty() && missed.isEmpty()))
+        return;
+    juce::String title = "Read with gaps", text;
+    if (!failed.isEmpty())
+    {
+        title = all > 1 ? juce::String(failed.size()) + " of " + juce::String(static_cast<int>(all)) +
+                              (failed.size() == 1 ? " files was not opened" : " files were not opened")
+                        : juce::String("Not opened");
+        text = shortened(failed);
+    }
+    if (!missed.isEmpty())
+        text << (failed.isEmpty() ? "" : "\n\nRead with gaps:\n") << shortened(missed);
+    session.onError(title, text);
+}
+
+} // namespace pacini::editor

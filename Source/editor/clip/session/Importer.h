@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Sounds, clips and folders on their way into the project.
+
+#include "editor/clip/session/Sound.h"
+#include "editor/clip/session/Task.h"
+
+#include <juce_core/juce_core.h>
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pacini::editor
+{
+
+class Jobs;
+class Session;
+
+/// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a waveform.
+/// The others come into the project without taking the place of what is looked at. What failed is told once, when all
+/// is done. [message]
+class Importer
+{
+public:
+    Importer(Session& wanted, Jobs& worker) : session(wanted), jobs(worker) {}
+
+    /// Folders stand for all openableFiles() in them.
+    void add(const std::vector<std::filesystem::path>& files);
+
+    /// What is not in the project yet will not be.
+    void stop();
+
+    /// Nothing when all is done.
+    [[nodiscard]] std::optional<WorkState> state() const;
+
+private:
+    void next();
+    void list(const std::filesystem::path& folder);
+    void read(const std::filesystem::path& file);
+    void analyseSound(Imported read);
+    void put(Imported imported);
+    void fail(const std::filesystem::path& file, const Error& error);
+    void finish();
+    void tellWork();
+
+    Session& session;
+    Jobs& jobs;
+    std::deque<std::filesystem::path> waiting;
+    std::shared_ptr<Task> task; ///< of what is being done; null: nothing
+    juce::String doing;
+    std::size_t begun = 0; ///< files, since there was nothing to do
+    bool anyShown = false; ///< of those files
+    juce::StringArray failures, gaps;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,312 @@
+// Files on their way into the project, and sounds that go missing.
+
+#include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "io/AudioWriter.h"
+#include "io/ClipFile.h"
+#include "support/TempFolder.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// Hits with decaying tones and noise, two channels.
+std::filesystem::path writeSound(const std::filesystem::path& path, double seconds, std::uint64_t seed = 1)
+{
+    constexpr int rate = 48000;
+    std::vector<float> samples(2 * static_cast<std::size_t>(seconds * rate));
+    Random random(seed);
+    double phase = 0.0, level = 0.0, frequency = 100.0;
+    for (std::size_t i = 0; i < samples.size() / 2; ++i)
+    {
+        if (i % 12000 == 0)
+        {
+            level = random.uniform(0.2, 0.8);
+            frequency = random.uniform(60.0, 600.0);
+        }
+        phase += 2.0 * std::numbers::pi * frequency / rate;
+        level *= 0.9997;
+        for (std::size_t c = 0; c < 2; ++c)
+            samples[2 * i + c] =
+                static_cast<float>(level * std::sin(phase + static_cast<double>(c)) + 0.02 * random.uniform(-1.0, 1.0));
+    }
+    REQUIRE(writeAudio(path, samples,
+                       {.sampleRate = rate, .channels = 2, .encoding = SampleEncoding::pcm16, .ditherSeed = 1}));
+    return path;
+}
+
+struct Messages
+{
+    std::vector<std::string> titles, texts;
+
+    explicit Messages(editor::Session& session)
+    {
+        session.onError = [this](const juce::String& title, const juce::String& text)
+        {
+            titles.push_back(title.toStdString());
+            texts.push_back(text.toStdString());
+        };
+    }
+};
+
+bool idle(const editor::Session& session)
+{
+    return !session.workNow();
+}
+
+std::size_t clipCount(const editor::Session& session)
+{
+    return session.document().project().clips.size();
+}
+} // namespace
+
+TEST_CASE("A sound is shown as a waveform before it is analysed, and then becomes a clip in the same view")
+{
+    TempFolder folder;
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    session.openFiles({writeSound(folder / "long.wav", 20.0)});
+    REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+    // Waveform and time are there; edits are not possible yet.
+    CHECK(session.clip() == nullptr);
+    REQUIRE(session.soundOfClip() != nullptr);
+    CHECK(session.duration() == Approx(20.0));
+    CHECK(session.axis().secondsPerPixel * session.viewWidth() == Approx(20.0 * 1.02));
+    CHECK(bench.view.clipView().isVisible());
+    REQUIRE(session.workNow());
+    CHECK(session.workNow()->text.contains("long.wav"));
+    CHECK_FALSE(session.document().canUndo());
+    session.zoom(0.5, 100.0);
+    const TimeAxis axis = session.axis();
+    REQUIRE(pumpUntil([&] { return session.clip() != nullptr; }));
+    CHECK(session.clip()->duration == Approx(20.0));
+    CHECK(session.axis() == axis);
+    CHECK_FALSE(session.isShowingUnanalysed());
+    CHECK(idle(session));
+    CHECK(session.document().undoName() == "Add long");
+    CHECK(*session.clip() == editor::importFile(folder / "long.wav", {})->clip);
+}
+
+TEST_CASE("Stopping leaves the project as it was, whatever is under way")
+{
+    TempFolder folder;
+    const auto file = writeSound(folder / "long.wav", 20.0);
+    for (const bool analysing : {false, true})
+    {
+        EditorBench bench;
+        editor::Session& session = bench.session;
+        const Messages messages(session);
+        bench.openDemo("knock_wood_bridge");
+        const int before = session.activeId();
+        session.openFiles({file, file});
+        if (analysing)
+            REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+        CHECK(bench.view.doCommand(editor::stopWork));
+        CHECK(idle(session));
+        CHECK_FALSE(session.isShowingUnanalysed());
+        CHECK(session.activeId() == before);
+        pumpFor(0.5);
+        CHECK(clipCount(session) == 1);
+        CHECK(messages.titles.empty());
+        CHECK_FALSE(bench.view.doCommand(editor::stopWork));
+    }
+}
+
+TEST_CASE("Several files come in their order, the first is shown, and what fails is told once at the end")
+{
+    TempFolder folder;
+    std::filesystem::create_directories(folder / "in/deeper");
+    writeSound(folder / "in/b.wav", 1.0, 2);
+    writeSound(folder / "in/a.wav", 1.0, 3);
+    writeSound(folder / "in/deeper/c.wav", 1.0, 4);
+    put(folder / "in/broken.wav", "RIFF but no more");
+    put(folder / "in/empty.flac", "");
+    put(folder / "in/read me.txt", "no sound");
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    const Messages messages(session);
+    session.openFiles({folder / "in"});
+    REQUIRE(pumpUntil([&] { return idle(session); }));
+    std::vector<std::string> names;
+    for (const auto& item : session.document().project().clips)
+        names.push_back(item->clip->name);
+    CHECK(names == std::vector<std::string>{"a", "b", "c"});
+    CHECK(session.item()->clip->name == "a");
+    REQUIRE(messages.titles.size() == 1);
+    CHECK(messages.titles[0] == "2 of 5 files were not opened");
+    CHECK(messages.texts[0].find("broken.wav") != std::string::npos);
+    CHECK(messages.texts[0].find("empty.flac") != std::string::npos);
+}
+
+TEST_CASE("Who turns to another clip while a sound is analysed is left there")
+{
+    TempFolder folder;
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    bench.openDemo("knock_wood_bridge");
+    const int before = session.activeId();
+    session.openFiles({writeSound(folder / "long.wav", 20.0)});
+    REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+    session.show(before);
+    REQUIRE(pumpUntil([&] { return idle(session); }));
+    CHECK(clipCount(session) == 2);
+    CHECK(session.activeId() == before);
+}
+
+TEST_CASE("A project without its sound says so once, can be edited, and finds the sound where it is shown")
+{
+    TempFolder folder;
+    std::filesystem::create_directories(folder / "elsewhere");
+    writeSound(folder / "hit.wav", 1.0);
+    {
+        EditorBench bench;
+        bench.session.add(editor::importFile(folder / "hit.wav", {}).value());
+        REQUIRE(bench.session.saveAs(folder / "p.pacini"));
+    }
+    std::filesystem::rename(folder / "hit.wav", folder / "elsewhere/renamed.wav");
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    const Messages messages(session);
+    int told = 0;
+    session.onSoundsMissing = [&](const std::vector<AudioReference>& missing)
+    {
+        ++told;
+        REQUIRE(missing.size() == 1);
+        CHECK(missing[0].path == folder / "hit.wav");
+    };
+    session.openFiles({folder / "p.pacini"});
+    REQUIRE(pumpUntil([&] { return told > 0; }));
+    pumpFor(0.1);
+    CHECK(told == 1);
+    CHECK(messages.titles.empty());
+    const int source = session.item()->source;
+    CHECK(session.isMissing(source));
+    CHECK(session.edit("Reverse", ReverseEdit{}));
+    session.undo();
+
+    writeSound(folder / "other.wav", 1.0, 99);
+    session.findSounds(folder / "other.wav");
+    REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
+    CHECK(messages.titles[0] == "other.wav is another sound");
+    CHECK(session.isMissing(source));
+
+    session.findSounds(folder / "elsewhere/renamed.wav");
+    REQUIRE(pumpUntil([&] { return session.soundOfClip() != nullptr; }));
+    CHECK_FALSE(session.isMissing(source));
+    CHECK(session.document().undoName() == "Find sound");
+    CHECK(session.document().project().sources[0].path == folder / "elsewhere/renamed.wav");
+}
+
+TEST_CASE("A copy inside the project makes it independent of the file, and the only copy is never given up")
+{
+    TempFolder folder;
+    writeSound(folder / "hit.wav", 1.0);
+    {
+        EditorBench bench;
+        bench.session.add(editor::importFile(folder / "hit.wav", {}).value());
+        bench.session.keepSound(bench.session.item()->source, true);
+        REQUIRE(pumpUntil([&] { return bench.session.document().project().sources[0].embedded != nullptr; }));
+        CHECK(bench.session.document().undoName() == "Keep a copy of the sound");
+        REQUIRE(bench.session.saveAs(folder / "p.pacini"));
+    }
+    const std::string bytes = bytesOf(folder / "hit.wav");
+    std::filesystem::remove(folder / "hit.wav");
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    const Messages messages(session);
+    REQUIRE(session.openProject(folder / "p.pacini"));
+    REQUIRE(pumpUntil([&] { return session.soundOfClip() != nullptr; }));
+    CHECK(*session.document().project().sources[0].embedded == bytes);
+    session.keepSound(session.item()->source, false);
+    REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
+    CHECK(messages.titles[0] == "The copy is kept");
+    CHECK(session.document().project().sources[0].embedded != nullptr);
+    CHECK_FALSE(session.document().isDirty());
+}
+
+#ifdef __linux__
+TEST_CASE("A project that cannot be written says why, stays open with its changes, and lets nothing follow")
+{
+    TempFolder folder;
+    EditorBench bench;
+    editor::Session& session = bench.session;
+    bench.openDemo("knock_wood_bridge");
+    REQUIRE(session.saveAs(folder / "p.pacini"));
+    REQUIRE(session.edit("Reverse", ReverseEdit{}));
+    const Clip edited = bench.clip();
+    std::filesystem::remove(folder / "p.pacini");
+    std::filesystem::create_symlink("/dev/full", folder / "p.pacini");
+    bool followed = false;
+    bench.view.files().save([&] { followed = true; });
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "Not saved");
+    CHECK(bench.view.sheet()->getDescription().contains("p.pacini"));
+    CHECK(bench.view.sheet()->getDescription().contains("the disk is full"));
+    CHECK_FALSE(followed);
+    CHECK(session.document().isDirty());
+    CHECK(bench.clip() == edited);
+    std::filesystem::remove(folder / "p.pacini");
+    bench.view.files().save([&] { followed = true; });
+    CHECK(followed);
+    CHECK_FALSE(session.document().isDirty());
+}
+#endif
+
+TEST_CASE("No message is lost behind another")
+{
+    EditorBench bench;
+    bench.session.onError("First", "one");
+    bench.session.onError("Second", "two");
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "First");
+    bench.view.showSheet(nullptr);
+    REQUIRE(bench.view.sheet() != nullptr);
+    CHECK(bench.view.sheet()->getTitle() == "Second");
+    bench.view.showSheet(nullptr);
+    CHECK(bench.view.sheet() == nullptr);
+}
+
+TEST_CASE("Opening a minute of stereo, in figures", "[.bench]")
+{
+    using Clock = std::chrono::steady_clock;
+    TempFolder folder;
+    for (const char* name : {"minute.wav", "minute.flac"})
+        writeSound(folder / name, 60.0);
+    for (const char* name : {"minute.wav", "minute.flac"})
+    {
+        std::map<std::string, double> best = {{"waveform", 1e9}, {"analysis", 1e9}, {"drawn", 1e9}};
+        for (int run = 0; run < 5; ++run)
+        {
+            EditorBench bench;
+            editor::Session& session = bench.session;
+            const auto start = Clock::now();
+            const auto since = [&]
+            {
+                return std::chrono::duration<double>(Clock::now() - start).count();
+            };
+            const auto draw = [&]
+            {
+                (void)bench.view.createComponentSnapshot(bench.view.getLocalBounds());
+            };
+            session.openFiles({folder / name});
+            REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+            draw();
+            best["waveform"] = std::min(best["waveform"], since());
+            REQUIRE(pumpUntil([&] { return session.clip() != nullptr; }));
+            best["analysis"] = std::min(best["analysis"], since());
+            draw();
+            best["drawn"] = std::min(best["drawn"], since());
+        }
+        std::printf("%s: waveform drawn after %.3f s, analysis after %.3f s, all drawn after %.3f s\n", name,
+                    best["waveform"], best["analysis"], best["drawn"]);
+    }
+}

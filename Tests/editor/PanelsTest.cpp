@@ -1,0 +1,321 @@
+// The pages Analysis and Project without a screen.
+
+#include "document/EncoderPresets.h"
+#include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "editor/clip/panels/AnalysisPanel.h"
+#include "editor/clip/panels/ProjectPanel.h"
+#include "io/AudioWriter.h"
+#include "support/TempFolder.h"
+
+#include <cmath>
+#include <numbers>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// The first component of a kind with that title inside another.
+template <typename Kind>
+Kind* find(juce::Component& inside, const juce::String& title)
+{
+    for (juce::Component* child : inside.getChildren())
+    {
+        if (auto* found = dynamic_cast<Kind*>(child); found != nullptr && child->getTitle() == title)
+            return found;
+        if (auto* found = find<Kind>(*child, title))
+            return found;
+    }
+    return nullptr;
+}
+
+template <typename Kind>
+Kind& get(juce::Component& inside, const juce::String& title)
+{
+    auto* found = find<Kind>(inside, title);
+    INFO(title);
+    REQUIRE(found != nullptr);
+    return *found;
+}
+
+bool analysed(const editor::Session& session)
+{
+    return !session.workNow();
+}
+
+/// Both pages open beside two demo sounds.
+struct Pages : EditorBench
+{
+    editor::AnalysisPanel analysis{view};
+    editor::ProjectPanel project{view};
+
+    Pages()
+    {
+        analysis.setSize(240, 640);
+        project.setSize(240, 640);
+        openDemo("knock_wood_bridge");
+    }
+
+    [[nodiscard]] std::vector<std::string> names()
+    {
+        std::vector<std::string> all;
+        for (const auto& row : project.clips().rows())
+            all.push_back(row.clip == 0 ? "[" + row.group + "]" : session.document().clip(row.clip)->clip->name);
+        return all;
+    }
+};
+using Names = std::vector<std::string>;
+} // namespace
+
+TEST_CASE("Knobs of the analysis run it again after a pause as one step, the hand edits stay, undo shows the old knobs")
+{
+    Pages pages;
+    auto& session = pages.session;
+    Clip edited = pages.clip();
+    edited.transients.front().amplitude = 0.25;
+    REQUIRE(session.setClip("Softer", edited));
+    auto& bands = get<juce::Slider>(pages.analysis, "Bands");
+    REQUIRE(bands.isEnabled());
+    CHECK(bands.getValue() == 12.0);
+    // Several moves, one step.
+    for (const double value : {13.0, 15.0, 20.0})
+        bands.setValue(value, juce::sendNotificationSync);
+    CHECK(pages.clip().bands.size() == 12);
+    REQUIRE(pumpUntil([&] { return pages.clip().bands.size() == 20; }));
+    CHECK(pages.clip().transients.front().amplitude == Approx(0.25));
+    CHECK(session.item()->encoder.bands == 20);
+    CHECK(session.document().undoName() == "Analysis");
+    CHECK(session.item()->clip->name == "knock_wood_bridge");
+    session.undo();
+    CHECK(pages.clip() == edited);
+    CHECK(bands.getValue() == 12.0);
+    CHECK(session.document().undoName() == "Softer");
+}
+
+TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back to the usual ones")
+{
+    Pages pages;
+    auto& preset = get<juce::ComboBox>(pages.analysis, "Preset");
+    CHECK(preset.getText() == "Standard");
+    preset.setSelectedId(2, juce::sendNotificationSync);
+    CHECK(pages.analysis.params() == encoderPresets()[1].params);
+    pages.analysis.carryOut();
+    REQUIRE(pumpUntil([&] { return analysed(pages.session); }));
+    CHECK(pages.session.item()->encoder == encoderPresets()[1].params);
+    get<juce::Slider>(pages.analysis, "Detail").setValue(33.0, juce::sendNotificationSync);
+    CHECK(preset.getSelectedId() == 0);
+    CHECK(preset.getText() == "Own settings");
+    // The ends of the bands never cross.
+    get<juce::Slider>(pages.analysis, "Lowest").setValue(900.0, juce::sendNotificationSync);
+    get<juce::Slider>(pages.analysis, "Highest").setValue(200.0, juce::sendNotificationSync);
+    CHECK(validate(pages.analysis.params()));
+    CHECK(pages.analysis.params().highFrequency == 200.0);
+    CHECK(pages.analysis.params().lowFrequency < 200.0);
+    for (auto* child : pages.analysis.getChildren())
+        if (auto* button = dynamic_cast<juce::TextButton*>(child);
+            button != nullptr && button->getButtonText() == "Reset")
+            button->onClick();
+    CHECK(pages.analysis.params() == EncoderParams{});
+}
+
+TEST_CASE("A clip without a sound cannot be analysed, and says why")
+{
+    Pages pages;
+    Clip clip = pages.clip();
+    clip.name = "drawn";
+    pages.session.add({{}, nullptr, {}, clip, {}});
+    CHECK_FALSE(get<juce::Slider>(pages.analysis, "Bands").isEnabled());
+    CHECK_FALSE(get<juce::ComboBox>(pages.analysis, "Preset").isEnabled());
+    CHECK(get<juce::Label>(pages.analysis, "Sound of the clip").getText().contains("without a sound"));
+    CHECK_FALSE(get<juce::ToggleButton>(pages.project, "Keep a copy of the sound inside the project").isEnabled());
+}
+
+TEST_CASE("Edits that found no place are listed with their reasons, shown where they are, and removed")
+{
+    Pages pages;
+    auto& session = pages.session;
+    // An edit of the highest band, which the lower range does not have.
+    Clip edited = pages.clip();
+    edited.bands.back().amplitude = {{0.0, 0.2}, {0.1, 0.9}, {edited.duration, 0.1}};
+    REQUIRE(session.setClip("Draw", edited));
+    EncoderParams low;
+    low.highFrequency = 200.0;
+    low.bands = 4;
+    session.reanalyse(low);
+    REQUIRE(pumpUntil([&] { return analysed(session); }));
+    REQUIRE(session.item()->unfitting.size() == 1);
+    auto& list = get<juce::ListBox>(pages.analysis, "Edits that do not fit");
+    CHECK(list.isVisible());
+    REQUIRE(list.getModel()->getNumRows() == 1);
+    CHECK(list.getModel()->getNameForRow(0).contains(juce::String(session.item()->unfitting[0].reason)));
+    session.showRange({0.3, 0.31});
+    list.getModel()->returnKeyPressed(0);
+    CHECK(session.axis().visible(session.viewWidth()).from < 0.01);
+    list.getModel()->deleteKeyPressed(0);
+    REQUIRE(pumpUntil([&] { return session.item()->unfitting.empty(); }));
+    CHECK(session.item()->edits.size() == 0);
+    CHECK_FALSE(list.isVisible());
+    session.undo();
+    CHECK(session.item()->unfitting.size() == 1);
+}
+
+TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; a clip is no sound")
+{
+    TempFolder folder;
+    std::vector<float> samples(48000);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] =
+            static_cast<float>(0.5 * std::sin(2.0 * std::numbers::pi * 150.0 * static_cast<double>(i) / 48000.0));
+    REQUIRE(writeAudio(folder / "tone.wav", samples, {.sampleRate = 48000}));
+    Pages pages;
+    auto& session = pages.session;
+    const Clip before = pages.clip();
+    REQUIRE(session.edit("Gain", GainEdit{{}, -6.0}));
+    session.replaceSound(folder / "tone.wav");
+    REQUIRE(pumpUntil([&] { return analysed(session); }));
+    CHECK(pages.clip().duration == Approx(1.0));
+    CHECK(pages.clip().name == before.name);
+    CHECK(session.document().undoName() == "Replace sound");
+    REQUIRE(session.soundOfClip() != nullptr);
+    CHECK(session.soundOfClip()->duration() == Approx(1.0));
+    const Clip& analysis = *session.item()->analysis;
+    Clip expected = editor::importFile(folder / "tone.wav", {})->clip;
+    expected.name = before.name;
+    CHECK(analysis == expected);
+    REQUIRE(pages.clip().envelope.size() == analysis.envelope.size());
+    for (std::size_t i = 0; i < analysis.envelope.size(); ++i)
+        CHECK(pages.clip().envelope[i].value == Approx(analysis.envelope[i].value * std::pow(10.0, -6.0 / 20.0)));
+    session.undo();
+    session.undo();
+    CHECK(pages.clip() == before);
+    CHECK(session.soundOfClip()->duration() == Approx(before.duration));
+    juce::String told;
+    session.onError = [&](const juce::String&, const juce::String& text)
+    {
+        told = text;
+    };
+    put(folder / "clip.json", "{}");
+    session.replaceSound(folder / "clip.json");
+    REQUIRE(pumpUntil([&] { return analysed(session); }));
+    CHECK(told.isNotEmpty());
+    CHECK(pages.clip() == before);
+}
+
+TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in the list, and all of it is undone")
+{
+    Pages pages;
+    auto& session = pages.session;
+    auto& list = pages.project.clips();
+    pages.openDemo("drums_tabla_pattern");
+    CHECK(pages.names() == Names{"knock_wood_bridge", "drums_tabla_pattern"});
+    CHECK(list.chosenRow() == 1);
+    list.choose(0);
+    CHECK(session.item()->clip->name == "knock_wood_bridge");
+    const Project before = session.document().project();
+    list.rename(0, "  Knock  ");
+    list.rename(0, "");
+    list.duplicate(0);
+    CHECK(pages.names() == Names{"Knock", "Knock", "drums_tabla_pattern"});
+    CHECK(list.chosenRow() == 1);
+    list.rename(1, "Second");
+    list.move(1, 3);
+    CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern", "Second"});
+    CHECK(list.chosenRow() == 2);
+    list.addGroup(0);
+    CHECK(pages.names() == Names{"drums_tabla_pattern", "Second", "[Group]", "Knock"});
+    CHECK(list.chosenRow() == 1);
+    list.choose(2);
+    list.rename(2, "Doors");
+    CHECK(list.chosenRow() == 2);
+    list.setGroup(0, "Doors");
+    CHECK(pages.names() == Names{"Second", "[Doors]", "Knock", "drums_tabla_pattern"});
+    list.choose(2);
+    list.move(2, 1);
+    CHECK(pages.names() == Names{"Second", "Knock", "[Doors]", "drums_tabla_pattern"});
+    CHECK(list.chosenRow() == 1);
+    list.move(1, 3);
+    CHECK(list.chosenRow() == 2);
+    list.remove(1);
+    CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern", "Second"});
+    list.remove(0);
+    CHECK(pages.names() == Names{"drums_tabla_pattern", "Second"});
+    while (session.document().project().clips.size() != 2 || !(session.document().project() == before))
+    {
+        REQUIRE(session.document().canUndo());
+        session.undo();
+    }
+}
+
+TEST_CASE("Keys of the list choose, rename and remove")
+{
+    Pages pages;
+    auto& list = pages.project.clips();
+    pages.openDemo("drums_tabla_pattern");
+    auto& box = get<juce::ListBox>(list, "Clips of the project");
+    const auto press = [&](const juce::KeyPress& key)
+    {
+        return box.keyPressed(key);
+    };
+    list.choose(1);
+    press(juce::KeyPress(juce::KeyPress::upKey));
+    CHECK(list.chosenRow() == 0);
+    press(juce::KeyPress(juce::KeyPress::returnKey));
+    auto& field = get<juce::TextEditor>(list, "Name of the clip");
+    CHECK(field.getText() == "knock_wood_bridge");
+    field.setText("Knock");
+    field.onReturnKey();
+    CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern"});
+    CHECK(find<juce::TextEditor>(list, "Name of the clip") == nullptr);
+    press(juce::KeyPress(juce::KeyPress::deleteKey));
+    CHECK(pages.names() == Names{"drums_tabla_pattern"});
+    pumpFor(0.05);
+}
+
+TEST_CASE("Notes of clip and project are steps, each with the clip that they were typed for")
+{
+    Pages pages;
+    auto& session = pages.session;
+    pages.openDemo("drums_tabla_pattern");
+    auto& ofClip = get<juce::TextEditor>(pages.project, "Notes of the clip");
+    auto& ofProject = get<juce::TextEditor>(pages.project, "Notes of the project");
+    ofClip.setText("slower", true);
+    ofProject.setText("for the wristband", true);
+    ofClip.onTextChange();
+    const int typedFor = session.activeId();
+    pages.project.clips().choose(0);
+    CHECK(session.document().clip(typedFor)->notes == "slower");
+    CHECK(session.document().project().notes == "for the wristband");
+    CHECK(session.item()->notes.empty());
+    CHECK(ofClip.getText().isEmpty());
+    CHECK(ofProject.getText() == "for the wristband");
+    pages.project.clips().choose(1);
+    CHECK(ofClip.getText() == "slower");
+    session.undo();
+    session.undo();
+    CHECK(ofClip.getText().isEmpty());
+    CHECK(ofProject.getText().isEmpty());
+}
+
+TEST_CASE("No control of the pages is cut off or lies on another, at any size")
+{
+    Pages pages;
+    for (const int width : {216, 240, 320})
+        for (juce::Component* page : std::initializer_list<juce::Component*>{&pages.analysis, &pages.project})
+        {
+            page->setSize(width, page == &pages.analysis ? 672 : 608);
+            const auto& children = page->getChildren();
+            for (int i = 0; i < children.size(); ++i)
+            {
+                if (!children[i]->isVisible())
+                    continue;
+                INFO(page->getTitle() << " " << children[i]->getTitle() << " " << i);
+                CHECK(page->getLocalBounds().contains(children[i]->getBounds()));
+                CHECK(children[i]->getWidth() > 0);
+                CHECK(children[i]->getHeight() >= 12);
+                for (int k = i + 1; k < children.size(); ++k)
+                    if (children[k]->isVisible())
+                        CHECK_FALSE(children[i]->getBounds().intersects(children[k]->getBounds()));
+            }
+        }
+}
