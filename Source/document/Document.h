@@ -96,6 +96,10 @@ public:
     /// Splits a clip in two; the right part is a new clip behind it, whose id is returned.
     Result<int> splitClipAt(int id, double time, std::string name);
 
+    /// Puts another clip of the project behind a clip, as joinClips(), and takes it out of the project.
+    /// invalidArgument: there is no such clip, or both are one; else the errors of joinClips().
+    Result<void> joinClip(int id, int other, std::string name);
+
     Result<void> setGroup(int id, std::string group, std::string name);
     Result<void> setNotes(int id, std::string notes, std::string name);
     void setProjectNotes(std::string notes, std::string name);

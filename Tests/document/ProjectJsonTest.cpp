@@ -49,6 +49,7 @@ std::vector<Edit> allEdits()
         {ReverseEdit{}, {}, 9.0},
         {StretchEdit{0.5}, {}, 9.0},
         {ReplaceEdit{someClip(0.2)}, {}, 4.5},
+        {ThinEdit{{0.25, 1.5}, 0.02, 0.125}, {}, 4.5},
     };
     Edit lost = edits[6];
     std::get<GainEdit>(lost.operation).scope.lanes[0].index = std::numeric_limits<std::size_t>::max();

@@ -38,6 +38,10 @@ EditorView::EditorView(Session& shared, Surroundings around)
     {
         doCommand(command);
     };
+    clipPart.onCommand = [this](Command command)
+    {
+        doCommand(command);
+    };
     empty.onOpen = [this]
     {
         fileQuestions.askWhatToOpen();
@@ -123,6 +127,22 @@ void EditorView::resized()
     empty.setBounds(area);
     side.setBounds(area.removeFromRight(sideWidth));
     clipPart.setBounds(area);
+}
+
+bool EditorView::keyStateChanged(bool)
+{
+    if (drawKey.isDown() && !juce::KeyPress::isKeyCurrentlyDown(drawKeyCode) &&
+        drawKey.release(juce::Time::getMillisecondCounter()))
+        open.setDrawing(!open.isDrawing());
+    return false;
+}
+
+void EditorView::switchDrawing()
+{
+    // A key that is held repeats; its release decides.
+    const bool byKey = isShowing() && juce::KeyPress::isKeyCurrentlyDown(drawKeyCode);
+    if (!byKey || drawKey.press(juce::Time::getMillisecondCounter()))
+        open.setDrawing(!open.isDrawing());
 }
 
 void EditorView::takeFocus()

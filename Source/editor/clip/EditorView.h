@@ -7,6 +7,7 @@
 #include "editor/clip/EmptyState.h"
 #include "editor/clip/ProjectFiles.h"
 #include "editor/clip/Toolbar.h"
+#include "editor/clip/commands/HeldSwitch.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/lanes/ClipView.h"
 #include "editor/clip/panels/SidePanel.h"
@@ -53,6 +54,11 @@ public:
     /// Gives the keyboard to what is in front.
     void takeFocus();
 
+    static constexpr int drawKeyCode = 'd';
+    /// Drawing on or off; by its key, which may be held, see HeldSwitch.
+    void switchDrawing();
+    bool keyStateChanged(bool isKeyDown) override;
+
     /// False when it cannot be done now.
     bool doCommand(Command command) { return menuList.perform(command); }
 
@@ -88,6 +94,7 @@ private:
     SidePanel side;
     EmptyState empty;
     std::unique_ptr<Sheet> sheetNow;
+    HeldSwitch drawKey;
     juce::TooltipWindow tooltips{&body, 600};
 };
 

@@ -105,6 +105,9 @@ void Session::take(Document document)
 {
     player.stop();
     *open = std::move(document);
+    preview = nullptr;
+    comparing = false;
+    versions.clear();
     sounds.clear();
     active = 0;
     selectionNow = {};
@@ -182,6 +185,10 @@ std::vector<Recoverable> Session::recoverable() const
 
 std::shared_ptr<const Clip> Session::clip() const
 {
+    if (preview)
+        return preview;
+    if (comparing)
+        return keptVersion();
     const auto shown = item();
     return shown ? shown->clip : nullptr;
 }
@@ -198,6 +205,7 @@ void Session::show(int clipId)
     if (clipId != active)
     {
         player.stop();
+        comparing = false;
         active = clipId;
         selectionNow = {};
         rangeNow.reset();
@@ -241,6 +249,8 @@ void Session::loadSound()
 /// After any change of the document.
 void Session::follow()
 {
+    std::erase_if(versions, [this](const auto& kept) { return !open->clip(kept.first); });
+    comparing = comparing && keptVersion() != nullptr;
     if (!item() && !isEmpty())
         active = open->project().clips.front()->id;
     if (const auto now = clip())
