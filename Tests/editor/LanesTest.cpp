@@ -45,7 +45,7 @@ TEST_CASE("With the pencil a drag draws the curve under the pointer with few poi
         mouse.drag(place(k));
     mouse.release(place(80));
     const Clip after = bench.clip();
-    for (int k = 0; k <= 80; ++k)
+    for (int k = 0; k < 80; ++k)
     {
         const double time = bench.session.axis().timeAt(100.0 + 4.0 * k);
         const float y = placeOf(row, bench.session, {time, valueAt(after.envelope, time)}).y;
@@ -121,15 +121,15 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     EditorBench bench;
     bench.openDemo("drums_tabla_pattern");
     Clip clip = bench.clip();
-    clip.transients = {{0.4, 0.5, 0.5}, {1.5, 0.5, 0.5}};
+    clip.transients = {{0.43, 0.5, 0.5}, {1.5, 0.5, 0.5}};
     clip.markers = {{0.7, "a"}};
     auto& session = bench.session;
     session.setClip("Plain", clip);
     session.setPlayhead(1.1);
     const double perPixel = session.axis().secondsPerPixel;
     const double near = 7.0 * perPixel;
-    CHECK(editor::snapTime(session, 0.4 + near) == 0.4);
-    CHECK(editor::snapTime(session, 0.4 + 9.0 * perPixel) == 0.4 + 9.0 * perPixel);
+    CHECK(editor::snapTime(session, 0.43 + near) == 0.43);
+    CHECK(editor::snapTime(session, 0.43 + 9.0 * perPixel) == 0.43 + 9.0 * perPixel);
     CHECK(editor::snapTime(session, 0.7 - near) == 0.7);
     CHECK(editor::snapTime(session, 1.1 + near) == 1.1);
     Selection moving;
@@ -138,11 +138,11 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     without.moving = &moving;
     without.marker = 0;
     without.playhead = false;
-    for (const double time : {0.4 + near, 0.7 - near, 1.1 + near})
+    for (const double time : {0.43 + near, 0.7 - near, 1.1 + near})
         CHECK(editor::snapTime(session, time, without) == time);
     SnapTargets only{true, true, false, false, false};
     session.setSnapTargets(only);
-    CHECK(editor::snapTime(session, 0.4 + near) != 0.4);
+    CHECK(editor::snapTime(session, 0.43 + near) != 0.43);
     const double line = 1.0; // a second is a line of the ruler at this zoom
     CHECK(editor::snapTime(session, line + 0.5 * perPixel) == Approx(line));
 }

@@ -122,6 +122,8 @@ void Session::paste(const std::optional<Lane>& into)
     auto pasted = pasteInto(*now, *clipboard, playhead(), into);
     if (!pasted)
         return report("Not pasted", pasted.error());
+    if (rangeNow)
+        pasted->selection = {}; // what follows is for the time range
     const auto leftOut = static_cast<int>(pasted->leftOut);
     if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && onError)
         onError("Pasted with gaps",
