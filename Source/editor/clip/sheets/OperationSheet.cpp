@@ -13,10 +13,10 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int sheetWidth = 54 * grid;
+constexpr int sheetWidth = 56 * grid;
 constexpr int rowHeight = 4 * grid;
 constexpr int textHeight = 3 * grid;
-constexpr int around = 17 * grid; // title, answers and margins
+constexpr int around = 14 * grid; // title, answers and margins
 constexpr int labelWidth = 11 * grid;
 constexpr int numberWidth = 10 * grid;
 constexpr int unitWidth = 14 * grid;
@@ -154,7 +154,7 @@ private:
         name.setBounds(area.removeFromLeft(labelWidth));
         if (!field.choices.empty())
             return choice.setBounds(area);
-        unit.setBounds(area.removeFromRight(unitWidth));
+        unit.setBounds(area.removeFromRight(unitWidth).withTrimmedLeft(grid / 2));
         number.setBounds(area.removeFromRight(numberWidth));
         area.removeFromRight(grid);
         slider.setBounds(area);
