@@ -370,6 +370,29 @@ Result<int> Document::splitClipAt(int id, double time, std::string name)
     return added;
 }
 
+Result<void> Document::joinClip(int id, int other, std::string name)
+{
+    const auto first = clip(id);
+    const auto second = clip(other);
+    if (!first || !second || id == other)
+        return noSuchClip(first ? other : id);
+    EditOperation join = InsertEdit{first->clip->duration, second->clip};
+    auto joined = applyEdit(*first->clip, join);
+    if (!joined)
+        return joined.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(join), *first->clip));
+    ClipItem item = *first;
+    item.edits = with(item.edits, std::move(edits));
+    item.clip = std::make_shared<const Clip>(std::move(joined).value());
+    Project next = content;
+    std::replace(next.clips.begin(), next.clips.end(), first,
+                 std::shared_ptr<const ClipItem>(std::make_shared<const ClipItem>(std::move(item))));
+    std::erase(next.clips, second);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
 Result<void> Document::setGroup(int id, std::string group, std::string name)
 {
     const auto old = clip(id);

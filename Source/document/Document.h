@@ -103,6 +103,10 @@ public:
     /// Moves a clip as moveClip() does, and into a group (empty: out of its group), which is added when it is new.
     Result<void> placeClip(int id, std::size_t index, std::string group, std::string name);
 
+    /// Puts another clip of the project behind a clip, as joinClips(), and takes it out of the project.
+    /// invalidArgument: there is no such clip, or both are one; else the errors of joinClips().
+    Result<void> joinClip(int id, int other, std::string name);
+
     Result<void> setGroup(int id, std::string group, std::string name);
     Result<void> setNotes(int id, std::string notes, std::string name);
     void setProjectNotes(std::string notes, std::string name);

@@ -128,6 +128,15 @@ struct StretchEdit
     bool operator==(const StretchEdit&) const = default;
 };
 
+/// See thinTransients().
+struct ThinEdit
+{
+    TimeRange range;
+    double gap = 0.0;     ///< s
+    double weakest = 0.0; ///< amplitude
+    bool operator==(const ThinEdit&) const = default;
+};
+
 /// Another clip altogether: changes of bands or duration that no other edit describes.
 struct ReplaceEdit
 {
@@ -140,7 +149,7 @@ struct ReplaceEdit
 
 using EditOperation = std::variant<LanePatch, TransientPatch, MarkersEdit, RenameEdit, GainEdit, FadeEdit, InvertEdit,
                                    QuantiseEdit, HumaniseEdit, TransposeEdit, TrimEdit, CutEdit, InsertEdit, RepeatEdit,
-                                   ReverseEdit, StretchEdit, ReplaceEdit>;
+                                   ReverseEdit, StretchEdit, ReplaceEdit, ThinEdit>;
 
 /// An operation and where its lanes lay: `frequencies` holds for each lane that the operation names, in their order,
 /// the centre of its band when the edit was made (0 for envelope and centroid), so that it is found among other bands.

@@ -118,6 +118,7 @@ struct Applier
     Result<Clip> operator()(const ReverseEdit&) const { return reverseClip(clip); }
     Result<Clip> operator()(const StretchEdit& e) const { return stretchClip(clip, e.ratio); }
     Result<Clip> operator()(const ReplaceEdit& e) const { return replaced(e.clip); }
+    Result<Clip> operator()(const ThinEdit& e) const { return thinTransients(clip, e.range, e.gap, e.weakest); }
 };
 
 bool sameHead(const Clip& a, const Clip& b)
@@ -344,6 +345,7 @@ public:
     void operator()(InsertEdit& e) { e.time = e.time >= warp.durationBefore() ? clip.duration : warp.map(e.time); }
     void operator()(TrimEdit& e) { e.range = warp.map(e.range); }
     void operator()(CutEdit& e) { e.range = warp.map(e.range); }
+    void operator()(ThinEdit& e) { e.range = warp.map(e.range); }
     void operator()(QuantiseEdit& e) { e.scope.range = warp.map(e.scope.range); }
 
     template <typename Other>

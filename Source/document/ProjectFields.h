@@ -42,7 +42,7 @@ inline constexpr std::array<Choice<FadeShape>, 3> fadeShapes = {
     {{"linear", FadeShape::linear}, {"smooth", FadeShape::smooth}, {"square", FadeShape::square}}};
 
 /// Names of the alternatives of EditOperation, in their order.
-inline constexpr std::array<Choice<std::size_t>, 17> editKinds = {{{"points", 0},
+inline constexpr std::array<Choice<std::size_t>, 18> editKinds = {{{"points", 0},
                                                                    {"transient", 1},
                                                                    {"markers", 2},
                                                                    {"name", 3},
@@ -58,7 +58,8 @@ inline constexpr std::array<Choice<std::size_t>, 17> editKinds = {{{"points", 0}
                                                                    {"repeat", 13},
                                                                    {"reverse", 14},
                                                                    {"stretch", 15},
-                                                                   {"replace", 16}}};
+                                                                   {"replace", 16},
+                                                                   {"thin", 17}}};
 static_assert(editKinds.size() == std::variant_size_v<EditOperation>);
 
 /// An empty operation of alternative `kind`.
@@ -185,6 +186,11 @@ void visitOperation(Operation& e, Visitor& visitor)
         visitor.number("ratio", e.ratio, required);
     else if constexpr (SameAs<Operation, ReplaceEdit>)
         visitor.clip("clip", e.clip);
+    else if constexpr (SameAs<Operation, ThinEdit>)
+    {
+        visitor.number("gap", e.gap, required);
+        visitor.number("weakest", e.weakest, required);
+    }
 }
 
 template <typename AnyEdit, typename Visitor>

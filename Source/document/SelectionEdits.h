@@ -94,6 +94,27 @@ struct EditedClip
     Selection selection; ///< where what was selected is now
 };
 
+namespace detail
+{
+/// Puts transients in order of time; where the selected ones are now.
+[[nodiscard]] inline Indices sortTransients(std::vector<Transient>& events, const Indices& selection)
+{
+    Indices order = allIndices(events.size());
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return events[a].time < events[b].time; });
+    std::vector<Transient> sorted;
+    Indices now;
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+        sorted.push_back(events[order[i]]);
+        if (std::binary_search(selection.begin(), selection.end(), order[i]))
+            now.push_back(i);
+    }
+    events = std::move(sorted);
+    return now;
+}
+} // namespace detail
+
 [[nodiscard]] inline EditedClip moveSelected(Clip clip, const Selection& wanted, const SelectionMove& move)
 {
     const Selection selection = withinClip(wanted, clip);
@@ -123,18 +144,7 @@ struct EditedClip
                                           event.sharpness + move.sharpness},
                                          result.clip.duration);
     }
-    Indices order = allIndices(result.clip.transients.size());
-    const auto& events = result.clip.transients;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return events[a].time < events[b].time; });
-    std::vector<Transient> sorted;
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-        sorted.push_back(events[order[i]]);
-        if (std::binary_search(selection.transients.begin(), selection.transients.end(), order[i]))
-            result.selection.transients.push_back(i);
-    }
-    result.clip.transients = std::move(sorted);
+    result.selection.transients = detail::sortTransients(result.clip.transients, selection.transients);
     return result;
 }
 

@@ -20,7 +20,7 @@ EditOperation anyOperation(Random& random, const Clip& clip)
     {
         return test::anyNumber(random, 0.0, clip.duration);
     };
-    switch (random.next() % 13)
+    switch (random.next() % 14)
     {
     case 0:
         return GainEdit{test::anyScope(random, clip), test::anyNumber(random, -20.0, 6.0)};
@@ -46,6 +46,8 @@ EditOperation anyOperation(Random& random, const Clip& clip)
         return ReverseEdit{};
     case 11:
         return StretchEdit{random.uniform(0.5, 2.0)};
+    case 12:
+        return ThinEdit{{time(), time()}, test::anyNumber(random, 0.0, 0.2), random.uniform(0.0, 0.3)};
     default:
         return RenameEdit{"name " + std::to_string(random.next() % 100)};
     }

@@ -49,6 +49,7 @@ std::vector<Edit> allEdits()
         {ReverseEdit{}, {}, 9.0},
         {StretchEdit{0.5}, {}, 9.0},
         {ReplaceEdit{someClip(0.2)}, {}, 4.5},
+        {ThinEdit{{0.25, 1.5}, 0.02, 0.125}, {}, 4.5},
     };
     Edit lost = edits[6];
     std::get<GainEdit>(lost.operation).scope.lanes[0].index = std::numeric_limits<std::size_t>::max();
@@ -90,7 +91,7 @@ Project fullProject(const std::filesystem::path& folder)
     item.analysis = someClip(0.3);
     item.clip = someClip(0.4);
     item.edits = EditList::of(edits);
-    item.unfitting = {{19, "no band is left"}};
+    item.unfitting = {{20, "no band is left"}};
     project.clips.push_back(std::make_shared<const ClipItem>(item));
     item.id = 8;
     item.clip = item.analysis;
@@ -144,7 +145,7 @@ TEST_CASE("Damaged projects are refused with the place")
     CHECK(errorOf(with(text, "\"kind\": \"fade\"", "\"kind\": \"fades\"")).where == "clips[0].edits[7].kind");
     CHECK(errorOf(with(text, "\"time\": 0, \"amplitude\": 0.4", "\"time\": -1, \"amplitude\": 0.4")).where ==
           "clips[0].clip.envelope[0].time");
-    CHECK(errorOf(with(text, "\"edit\": 19", "\"edit\": 20")).where == "clips[0].unfitting[0].edit");
+    CHECK(errorOf(with(text, "\"edit\": 20", "\"edit\": 21")).where == "clips[0].unfitting[0].edit");
     CHECK(errorOf(with(text, "\"embedded\": \"", "\"embedded\": \"?")).where == "sources[1].embedded");
     CHECK(errorOf(text.substr(0, text.size() / 2)).where.find("line") == 0);
     CHECK_FALSE(readProjectJson(""));

@@ -2,6 +2,7 @@
 #include "document/view/HitTest.h"
 #include "document/view/Snap.h"
 #include "document/view/TimeAxis.h"
+#include "document/view/TimeTicks.h"
 #include "document/view/ValueAxis.h"
 #include "support/Catch.h"
 
@@ -142,4 +143,20 @@ TEST_CASE("The pointer sticks to the nearest event or line within reach")
     CHECK(snapped(0.6, axis, 5.0, events, grid) == 0.6);
     CHECK(snapped(2.04, axis, 5.0, events) == 2.0);
     CHECK(snapped(1.0, axis, 5.0, {}) == 1.0);
+}
+
+TEST_CASE("Times of a ruler are round and at least 90 pixels apart, and its lines are a fifth of that")
+{
+    for (double perPixel = 1e-6; perPixel < 100.0; perPixel *= 1.37)
+    {
+        const double step = tickStep(perPixel);
+        CHECK(step / perPixel >= 89.9);
+        CHECK((step / perPixel <= 231.0 || step >= 60.0));
+        if (step < 60.0)
+        {
+            const double leading = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+            CHECK((leading == Approx(1.0) || leading == Approx(2.0) || leading == Approx(5.0)));
+        }
+        CHECK(rulerGrid(perPixel).step == Approx(step / 5.0));
+    }
 }

@@ -6,6 +6,7 @@
 
 #include <pacini/clip/edits/RangeEdits.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,6 +14,17 @@
 
 namespace pacini
 {
+
+/// What pointers stick to, when they do.
+struct SnapTargets
+{
+    bool on = true;
+    bool grid = false; ///< the lines of the ruler
+    bool transients = true;
+    bool markers = true;
+    bool playhead = true;
+    bool operator==(const SnapTargets&) const = default;
+};
 
 /// The time that a pointer at `time` means: the nearest of the candidates (ascending: events, markers, the playhead)
 /// and of the grid's lines that is at most `reach` pixels away, else `time` itself. Events win over lines at one

@@ -42,6 +42,10 @@ EditorView::EditorView(Session& shared, Surroundings around)
     {
         doCommand(command);
     };
+    clipPart.onCommand = [this](Command command)
+    {
+        doCommand(command);
+    };
     empty.onOpen = [this]
     {
         fileQuestions.askWhatToOpen();
@@ -135,6 +139,22 @@ void EditorView::resized()
     workBar.setBounds(area.withTrimmedBottom(7 * grid)
                           .removeFromBottom(workBarHeight)
                           .withSizeKeepingCentre(std::min(workBarWidth, area.getWidth() - 2 * grid), workBarHeight));
+}
+
+bool EditorView::keyStateChanged(bool)
+{
+    if (drawKey.isDown() && !juce::KeyPress::isKeyCurrentlyDown(drawKeyCode) &&
+        drawKey.release(juce::Time::getMillisecondCounter()))
+        open.setDrawing(!open.isDrawing());
+    return false;
+}
+
+void EditorView::switchDrawing()
+{
+    // A key that is held repeats; its release decides.
+    const bool byKey = isShowing() && juce::KeyPress::isKeyCurrentlyDown(drawKeyCode);
+    if (!byKey || drawKey.press(juce::Time::getMillisecondCounter()))
+        open.setDrawing(!open.isDrawing());
 }
 
 void EditorView::takeFocus()

@@ -8,6 +8,7 @@
 #include "editor/clip/ProjectFiles.h"
 #include "editor/clip/Toolbar.h"
 #include "editor/clip/WorkBar.h"
+#include "editor/clip/commands/HeldSwitch.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/lanes/ClipView.h"
 #include "editor/clip/panels/SidePanel.h"
@@ -57,6 +58,11 @@ public:
     /// Gives the keyboard to what is in front.
     void takeFocus();
 
+    static constexpr int drawKeyCode = 'd';
+    /// Drawing on or off; by its key, which may be held, see HeldSwitch.
+    void switchDrawing();
+    bool keyStateChanged(bool isKeyDown) override;
+
     /// False when it cannot be done now.
     bool doCommand(Command command) { return menuList.perform(command); }
 
@@ -94,6 +100,7 @@ private:
     WorkBar workBar;
     std::unique_ptr<Sheet> sheetNow;
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
+    HeldSwitch drawKey;
     juce::TooltipWindow tooltips{&body, 600};
 };
 

@@ -215,6 +215,18 @@ TEST_CASE("Thinning keeps the strongest events and leaves no two closer than the
     }
 }
 
+TEST_CASE("Thinning drops what is too weak inside the range, and nothing outside")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.transients = {{0.1, 0.05, 0.5}, {0.3, 0.05, 0.5}, {0.305, 0.2, 0.5}, {0.5, 0.1, 0.5}, {0.9, 0.01, 0.5}};
+    const Clip thin = thinTransients(clip, {0.2, 0.8}, 0.0, 0.1);
+    CHECK(thin.transients ==
+          std::vector<Transient>{clip.transients[0], clip.transients[2], clip.transients[3], clip.transients[4]});
+    // What is too weak keeps nothing away.
+    CHECK(thinTransients(clip, {0.0, 1.0}, 0.3, 0.06).transients == std::vector<Transient>{clip.transients[2]});
+}
+
 TEST_CASE("Humanise is the same for a seed, another for another, and stays within its amounts")
 {
     const Clip clip = test::randomFullClip(11);

@@ -78,8 +78,9 @@ struct TransientMove
 }
 
 /// Keeps the strongest transients of a range so that no two of them are closer than `gap` seconds (skin resolves about
-/// 8 to 10 ms); of equal ones the earlier. Those outside the range stay and keep no others away.
-[[nodiscard]] inline Clip thinTransients(Clip clip, TimeRange range, double gap)
+/// 8 to 10 ms); of equal ones the earlier. None whose amplitude is below `weakest` is kept. Those outside the range
+/// stay and keep no others away.
+[[nodiscard]] inline Clip thinTransients(Clip clip, TimeRange range, double gap, double weakest = 0.0)
 {
     const TimeRange within = withinClip(range, clip.duration);
     Indices byStrength;
@@ -87,8 +88,9 @@ struct TransientMove
     for (std::size_t i = 0; i < clip.transients.size(); ++i)
         if (detail::isInside(within, clip.transients[i].time))
         {
-            byStrength.push_back(i);
             kept[i] = false;
+            if (clip.transients[i].amplitude >= weakest)
+                byStrength.push_back(i);
         }
     std::stable_sort(byStrength.begin(), byStrength.end(),
                      [&](std::size_t a, std::size_t b)

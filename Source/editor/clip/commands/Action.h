@@ -38,7 +38,9 @@ struct Menu
 /// In their order in the menu bar. What they work on outlives them.
 [[nodiscard]] Menu fileMenu(EditorView& view);
 [[nodiscard]] Menu editMenu(EditorView& view);
+[[nodiscard]] Menu shapeMenu(EditorView& view);
 [[nodiscard]] Menu clipMenu(EditorView& view);
+[[nodiscard]] Menu markerMenu(EditorView& view);
 [[nodiscard]] Menu playMenu(EditorView& view);
 [[nodiscard]] Menu viewMenu(EditorView& view);
 [[nodiscard]] Menu helpMenu(EditorView& view);

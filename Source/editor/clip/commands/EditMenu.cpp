@@ -4,6 +4,8 @@
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/lanes/CurveLane.h"
 
+#include <optional>
+
 namespace pacini::editor
 {
 
@@ -14,12 +16,18 @@ juce::String nameWithStep(const char* name, const std::string& step)
     return step.empty() ? juce::String(name) : juce::String(name) + " " + toText(step).toLowerCase();
 }
 
+std::optional<Lane> focusedLane()
+{
+    const auto* row = dynamic_cast<const CurveLane*>(juce::Component::getCurrentlyFocusedComponent());
+    return row != nullptr ? std::optional(row->lane()) : std::nullopt;
+}
+
 /// The points of the lane with the focus, else all transients.
 Selection everything(const Clip& clip)
 {
     Selection all;
-    if (const auto* row = dynamic_cast<const CurveLane*>(juce::Component::getCurrentlyFocusedComponent()))
-        return withPoints({}, row->lane(), allIndices(curveOf(clip, row->lane())->size()));
+    if (const auto lane = focusedLane())
+        return withPoints({}, *lane, allIndices(curveOf(clip, *lane)->size()));
     all.transients = allIndices(clip.transients.size());
     return all;
 }
@@ -35,10 +43,6 @@ Menu editMenu(EditorView& view)
     const auto anySelected = [&session]
     {
         return !isEmpty(session.selected());
-    };
-    const auto fade = [&session](const char* name, FadeDirection direction)
-    {
-        session.edit(name, FadeEdit{session.scope(), direction, FadeShape::linear});
     };
     using Key = juce::KeyPress;
     return {"Edit",
@@ -80,8 +84,8 @@ Menu editMenu(EditorView& view)
                  .keys = {ctrl('c')}},
                 {.id = paste,
                  .name = "Paste at playhead",
-                 .help = "Pastes into the lanes it was copied from",
-                 .run = [&session] { session.paste(); },
+                 .help = "Pastes into the lanes it was copied from; a single lane into the one with the focus",
+                 .run = [&session] { session.paste(focusedLane()); },
                  .can = [&session] { return session.clip() && session.canPaste(); },
                  .keys = {ctrl('v')}},
                 {.id = deleteSelection,
@@ -103,17 +107,6 @@ Menu editMenu(EditorView& view)
                  .run = [&session] { session.select({}); },
                  .can = anySelected,
                  .keys = {ctrlShift('a')}},
-                {.id = fadeIn,
-                 .name = "Fade in",
-                 .help = "Fades in over the selection, the time range or the clip",
-                 .run = [fade] { fade("Fade in", FadeDirection::in); },
-                 .can = anyClip,
-                 .lineBefore = true},
-                {.id = fadeOut,
-                 .name = "Fade out",
-                 .help = "Fades out over the selection, the time range or the clip",
-                 .run = [fade] { fade("Fade out", FadeDirection::out); },
-                 .can = anyClip},
             }};
 }
 

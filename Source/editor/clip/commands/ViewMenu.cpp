@@ -10,6 +10,26 @@ namespace
 constexpr double zoomStep = 1.5;
 constexpr int laneStep = 16; // pixels
 constexpr double scaleStep = 0.25;
+
+juce::PopupMenu snapChoices(Session& session)
+{
+    juce::PopupMenu menu;
+    const auto add = [&](const char* name, bool SnapTargets::*target)
+    {
+        menu.addItem(name, true, session.snapTargets().*target,
+                     [&session, target]
+                     {
+                         SnapTargets wanted = session.snapTargets();
+                         wanted.*target = !(wanted.*target);
+                         session.setSnapTargets(wanted);
+                     });
+    };
+    add("Transients", &SnapTargets::transients);
+    add("Markers", &SnapTargets::markers);
+    add("Playhead", &SnapTargets::playhead);
+    add("Lines of the ruler", &SnapTargets::grid);
+    return menu;
+}
 } // namespace
 
 Menu viewMenu(EditorView& view)
@@ -75,6 +95,35 @@ Menu viewMenu(EditorView& view)
              [&session]
          {
              return session.amplitudesInDecibels();
+         }},
+        {.id = draw,
+         .name = "Draw curves",
+         .help = "A drag in a lane draws its curve; with the key held, as long as that",
+         .run = [&view] { view.switchDrawing(); },
+         .can = anyClip,
+         .on = [&session] { return session.isDrawing(); },
+         .keys = {Key(EditorView::drawKeyCode)},
+         .lineBefore = true},
+        {.id = snap,
+         .name = "Snap",
+         .help = "What is dragged sticks to what is near; Alt: not this time",
+         .run =
+             [&session]
+         {
+             SnapTargets wanted = session.snapTargets();
+             wanted.on = !wanted.on;
+             session.setSnapTargets(wanted);
+         },
+         .on = [&session] { return session.snapTargets().on; },
+         .keys = {Key('n')}},
+        {.id = snapTo,
+         .name = "Snap to",
+         .help = "What is dragged sticks to these",
+         .can = [&session] { return session.snapTargets().on; },
+         .choices =
+             [&session]
+         {
+             return snapChoices(session);
          }},
         {.id = lightLook,
          .name = "Light colours",

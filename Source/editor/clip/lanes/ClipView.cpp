@@ -24,7 +24,7 @@ constexpr int headHeight = 8; // of the playhead
 class ClipView::Overlay final : public juce::Component
 {
 public:
-    Overlay()
+    explicit Overlay(Session& shared) : session(shared)
     {
         setInterceptsMouseClicks(false, false);
         setAccessible(false);
@@ -51,6 +51,8 @@ public:
     void paint(juce::Graphics& g) override
     {
         const Palette& p = paletteFor(*this);
+        paintMarkers(g, p);
+        paintVersion(g, p);
         if (playhead >= laneHeadWidth)
         {
             g.setColour(p.text);
@@ -70,6 +72,40 @@ public:
     }
 
 private:
+    /// Lines through all lanes, below the flags.
+    void paintMarkers(juce::Graphics& g, const Palette& p) const
+    {
+        const auto clip = session.clip();
+        if (!clip)
+            return;
+        g.setColour(p.accent.withAlpha(0.55f));
+        for (const Marker& marker : clip->markers)
+        {
+            const double x = session.axis().xOf(marker.time);
+            if (x >= 0.0 && x <= session.viewWidth())
+                g.fillRect(laneHeadWidth + juce::roundToInt(x), rulerHeight + MarkerStrip::height, 1, getHeight());
+        }
+    }
+
+    void paintVersion(juce::Graphics& g, const Palette& p) const
+    {
+        if (!session.isComparing())
+            return;
+        const auto place = getLocalBounds()
+                               .withTrimmedLeft(laneHeadWidth)
+                               .withTop(rulerHeight + MarkerStrip::height + grid)
+                               .withHeight(3 * grid)
+                               .withSizeKeepingCentre(34 * grid, 3 * grid);
+        g.setColour(p.accent);
+        g.fillRoundedRectangle(place.toFloat(), 4.0f);
+        g.setColour(p.background);
+        g.setFont(usualFont());
+        g.drawFittedText("Version A, to compare; press C to go back", place.reduced(grid, 0),
+                         juce::Justification::centred, 1);
+    }
+
+    Session& session;
+
     [[nodiscard]] juce::Rectangle<int> strip() const { return {playhead - 6, 0, 13, getHeight()}; }
 
     int playhead = -100;
@@ -77,7 +113,14 @@ private:
 };
 
 ClipView::ClipView(Session& shared)
-    : session(shared), ruler(shared), waveform(shared), overview(shared), overlay(std::make_unique<Overlay>())
+    : session(shared),
+      ruler(shared),
+      tools(shared),
+      selectionBar(shared),
+      markers(shared),
+      waveform(shared),
+      overview(shared),
+      overlay(std::make_unique<Overlay>(shared))
 {
     setTitle("Clip");
     setFocusContainerType(FocusContainerType::focusContainer);
@@ -86,8 +129,15 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&ruler, &waveform, &viewport, &overview, overlay.get()})
+         std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform, &viewport, &overview})
         addAndMakeVisible(child);
+    addChildComponent(markers);
+    addAndMakeVisible(*overlay);
+    markers.onCommand = [this](Command command)
+    {
+        if (onCommand)
+            onCommand(command);
+    };
     session.listeners.add(this);
     rebuild();
     startTimerHz(60);
@@ -107,6 +157,12 @@ void ClipView::sessionChanged(unsigned changes)
 {
     if ((changes & (Session::content | Session::look)) != 0)
         rebuild();
+    const auto clip = session.clip();
+    if (const bool any = clip && !clip->markers.empty(); any != markers.isVisible())
+    {
+        markers.setVisible(any);
+        resized();
+    }
     if ((changes & (Session::view | Session::playback | Session::content)) != 0)
         placePlayhead();
 }
@@ -176,6 +232,10 @@ void ClipView::resized()
     auto area = getLocalBounds();
     overlay->setBounds(area.withTrimmedRight(scrollBarWidth).withTrimmedBottom(overviewHeight));
     ruler.setBounds(area.removeFromTop(rulerHeight).withTrimmedRight(scrollBarWidth));
+    tools.setBounds(ruler.getBounds().withWidth(laneHeadWidth));
+    selectionBar.setBounds(ruler.getBounds().withTrimmedLeft(laneHeadWidth).withHeight(SelectionBar::height));
+    if (markers.isVisible())
+        markers.setBounds(area.removeFromTop(MarkerStrip::height).withTrimmedRight(scrollBarWidth));
     waveform.setBounds(area.removeFromTop(waveformHeight).withTrimmedRight(scrollBarWidth));
     overview.setBounds(area.removeFromBottom(overviewHeight).withTrimmedRight(scrollBarWidth));
     viewport.setBounds(area);

@@ -3,14 +3,19 @@
 
 // Everything that a clip holds over one axis of time.
 
+#include "editor/clip/commands/Command.h"
+#include "editor/clip/lanes/MarkerStrip.h"
 #include "editor/clip/lanes/Overview.h"
 #include "editor/clip/lanes/PlotLane.h"
+#include "editor/clip/lanes/SelectionBar.h"
 #include "editor/clip/lanes/TimeRuler.h"
+#include "editor/clip/lanes/ToolStrip.h"
 #include "editor/clip/lanes/WaveformRow.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,13 +23,15 @@
 namespace pacini::editor
 {
 
-/// Ruler and sound stay, the lanes below scroll: transients, their sharpness, envelope, centroid, the bands with high
-/// ones above, noise; the overview is at the foot.
+/// Ruler, markers (where there are some) and sound stay, the lanes below scroll: transients, their sharpness, envelope,
+/// centroid, the bands with high ones above, noise; the overview is at the foot.
 class ClipView final : public juce::Component, private Session::Listener, private juce::Timer
 {
 public:
     explicit ClipView(Session& shared);
     ~ClipView() override;
+
+    std::function<void(Command)> onCommand;
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -70,6 +77,9 @@ private:
 
     Session& session;
     TimeRuler ruler;
+    ToolStrip tools;
+    SelectionBar selectionBar;
+    MarkerStrip markers;
     WaveformRow waveform;
     Overview overview;
     LaneViewport viewport;

@@ -3,6 +3,7 @@
 
 // A curve of the clip as a row.
 
+#include "document/DrawnCurve.h"
 #include "editor/Theme.h"
 #include "editor/clip/lanes/PlotLane.h"
 
@@ -48,8 +49,26 @@ private:
     juce::String valueText(double value) const override;
     const char* moveName() const override { return "Move points"; }
     void follow(unsigned changes) override;
+    bool beginTool(const juce::MouseEvent& event) override;
+    void dragTool(const juce::MouseEvent& event) override;
+    void endTool() override { bent.reset(); }
+    juce::MouseCursor cursorAt(const juce::MouseEvent& event) const override;
+    [[nodiscard]] std::optional<std::size_t> lineAt(juce::Point<float> place) const;
+    void draw(juce::Point<float> to);
+    template <typename Edit>
+    void change(const char* name, Edit edit);
+
+    /// The line behind point `first` was grabbed.
+    struct Bend
+    {
+        std::size_t first = 0;
+        double time = 0.0; ///< s
+    };
 
     Lane shown;
+    Stroke stroke;
+    std::optional<Bend> bent;
+    Gesture toolGesture = 0;
     bool muted = false;
     juce::ToggleButton pitchButton, soloButton, muteButton;
 };

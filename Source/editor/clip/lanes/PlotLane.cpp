@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/PlotLane.h"
 
-#include "document/view/Snap.h"
+#include "document/SelectionScale.h"
 #include "editor/Theme.h"
+#include "editor/clip/session/Snapping.h"
 
 #include <algorithm>
 #include <array>
@@ -13,18 +14,10 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float snapReach = 6.0f;                                // pixels
 constexpr juce::uint32 nudgePause = 700;                         // ms: presses nearer than this are one step of undo
+constexpr double spreadStep = 1.05;                              // of differences of levels, a press
 constexpr double floorAmplitude = 0.001;                         // -60 dB
 constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
-
-std::vector<double> eventTimes(const Clip& clip)
-{
-    std::vector<double> times;
-    for (const Transient& event : clip.transients)
-        times.push_back(event.time);
-    return times;
-}
 } // namespace
 
 PlotLane::PlotLane(Session& shared) : session(shared)
@@ -92,14 +85,11 @@ juce::Point<float> PlotLane::pointOf(Breakpoint p) const
             static_cast<float>(area.getY() + scale().yOf(p.value))};
 }
 
-Breakpoint PlotLane::placeAt(juce::Point<float> position, bool snap) const
+Breakpoint PlotLane::placeAt(juce::Point<float> position) const
 {
     const auto area = plotArea();
-    const double x = static_cast<double>(position.x) - area.getX();
-    double time = session.axis().timeAt(x);
-    if (const auto clip = session.clip(); snap && clip)
-        time = snapped(time, session.axis(), static_cast<double>(snapReach), eventTimes(*clip));
-    return {time, scale().valueAtY(static_cast<double>(position.y) - area.getY())};
+    return {session.axis().timeAt(static_cast<double>(position.x) - area.getX()),
+            scale().valueAtY(static_cast<double>(position.y) - area.getY())};
 }
 
 // Painting.
@@ -185,12 +175,14 @@ void PlotLane::paintHead(juce::Graphics& g)
 void PlotLane::mouseMove(const juce::MouseEvent& event)
 {
     const auto now = plotArea().contains(event.getPosition()) ? thingAt(event.position) : std::nullopt;
-    setMouseCursor(now ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
+    setMouseCursor(!plotArea().contains(event.getPosition()) ? juce::MouseCursor(juce::MouseCursor::NormalCursor)
+                   : now && !session.isDrawing()             ? juce::MouseCursor(juce::MouseCursor::PointingHandCursor)
+                                                             : cursorAt(event));
     if (!plotArea().contains(event.getPosition()) || !session.clip())
         setTooltip(getDescription());
     else
     {
-        const Breakpoint p = now ? place(*now) : placeAt(event.position, false);
+        const Breakpoint p = now ? place(*now) : placeAt(event.position);
         setTooltip(juce::String(p.time, 3) + " s, " + valueText(p.value));
     }
     if (now == hovered)
@@ -213,6 +205,11 @@ void PlotLane::mouseDown(const juce::MouseEvent& event)
     grabKeyboardFocus();
     if (!session.clip() || !plotArea().contains(event.getPosition()))
         return;
+    if (!event.mods.isPopupMenu() && beginTool(event))
+    {
+        drag = Drag::tool;
+        return;
+    }
     const auto thing = thingAt(event.position);
     const bool more = event.mods.isShiftDown() || event.mods.isCommandDown();
     if (!thing)
@@ -240,6 +237,8 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
 {
     if (drag == Drag::marquee && onMarquee)
         onMarquee(*this, event, false);
+    if (drag == Drag::tool)
+        dragTool(event);
     if (drag != Drag::things || !event.mouseWasDraggedSinceMouseDown() || pacini::isEmpty(dragged))
         return;
     const auto start = session.gestureStart(gesture);
@@ -250,7 +249,12 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
     auto offset = event.getOffsetFromDragStart().toFloat();
     if (event.mods.isShiftDown())
         (std::abs(offset.x) >= std::abs(offset.y) ? offset.y : offset.x) = 0.0f;
-    Breakpoint target = placeAt(begin + offset, !event.mods.isAltDown());
+    Breakpoint target = placeAt(begin + offset);
+    Snapping snapping;
+    snapping.clip = start.get();
+    snapping.moving = &dragged;
+    if (!event.mods.isAltDown())
+        target.time = snapTime(session, target.time, snapping);
     if (offset.y == 0.0f)
         target.value = grabbed.value;
     if (offset.x == 0.0f)
@@ -265,33 +269,66 @@ void PlotLane::mouseUp(const juce::MouseEvent& event)
 {
     if (drag == Drag::marquee && onMarquee)
         onMarquee(*this, event, true);
+    if (drag == Drag::tool)
+        endTool();
     drag = Drag::none;
 }
 
 void PlotLane::mouseDoubleClick(const juce::MouseEvent& event)
 {
     const auto clip = session.clip();
-    if (!clip || !plotArea().contains(event.getPosition()) || thingAt(event.position))
+    if (!clip || session.isDrawing() || !plotArea().contains(event.getPosition()) || thingAt(event.position))
         return;
-    session.setEdited("Add point", added(*clip, placeAt(event.position, false)));
+    session.setEdited("Add point", added(*clip, placeAt(event.position)));
 }
 
 // Keys.
 
-void PlotLane::nudge(double pixels, double steps)
+/// Presses that follow each other quickly are one gesture; false when nothing is picked.
+bool PlotLane::beginNudge(bool scaling)
 {
     const Indices things = picked();
     if (!session.clip() || things.empty())
-        return;
+        return false;
     const auto now = juce::Time::getMillisecondCounter();
-    if (nudging == 0 || now - lastNudge > nudgePause || nudged != session.selected())
+    if (nudging == 0 || scaling != nudgeScales || now - lastNudge > nudgePause || nudged != session.selected())
     {
         nudging = session.beginGesture();
         dragged = session.selected();
         grabbed = place(things.front());
         nudgedPixels = nudgedSteps = 0.0;
     }
+    nudgeScales = scaling;
     lastNudge = now;
+    return true;
+}
+
+void PlotLane::scaleByKeys(double pixels, double steps)
+{
+    if (!beginNudge(true))
+        return;
+    nudgedPixels += pixels;
+    nudgedSteps += steps;
+    const auto start = session.gestureStart(nudging);
+    const auto range = timeOf(dragged, *start);
+    if (!range)
+        return;
+    const double length = range->to - range->from;
+    SelectionScale wanted;
+    wanted.pivot = range->from;
+    if (length > 0.0)
+        wanted.timeFactor = std::max(0.01, 1.0 + nudgedPixels * session.axis().secondsPerPixel / length);
+    wanted.spread = std::pow(spreadStep, nudgedSteps);
+    session.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
+    nudged = session.selected();
+    say(juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0) +
+        (steps != 0.0 ? " % of the differences" : " % of the time"));
+}
+
+void PlotLane::nudge(double pixels, double steps)
+{
+    if (!beginNudge(false))
+        return;
     nudgedPixels += pixels;
     nudgedSteps += steps;
     const auto start = session.gestureStart(nudging);
@@ -343,9 +380,19 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
     const auto modifiers = key.getModifiers();
     const double amount = modifiers.isShiftDown() ? 10.0 : 1.0;
     const int code = key.getKeyCode();
-    if (modifiers.isCommandDown() || modifiers.isAltDown())
-        return false;
     const bool any = !picked().empty();
+    if (modifiers.isCommandDown() || (modifiers.isAltDown() && !any))
+        return false;
+    if (modifiers.isAltDown())
+    {
+        if (code == K::leftKey || code == K::rightKey)
+            scaleByKeys(code == K::leftKey ? -amount : amount, 0.0);
+        else if (code == K::upKey || code == K::downKey)
+            scaleByKeys(0.0, code == K::upKey ? amount : -amount);
+        else
+            return false;
+        return true;
+    }
     if (code == ',' || code == '.')
         step(code == '.' ? 1 : -1);
     else if (any && (code == K::leftKey || code == K::rightKey))

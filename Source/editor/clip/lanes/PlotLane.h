@@ -70,11 +70,21 @@ protected:
     /// What to redraw for.
     [[nodiscard]] virtual bool concerns(unsigned changes) const;
     virtual void follow(unsigned) {}
+    /// A drag that is for a tool and not for things; false: there is none for it.
+    virtual bool beginTool(const juce::MouseEvent&) { return false; }
+    virtual void dragTool(const juce::MouseEvent&) {}
+    virtual void endTool() {}
+    /// Of a pointer that is over the plot and over nothing in it.
+    [[nodiscard]] virtual juce::MouseCursor cursorAt(const juce::MouseEvent&) const
+    {
+        return juce::MouseCursor::NormalCursor;
+    }
 
+    void say(const juce::String& text);
     [[nodiscard]] const ValueAxis& scale() const;
     void forgetScale() { scaleNow.reset(); }
     [[nodiscard]] juce::Point<float> pointOf(Breakpoint p) const;
-    [[nodiscard]] Breakpoint placeAt(juce::Point<float> position, bool snap) const;
+    [[nodiscard]] Breakpoint placeAt(juce::Point<float> position) const;
     [[nodiscard]] static ValueAxis amplitudeAxis(bool decibels, double highest, double height);
     [[nodiscard]] static SelectionMove amplitudeMove(double from, double to);
 
@@ -84,15 +94,17 @@ private:
     void sessionChanged(unsigned changes) final;
     void paintHead(juce::Graphics& g);
     void nudge(double pixels, double steps);
+    void scaleByKeys(double pixels, double steps);
+    bool beginNudge(bool scaling);
     void step(int direction);
-    void say(const juce::String& text);
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
 
     enum class Drag
     {
         none,
         things,
-        marquee
+        marquee,
+        tool
     };
     mutable std::optional<ValueAxis> scaleNow;
     Drag drag = Drag::none;
@@ -101,6 +113,7 @@ private:
     Breakpoint grabbed;
     Gesture nudging = 0; ///< by keys
     Selection nudged;    ///< where the last one has brought it
+    bool nudgeScales = false;
     double nudgedPixels = 0.0, nudgedSteps = 0.0;
     juce::uint32 lastNudge = 0;
     std::optional<std::size_t> hovered;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/TimeRuler.h"
 
+#include "document/view/TimeTicks.h"
 #include "editor/Theme.h"
 #include "editor/clip/lanes/PlotLane.h"
+#include "editor/clip/session/Snapping.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pacini::editor
@@ -13,26 +14,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr double leastTickDistance = 90.0; // pixels between two times
-
-/// A round number of seconds for the distance of ticks.
-double tickStep(double secondsPerPixel)
-{
-    const double least = secondsPerPixel * leastTickDistance;
-    constexpr std::array<double, 6> minutes{60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0};
-    if (least > 30.0)
-    {
-        for (double step : minutes)
-            if (step >= least)
-                return step;
-        return 3600.0 * std::ceil(least / 3600.0);
-    }
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
-    for (double factor : {1.0, 2.0, 5.0})
-        if (factor * power >= least * 0.999)
-            return factor * power;
-    return least > 20.0 && 10.0 * power >= 60.0 ? 60.0 : 10.0 * power;
-}
+constexpr float edgeReach = 6.0f; // pixels
 
 juce::String timeText(double time, double step)
 {
@@ -53,7 +35,8 @@ TimeRuler::TimeRuler(Session& shared) : session(shared)
 {
     setOpaque(true);
     setTitle("Time ruler");
-    setTooltip("Click: playhead. Drag: time range for loops and edits. Double-click: no range");
+    setTooltip("Click: playhead. Drag: time range for loops and edits, or an end of it; Alt: no snapping. "
+               "Double-click: no range");
     session.listeners.add(this);
 }
 
@@ -101,18 +84,43 @@ void TimeRuler::paint(juce::Graphics& g)
         const float x = xOf(time);
         g.setColour(p.line);
         g.fillRect(x, 4.0f, 1.0f, static_cast<float>(plot.getHeight() - 4));
-        for (int k = 1; k < 5; ++k)
-            g.fillRect(xOf(time + k * step / 5.0), static_cast<float>(plot.getBottom() - 5), 1.0f, 5.0f);
+        for (int k = 1; k < partsOfTick; ++k)
+            g.fillRect(xOf(time + k * step / partsOfTick), static_cast<float>(plot.getBottom() - 5), 1.0f, 5.0f);
         g.setColour(p.dim);
         g.drawText(timeText(time, step), juce::roundToInt(x) + 4, 0, 80, plot.getHeight() - 5,
                    juce::Justification::centredLeft, false);
     }
 }
 
+/// The end of the time range that stays when the one at x is dragged.
+std::optional<double> TimeRuler::otherEdge(float x) const
+{
+    const auto& range = session.timeRange();
+    if (!range)
+        return std::nullopt;
+    const auto distance = [&](double time)
+    {
+        return std::abs(x - static_cast<float>(laneHeadWidth + session.axis().xOf(time)));
+    };
+    const float toFrom = distance(range->from);
+    const float toEnd = distance(range->to);
+    if (std::min(toFrom, toEnd) > edgeReach)
+        return std::nullopt;
+    return toFrom < toEnd ? range->to : range->from;
+}
+
+void TimeRuler::mouseMove(const juce::MouseEvent& event)
+{
+    setMouseCursor(otherEdge(event.position.x) ? juce::MouseCursor::LeftRightResizeCursor
+                                               : juce::MouseCursor::NormalCursor);
+}
+
 void TimeRuler::mouseDown(const juce::MouseEvent& event)
 {
-    anchor = timeAt(event.position.x);
-    if (event.getNumberOfClicks() == 1)
+    const auto fixed = otherEdge(event.position.x);
+    anchorIsEdge = fixed.has_value();
+    anchor = fixed.value_or(timeAt(event.position.x));
+    if (event.getNumberOfClicks() == 1 && !anchorIsEdge)
         session.setPlayhead(anchor);
 }
 
@@ -120,8 +128,17 @@ void TimeRuler::mouseDrag(const juce::MouseEvent& event)
 {
     if (!event.mouseWasDraggedSinceMouseDown())
         return;
-    const double now = timeAt(event.position.x);
-    session.setTimeRange(TimeRange{std::min(anchor, now), std::max(anchor, now)});
+    Snapping snapping;
+    // A press has put the playhead where the range begins: it must not hold the other end there.
+    snapping.playhead = anchorIsEdge;
+    const bool freely = event.mods.isAltDown();
+    const auto placed = [&](double time)
+    {
+        return freely ? time : snapTime(session, time, snapping);
+    };
+    const double from = anchorIsEdge ? anchor : placed(anchor);
+    const double now = placed(timeAt(event.position.x));
+    session.setTimeRange(TimeRange{std::min(from, now), std::max(from, now)});
 }
 
 void TimeRuler::mouseDoubleClick(const juce::MouseEvent&)

@@ -5,10 +5,12 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <optional>
+
 namespace pacini::editor
 {
 
-/// Times. A click puts the playhead there, a drag selects a range.
+/// Times. A click puts the playhead there, a drag selects a range or moves an end of it.
 class TimeRuler final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
 {
 public:
@@ -16,6 +18,7 @@ public:
     ~TimeRuler() override;
 
     void paint(juce::Graphics& g) override;
+    void mouseMove(const juce::MouseEvent& event) override;
     void mouseDown(const juce::MouseEvent& event) override;
     void mouseDrag(const juce::MouseEvent& event) override;
     void mouseDoubleClick(const juce::MouseEvent& event) override;
@@ -25,7 +28,10 @@ private:
     [[nodiscard]] double timeAt(float x) const;
 
     Session& session;
-    double anchor = 0.0; // s, where a drag began
+    [[nodiscard]] std::optional<double> otherEdge(float x) const;
+
+    double anchor = 0.0; // s, where a drag began, or the end of the range that stays
+    bool anchorIsEdge = false;
 };
 
 } // namespace pacini::editor

@@ -99,6 +99,9 @@ void Session::take(Document document)
     again.reset();
     ++generation;
     *open = std::move(document);
+    preview = nullptr;
+    comparing = false;
+    versions.clear();
     sounds.clear();
     missing.clear();
     active = 0;
@@ -183,6 +186,10 @@ std::vector<Recoverable> Session::recoverable() const
 
 std::shared_ptr<const Clip> Session::clip() const
 {
+    if (preview)
+        return preview;
+    if (comparing)
+        return keptVersion();
     const auto shown = item();
     return shown ? shown->clip : nullptr;
 }
@@ -210,6 +217,7 @@ void Session::show(int clipId)
     if (clipId != active)
     {
         player.stop();
+        comparing = false;
         active = clipId;
         selectionNow = {};
         rangeNow.reset();
@@ -227,6 +235,8 @@ void Session::show(int clipId)
 /// After any change of the document.
 void Session::follow()
 {
+    std::erase_if(versions, [this](const auto& kept) { return !open->clip(kept.first); });
+    comparing = comparing && keptVersion() != nullptr;
     if (!item() && !isEmpty() && !unanalysed)
         active = open->project().clips.front()->id;
     if (const auto now = clip())

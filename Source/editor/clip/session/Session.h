@@ -5,8 +5,10 @@
 
 #include "document/Autosave.h"
 #include "document/Document.h"
+#include "document/Paste.h"
 #include "document/RecentFiles.h"
 #include "document/SelectionEdits.h"
+#include "document/view/Snap.h"
 #include "document/view/TimeAxis.h"
 #include "editor/clip/session/Importer.h"
 #include "editor/clip/session/Jobs.h"
@@ -161,6 +163,22 @@ public:
     /// Keeps a copy of a sound inside the project, or no longer.
     void keepSound(int sourceId, bool wanted);
 
+    // What is shown and heard in place of the clip; the document stays as it is, and undo does not know of it.
+
+    /// What an edit would make of the clip, until null. Selection and view are as before then.
+    void setPreview(std::shared_ptr<const Clip> wanted);
+    [[nodiscard]] bool isPreviewing() const noexcept { return preview != nullptr; }
+
+    /// Keeps the clip as it is now to compare it with what it becomes.
+    void keepVersion();
+    /// Null when none was kept of the clip that is shown.
+    [[nodiscard]] std::shared_ptr<const Clip> keptVersion() const;
+    /// The kept version is shown and heard, which cannot be edited, or the clip again; playing goes on.
+    void setComparing(bool wanted);
+    [[nodiscard]] bool isComparing() const noexcept { return comparing; }
+    /// The clip becomes what was kept.
+    void takeKeptVersion();
+
     // Edits. What fails is told by onError and changes nothing.
 
     [[nodiscard]] Gesture beginGesture() noexcept { return open->beginGesture(); }
@@ -175,12 +193,18 @@ public:
     bool change(const std::function<Result<void>(Document&)>& step);
     void duplicate();
     void removeClip();
+    /// Two clips of one, at the playhead.
+    void split();
+    [[nodiscard]] bool canSplit() const;
+    /// The next clip of the project is put behind this one.
+    void joinNext();
+    [[nodiscard]] int nextClipId() const; ///< 0: none
 
     void deleteSelection();
     void copy();
     void cut();
-    /// At the playhead.
-    void paste();
+    /// At the playhead; a single lane that was copied goes into `into`.
+    void paste(const std::optional<Lane>& into = {});
     [[nodiscard]] bool canPaste() const noexcept { return clipboard.has_value(); }
     /// The scope of edits of a stretch, see scopeOf().
     [[nodiscard]] EditScope scope() const;
@@ -201,6 +225,12 @@ public:
     void setAmplitudesInDecibels(bool wanted);
     [[nodiscard]] int laneHeight() const noexcept { return laneSize; } ///< pixels of a band
     void setLaneHeight(int wanted);
+
+    /// Whether a drag in a lane draws a curve.
+    [[nodiscard]] bool isDrawing() const noexcept { return drawing; }
+    void setDrawing(bool wanted);
+    [[nodiscard]] const SnapTargets& snapTargets() const noexcept { return snapNow; }
+    void setSnapTargets(const SnapTargets& wanted);
 
     // Playback.
 
@@ -247,6 +277,9 @@ private:
     void step(bool (Document::*through)());
     void follow();
     void sendPlayback();
+    [[nodiscard]] bool showsAll() const;
+    void keepView(bool showedAll);
+    [[nodiscard]] bool mayEdit(Gesture gesture);
     void loadSound();
     void checkSounds();
     void analyseAgain(Again wanted, const std::function<Result<Imported>()>& read);
@@ -266,7 +299,14 @@ private:
     std::shared_ptr<Task> again; ///< the newest analysis of a clip that exists
     juce::String againText;
     Selection selectionNow;
-    std::optional<Fragment> clipboard;
+    std::optional<Copied> clipboard;
+    std::shared_ptr<const Clip> preview;
+    Selection beforePreview;
+    TimeAxis axisBeforePreview;
+    std::map<int, std::shared_ptr<const Clip>> versions; ///< that were kept, by id of the clip
+    bool comparing = false;
+    bool drawing = false;
+    SnapTargets snapNow;
     TimeAxis axisNow;
     double width = 800.0;
     bool decibels = true;

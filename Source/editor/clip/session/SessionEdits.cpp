@@ -13,7 +13,8 @@ std::shared_ptr<const Clip> Session::gestureStart(Gesture gesture) const
 
 bool Session::edit(const char* name, EditOperation operation, Gesture gesture)
 {
-    return change([&](Document& document) { return document.edit(active, name, std::move(operation), gesture); });
+    return mayEdit(gesture) &&
+           change([&](Document& document) { return document.edit(active, name, std::move(operation), gesture); });
 }
 
 bool Session::setClip(const char* name, Clip edited, Gesture gesture)
@@ -23,7 +24,7 @@ bool Session::setClip(const char* name, Clip edited, Gesture gesture)
 
 bool Session::setEdited(const char* name, EditedClip edited, Gesture gesture)
 {
-    const bool done = take(open->setClip(active, name, std::move(edited.clip), gesture));
+    const bool done = mayEdit(gesture) && take(open->setClip(active, name, std::move(edited.clip), gesture));
     if (done)
     {
         selectionNow = std::move(edited.selection);
@@ -46,22 +47,25 @@ void Session::redo()
 void Session::step(bool (Document::*through)())
 {
     const auto before = profileName();
+    const bool all = showsAll();
+    setComparing(false);
     if (!(open.get()->*through)())
         return;
     if (before != profileName())
         player.setProfile(profile());
     follow();
     loadSound();
-    setAxis(axisNow);
+    keepView(all);
     changed(project | content | selection | playback | sound);
 }
 
 bool Session::change(const std::function<Result<void>(Document&)>& step)
 {
+    const bool all = showsAll();
     if (!take(step(*open)))
         return false;
     follow();
-    setAxis(axisNow);
+    keepView(all);
     changed(project | content | selection);
     return true;
 }
@@ -97,7 +101,7 @@ EditScope Session::scope() const
 void Session::copy()
 {
     if (const auto now = clip())
-        clipboard = copyFragment(*now, scope());
+        clipboard = copyOf(*now, scope());
     changed(selection); // paste may have become possible
 }
 
@@ -115,15 +119,54 @@ void Session::cut()
     }
 }
 
-void Session::paste()
+void Session::paste(const std::optional<Lane>& into)
 {
     const auto now = clip();
     if (!now || !clipboard)
         return;
-    auto pasted = pasteFragment(*now, *clipboard, playhead());
+    auto pasted = pasteInto(*now, *clipboard, playhead(), into);
     if (!pasted)
         return report("Not pasted", pasted.error());
-    setEdited("Paste", {std::move(pasted).value(), {}});
+    if (rangeNow)
+        pasted->selection = {}; // what follows is for the time range
+    const auto leftOut = static_cast<int>(pasted->leftOut);
+    if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && onError)
+        onError("Pasted with gaps",
+                "This clip has no band near " + juce::String(leftOut) + " of the lanes that were copied.");
+}
+
+bool Session::canSplit() const
+{
+    const auto now = clip();
+    return now && playhead() > 0.0 && playhead() < now->duration;
+}
+
+void Session::split()
+{
+    const auto right = open->splitClipAt(active, playhead(), "Split");
+    if (!right)
+        return report("Not split", right.error());
+    player.stop();
+    show(active);
+}
+
+int Session::nextClipId() const
+{
+    const auto& items = open->project().clips;
+    for (std::size_t i = 0; i + 1 < items.size(); ++i)
+        if (items[i]->id == active)
+            return items[i + 1]->id;
+    return 0;
+}
+
+void Session::joinNext()
+{
+    const bool all = showsAll();
+    if (!mayEdit(0) || !take(open->joinClip(active, nextClipId(), "Join")))
+        return;
+    follow();
+    keepView(all);
+    changed(project | content | selection);
 }
 
 } // namespace pacini::editor

@@ -13,7 +13,10 @@ void Session::sendPlayback()
     wanted.haptic = hear != Heard::sound;
     if (looping && clip())
         wanted.loop = rangeNow.value_or(TimeRange{0.0, clip()->duration});
-    wanted.a = clip();
+    const auto shown = item();
+    wanted.a = preview ? preview : shown ? shown->clip : nullptr;
+    wanted.b = keptVersion();
+    wanted.take = comparing ? Take::b : Take::a;
     wanted.audition = auditionNow;
     player.set(std::move(wanted));
 }

@@ -53,6 +53,30 @@ void Session::showRange(TimeRange wanted)
         setAxis(TimeAxis::showing(wanted, width));
 }
 
+bool Session::showsAll() const
+{
+    const auto now = clip();
+    return now && axisNow.secondsPerPixel * width >= now->duration;
+}
+
+/// After the clip may have become longer or shorter.
+void Session::keepView(bool showedAll)
+{
+    showedAll ? fit() : setAxis(axisNow);
+}
+
+void Session::setDrawing(bool wanted)
+{
+    drawing = wanted;
+    changed(look);
+}
+
+void Session::setSnapTargets(const SnapTargets& wanted)
+{
+    snapNow = wanted;
+    changed(look);
+}
+
 void Session::setAmplitudesInDecibels(bool wanted)
 {
     decibels = wanted;

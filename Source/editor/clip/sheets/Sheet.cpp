@@ -35,8 +35,9 @@ void Sheet::takeFocus()
 
 juce::Rectangle<int> Sheet::panel() const
 {
-    return getLocalBounds().withSizeKeepingCentre(std::min(wantedWidth, getWidth() - 2 * grid),
-                                                  std::min(wantedHeight, getHeight() - 2 * grid));
+    const auto area = getLocalBounds().withSizeKeepingCentre(std::min(wantedWidth, getWidth() - 2 * grid),
+                                                             std::min(wantedHeight, getHeight() - 2 * grid));
+    return aside ? area.withPosition(getWidth() - grid - area.getWidth(), getHeight() - grid - area.getHeight()) : area;
 }
 
 juce::Rectangle<int> Sheet::inside() const
@@ -48,11 +49,12 @@ juce::Rectangle<int> Sheet::inside() const
 void Sheet::paint(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
-    g.fillAll(juce::Colours::black.withAlpha(0.45f));
+    if (!aside)
+        g.fillAll(juce::Colours::black.withAlpha(0.45f));
     const auto area = panel();
     g.setColour(p.card);
     g.fillRoundedRectangle(area.toFloat(), 8.0f);
-    g.setColour(p.line);
+    g.setColour(aside ? p.accent : p.line);
     g.drawRoundedRectangle(area.toFloat().reduced(0.5f), 8.0f, 1.0f);
     g.setColour(p.text);
     g.setFont(titleFont());
@@ -99,6 +101,13 @@ void Sheet::setAnswerEnabled(bool enabled)
 {
     if (!buttons.empty())
         buttons.front()->setEnabled(enabled);
+}
+
+void Sheet::standAside()
+{
+    aside = true;
+    resized();
+    repaint();
 }
 
 void Sheet::close()

@@ -46,11 +46,14 @@ protected:
     /// Whether the usual answer may be given now.
     void setAnswerEnabled(bool enabled);
     void close();
+    /// It stands at the right below and darkens nothing: what it changes is seen behind it.
+    void standAside();
 
 private:
     [[nodiscard]] juce::Rectangle<int> panel() const;
 
     int wantedWidth, wantedHeight;
+    bool aside = false;
     std::vector<Answer> choices;
     std::function<void()> usual;
     std::vector<std::unique_ptr<juce::TextButton>> buttons;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/MarkerEdits.h"
+#include "editor/Text.h"
+#include "editor/clip/EditorView.h"
+#include "editor/clip/commands/Action.h"
+#include "editor/clip/session/Snapping.h"
+#include "editor/clip/sheets/NameSheet.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+namespace
+{
+/// The marker that the playhead stands on.
+std::optional<std::size_t> markerHere(const Session& session)
+{
+    const auto clip = session.clip();
+    return clip ? markerNear(clip->markers, session.playhead(), snapReach * session.axis().secondsPerPixel)
+                : std::nullopt;
+}
+
+void setMarkers(Session& session, const char* name, std::vector<Marker> markers)
+{
+    session.edit(name, MarkersEdit{std::move(markers)});
+}
+
+void addHere(Session& session)
+{
+    const auto clip = session.clip();
+    const double here = std::clamp(session.playhead(), 0.0, clip->duration);
+    setMarkers(session, "Add marker", withMarker(clip->markers, {here, freeMarkerName(clip->markers)}));
+}
+
+void rename(EditorView& view)
+{
+    Session& session = view.session();
+    const auto index = *markerHere(session);
+    const std::string now = session.clip()->markers[index].name;
+    view.showSheet(std::make_unique<NameSheet>("Rename marker", "Name", toText(now),
+                                               [&session, index](const juce::String& name)
+                                               {
+                                                   const auto clip = session.clip();
+                                                   setMarkers(session, "Rename marker",
+                                                              renamedMarker(clip->markers, index, name.toStdString()));
+                                               }));
+}
+
+void go(Session& session, const std::optional<double>& time)
+{
+    if (time)
+        session.setPlayhead(*time);
+}
+} // namespace
+
+Menu markerMenu(EditorView& view)
+{
+    Session& session = view.session();
+    const auto onMarker = [&session]
+    {
+        return markerHere(session).has_value();
+    };
+    const auto anyMarker = [&session]
+    {
+        return session.clip() && !session.clip()->markers.empty();
+    };
+    using Key = juce::KeyPress;
+    return {
+        "Marker",
+        {
+            {.id = addMarker,
+             .name = "Add marker",
+             .help = "Adds a marker at the playhead, also while playing",
+             .run = [&session] { addHere(session); },
+             .can = [&session] { return session.clip() != nullptr; },
+             .keys = {Key('m')}},
+            {.id = renameMarker,
+             .name = "Rename marker...",
+             .help = "Another name for the marker at the playhead",
+             .run = [&view] { rename(view); },
+             .can = onMarker,
+             .keys = {Key(Key::F2Key)}},
+            {.id = deleteMarker,
+             .name = "Delete marker",
+             .help = "Removes the marker at the playhead",
+             .run = [&session]
+             { setMarkers(session, "Delete marker", withoutMarker(session.clip()->markers, *markerHere(session))); },
+             .can = onMarker,
+             .keys = {Key('m', juce::ModifierKeys::shiftModifier, 0)}},
+            {.id = nextMarker,
+             .name = "Next marker",
+             .help = "Brings the playhead to the next marker",
+             .run = [&session] { go(session, markerAfter(session.clip()->markers, session.playhead())); },
+             .can = anyMarker,
+             .keys = {ctrlShift(Key::rightKey)},
+             .lineBefore = true},
+            {.id = markerBack,
+             .name = "Previous marker",
+             .help = "Brings the playhead to the marker before it",
+             .run = [&session] { go(session, markerBefore(session.clip()->markers, session.playhead())); },
+             .can = anyMarker,
+             .keys = {ctrlShift(Key::leftKey)}},
+        }};
+}
+
+} // namespace pacini::editor

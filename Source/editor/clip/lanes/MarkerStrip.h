@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "editor/clip/commands/Command.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace pacini::editor
+{
+
+/// The markers of the clip with their names, below the ruler. A click brings the playhead there, a drag moves one.
+class MarkerStrip final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+{
+public:
+    static constexpr int height = 20; ///< pixels
+
+    explicit MarkerStrip(Session& shared);
+    ~MarkerStrip() override;
+
+    /// For the marker at the playhead.
+    std::function<void(Command)> onCommand;
+
+    void paint(juce::Graphics& g) override;
+    void mouseMove(const juce::MouseEvent& event) override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    void mouseDrag(const juce::MouseEvent& event) override;
+    void mouseUp(const juce::MouseEvent& event) override;
+    void mouseDoubleClick(const juce::MouseEvent& event) override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    [[nodiscard]] std::optional<std::size_t> markerAt(juce::Point<float> place) const;
+    void ask(Command command);
+
+    Session& session;
+    std::optional<std::size_t> dragged; ///< of the clip that the gesture began with
+    Gesture gesture = 0;
+    double grabbed = 0.0; ///< s, of the marker when it was
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <optional>
+
+namespace pacini::editor
+{
+
+/// The time of what is selected as a bar in the ruler, whose ends can be dragged: everything selected, in all lanes, is
+/// stretched about the other end. Lets the mouse through elsewhere.
+class SelectionBar final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+{
+public:
+    static constexpr int height = 10; ///< pixels
+
+    explicit SelectionBar(Session& shared);
+    ~SelectionBar() override;
+
+    void paint(juce::Graphics& g) override;
+    bool hitTest(int x, int y) override;
+    void mouseDown(const juce::MouseEvent& event) override;
+    void mouseDrag(const juce::MouseEvent& event) override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    [[nodiscard]] float xOf(double time) const;
+
+    Session& session;
+    std::optional<TimeRange> range; ///< of the selection, where it has a length
+    Selection grabbed;
+    TimeRange before; ///< when a drag began
+    bool dragsEnd = false;
+    Gesture gesture = 0;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a dragged point, transient, marker or edge sticks to.
+
+#include "editor/clip/session/Session.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace pacini::editor
+{
+
+inline constexpr double snapReach = 8.0; ///< pixels
+
+/// What moves must not stick to itself.
+struct Snapping
+{
+    const Clip* clip = nullptr;        ///< where transients and markers are looked for; null: the one that is shown
+    const Selection* moving = nullptr; ///< of that clip
+    std::optional<std::size_t> marker = {}; ///< that moves
+    bool playhead = true;                   ///< whether it counts where it is switched on
+};
+
+/// The time that is meant by `time`, by what is switched on for the session.
+[[nodiscard]] double snapTime(const Session& session, double time, const Snapping& snapping = {});
+
+} // namespace pacini::editor

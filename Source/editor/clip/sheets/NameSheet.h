@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "editor/clip/sheets/Sheet.h"
+
+#include <functional>
+
+namespace pacini::editor
+{
+
+/// Asks for a name. An empty one is not taken.
+class NameSheet final : public Sheet
+{
+public:
+    NameSheet(const juce::String& title, const juce::String& label, const juce::String& name,
+              std::function<void(const juce::String&)> named);
+
+private:
+    void layOut(juce::Rectangle<int> area) override;
+    juce::Component* firstFocus() override { return &field; }
+    void take();
+
+    juce::TextEditor field;
+    std::function<void(const juce::String&)> onNamed;
+};
+
+} // namespace pacini::editor

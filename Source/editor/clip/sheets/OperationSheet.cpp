@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/sheets/OperationSheet.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int sheetWidth = 56 * grid;
+constexpr int rowHeight = 4 * grid;
+constexpr int textHeight = 3 * grid;
+constexpr int around = 14 * grid; // title, answers and margins
+constexpr int labelWidth = 11 * grid;
+constexpr int numberWidth = 10 * grid;
+constexpr int unitWidth = 14 * grid;
+constexpr std::size_t quickPoints = 20000; // of an edit on the message thread
+
+juce::String numberText(double value, int decimals)
+{
+    return decimals > 0 ? juce::String(value, decimals) : juce::String(juce::roundToInt(value));
+}
+} // namespace
+
+/// A name, a slider, a number and its unit with the range; or a name and choices.
+class OperationSheet::Row final : public juce::Component, private juce::KeyListener
+{
+public:
+    Row(const OperationField& of, double first) : field(of)
+    {
+        name.setText(field.name, juce::dontSendNotification);
+        name.setFont(usualFont());
+        name.setAccessible(false);
+        addAndMakeVisible(name);
+        if (!field.choices.empty())
+        {
+            choice.setTitle(field.name);
+            choice.setTooltip(field.help);
+            choice.addKeyListener(this);
+            for (std::size_t i = 0; i < field.choices.size(); ++i)
+                choice.addItem(toText(field.choices[i]), 1 + static_cast<int>(i));
+            choice.setSelectedId(1 + juce::roundToInt(first), juce::dontSendNotification);
+            choice.onChange = [this]
+            {
+                changed();
+            };
+            addAndMakeVisible(choice);
+            return;
+        }
+        unit.setText(toText(field.unit) + ", " + numberText(field.low, shortDecimals(field.low)) + " to " +
+                         numberText(field.high, shortDecimals(field.high)),
+                     juce::dontSendNotification);
+        unit.setFont(smallFont());
+        unit.setMinimumHorizontalScale(0.7f);
+        unit.setAccessible(false);
+        addAndMakeVisible(unit);
+        slider.setSliderStyle(juce::Slider::LinearHorizontal);
+        slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+        slider.setRange(field.low, field.high, std::pow(10.0, -field.decimals));
+        slider.setValue(first, juce::dontSendNotification);
+        slider.setTitle(juce::String(field.name) + " slider");
+        slider.setTooltip(field.help);
+        slider.setWantsKeyboardFocus(false);
+        slider.onValueChange = [this]
+        {
+            number.setText(numberText(slider.getValue(), field.decimals), false);
+            changed();
+        };
+        addAndMakeVisible(slider);
+        number.setTitle(juce::String(field.name) + ", " + toText(field.unit));
+        number.setTooltip(field.help);
+        number.setFont(usualFont());
+        number.setIndents(grid, 7);
+        number.setSelectAllWhenFocused(true);
+        number.setText(numberText(first, field.decimals), false);
+        number.addKeyListener(this);
+        number.onTextChange = [this]
+        {
+            slider.setValue(value(), juce::dontSendNotification);
+            changed();
+        };
+        number.onReturnKey = [this]
+        {
+            onReturn();
+        };
+        number.onEscapeKey = [this]
+        {
+            onEscape();
+        };
+        addAndMakeVisible(number);
+    }
+
+    std::function<void()> onChange, onReturn, onEscape, onSpace;
+
+    [[nodiscard]] double value() const
+    {
+        if (!field.choices.empty())
+            return choice.getSelectedId() - 1.0;
+        const double typed = number.getText().replaceCharacter(',', '.').getDoubleValue();
+        return std::isfinite(typed) ? std::clamp(typed, field.low, field.high) : field.value;
+    }
+
+    void set(double wanted)
+    {
+        if (!field.choices.empty())
+            return choice.setSelectedId(1 + juce::roundToInt(wanted), juce::dontSendNotification);
+        number.setText(numberText(wanted, field.decimals), false);
+        slider.setValue(value(), juce::dontSendNotification);
+    }
+
+    [[nodiscard]] juce::Component& input()
+    {
+        return field.choices.empty() ? static_cast<juce::Component&>(number) : choice;
+    }
+
+    const OperationField field;
+
+private:
+    void changed()
+    {
+        if (onChange)
+            onChange();
+    }
+
+    [[nodiscard]] int shortDecimals(double limit) const { return limit == std::round(limit) ? 0 : field.decimals; }
+
+    bool keyPressed(const juce::KeyPress& key, juce::Component*) override
+    {
+        using K = juce::KeyPress;
+        if (key.getKeyCode() == K::spaceKey)
+            onSpace();
+        else if (!field.choices.empty() && key.getKeyCode() == K::returnKey)
+            onReturn(); // not the list
+        else if (field.choices.empty() && (key.getKeyCode() == K::upKey || key.getKeyCode() == K::downKey))
+        {
+            const double step = std::max(slider.getInterval(), (field.high - field.low) / 100.0);
+            slider.setValue(slider.getValue() + (key.getKeyCode() == K::upKey ? step : -step),
+                            juce::sendNotificationSync);
+        }
+        else
+            return false;
+        return true;
+    }
+
+    void resized() override
+    {
+        auto area = getLocalBounds();
+        name.setBounds(area.removeFromLeft(labelWidth));
+        if (!field.choices.empty())
+            return choice.setBounds(area);
+        unit.setBounds(area.removeFromRight(unitWidth).withTrimmedLeft(grid / 2));
+        number.setBounds(area.removeFromRight(numberWidth));
+        area.removeFromRight(grid);
+        slider.setBounds(area);
+        number.applyColourToAllText(paletteFor(*this).text);
+    }
+
+    juce::Label name, unit;
+    juce::Slider slider;
+    juce::TextEditor number;
+    juce::ComboBox choice;
+};
+
+OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_ptr<OperationValues> last)
+    : Sheet(wanted.name, sheetWidth,
+            around + 2 * textHeight + static_cast<int>(wanted.fields.size()) * (rowHeight + grid)),
+      view(shown),
+      session(shown.session()),
+      operation(std::move(wanted)),
+      remembered(std::move(last)),
+      start(session.item()->clip)
+{
+    session.setComparing(false);
+    for (const OperationField& field : operation.fields)
+        now.push_back(field.value);
+    if (remembered && remembered->size() == now.size())
+        for (std::size_t i = 0; i < now.size(); ++i)
+            now[i] = std::clamp((*remembered)[i], operation.fields[i].low,
+                                operation.fields[i].choices.empty()
+                                    ? operation.fields[i].high
+                                    : static_cast<double>(operation.fields[i].choices.size()) - 1.0);
+    for (juce::Label* label : {&scopeLabel, &problem})
+    {
+        label->setFont(smallFont());
+        addAndMakeVisible(label);
+    }
+    scopeLabel.setText(scopeText(), juce::dontSendNotification);
+    for (std::size_t i = 0; i < operation.fields.size(); ++i)
+    {
+        auto row = std::make_unique<Row>(operation.fields[i], now[i]);
+        row->onChange = [this]
+        {
+            valueChanged();
+        };
+        row->onReturn = [this]
+        {
+            apply();
+        };
+        row->onEscape = [this]
+        {
+            close();
+        };
+        row->onSpace = [this]
+        {
+            view.doCommand(playOrPause);
+        };
+        addAndMakeVisible(*row);
+        rows.push_back(std::move(row));
+    }
+    setAnswers({{"Apply", {}}, {"Cancel", {}}});
+    setUsualAnswer([this] { apply(); });
+    standAside();
+    valueChanged();
+}
+
+OperationSheet::~OperationSheet()
+{
+    session.setPreview(nullptr);
+}
+
+juce::Component* OperationSheet::firstFocus()
+{
+    for (const auto& row : rows)
+        if (row->isEnabled())
+            return &row->input();
+    return nullptr;
+}
+
+juce::String OperationSheet::scopeText() const
+{
+    if (operation.wholeClip)
+        return "For the whole clip";
+    const EditScope scope = session.scope();
+    const auto times = juce::String(scope.range.from, 3) + " to " + juce::String(scope.range.to, 3) + " s";
+    if (!scope.allLanes)
+        return "For what is selected: " + times;
+    return session.timeRange() ? "For the time range, all lanes: " + times
+                               : juce::String("For the whole clip, all lanes");
+}
+
+void OperationSheet::setValue(std::size_t field, double value)
+{
+    rows[field]->set(value);
+    valueChanged();
+}
+
+void OperationSheet::valueChanged()
+{
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        now[i] = rows[i]->value();
+    for (const auto& row : rows)
+        row->setEnabled(!row->field.counts || row->field.counts(now));
+    preview();
+}
+
+void OperationSheet::preview()
+{
+    const EditOperation wanted = operation.make(now);
+    std::size_t points = breakpointCount(*start);
+    if (const auto* repeated = std::get_if<RepeatEdit>(&wanted))
+        points *= static_cast<std::size_t>(repeated->passes);
+    if (points <= quickPoints)
+        return show(applyEdit(*start, wanted));
+    again = running;
+    if (running)
+        return;
+    running = true;
+    jobs.run([from = start, wanted] { return applyEdit(*from, wanted); },
+             [this](Result<Clip> made)
+             {
+                 running = false;
+                 show(std::move(made));
+                 if (again)
+                     preview();
+             });
+}
+
+void OperationSheet::show(Result<Clip> made)
+{
+    possible = made.ok();
+    setAnswerEnabled(possible);
+    problem.setText(possible ? juce::String() : toText(made.error().text()), juce::dontSendNotification);
+    if (!possible)
+        return session.setPreview(nullptr);
+    changes = !(*made == *start);
+    session.setPreview(changes ? std::make_shared<const Clip>(std::move(made).value()) : nullptr);
+}
+
+void OperationSheet::apply()
+{
+    if (!possible)
+        return;
+    session.setPreview(nullptr);
+    if (remembered)
+        *remembered = now;
+    // An edit that fails puts its message in place of this sheet.
+    const auto wanted = operation.make(now);
+    const char* const name = operation.name;
+    const bool any = changes || running;
+    Session& target = session;
+    close();
+    if (any)
+        target.edit(name, wanted);
+}
+
+void OperationSheet::layOut(juce::Rectangle<int> area)
+{
+    const Palette& p = paletteFor(*this);
+    scopeLabel.setColour(juce::Label::textColourId, p.dim);
+    problem.setColour(juce::Label::textColourId, p.warning);
+    scopeLabel.setBounds(area.removeFromTop(textHeight));
+    for (const auto& row : rows)
+    {
+        row->setBounds(area.removeFromTop(rowHeight));
+        area.removeFromTop(grid);
+    }
+    problem.setBounds(area.removeFromTop(textHeight));
+}
+
+} // namespace pacini::editor

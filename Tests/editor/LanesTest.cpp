@@ -1,0 +1,335 @@
+// Drawing, bending, scaling, snapping and pasting in lanes, and versions that are compared.
+
+#include "editor/Bench.h"
+#include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/lanes/SelectionBar.h"
+#include "editor/clip/session/Snapping.h"
+
+#include <cmath>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+constexpr Lane envelope{LaneKind::envelope, 0};
+
+template <typename T>
+T& childOf(juce::Component& parent)
+{
+    for (auto* child : parent.getChildren())
+        if (auto* found = dynamic_cast<T*>(child))
+            return *found;
+    FAIL("no such child");
+    throw 0;
+}
+} // namespace
+
+TEST_CASE("With the pencil a drag draws the curve under the pointer with few points, in one step")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    const Clip before = bench.clip();
+    auto& row = bench.row(envelope);
+    bench.view.doCommand(editor::draw);
+    REQUIRE(bench.session.isDrawing());
+    const auto plot = row.plotArea().toFloat();
+    Mouse mouse(row);
+    const auto place = [&](int k)
+    {
+        return juce::Point<float>(plot.getX() + 100.0f + 4.0f * static_cast<float>(k),
+                                  plot.getY() + 30.0f + 15.0f * std::sin(0.1f * static_cast<float>(k)));
+    };
+    mouse.press(place(0));
+    for (int k = 1; k <= 80; ++k)
+        mouse.drag(place(k));
+    mouse.release(place(80));
+    const Clip after = bench.clip();
+    for (int k = 0; k < 80; ++k)
+    {
+        const double time = bench.session.axis().timeAt(100.0 + 4.0 * k);
+        const float y = placeOf(row, bench.session, {time, valueAt(after.envelope, time)}).y;
+        CHECK(std::abs(y - place(k).y) < 1.6f);
+    }
+    std::size_t drawn = 0;
+    const double from = bench.session.axis().timeAt(100.0);
+    const double to = bench.session.axis().timeAt(420.0);
+    for (const Breakpoint& p : after.envelope)
+        drawn += p.time >= from && p.time <= to ? 1 : 0;
+    CHECK(drawn < 40);
+    CHECK(valueAt(after.envelope, from - 0.05) == Approx(valueAt(before.envelope, from - 0.05)));
+    CHECK(bench.session.document().undoName() == "Draw");
+    bench.session.undo();
+    CHECK(bench.clip() == before);
+    bench.view.doCommand(editor::draw);
+    CHECK_FALSE(bench.session.isDrawing());
+}
+
+TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else stay")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    Clip plain = bench.clip();
+    plain.envelope = {{0.0, 0.2}, {0.5, 0.1}, {1.5, 0.3}, {plain.duration, 0.2}};
+    bench.session.setClip("Plain", plain);
+    auto& row = bench.row(envelope);
+    const auto from = placeOf(row, bench.session, {1.0, valueAt(plain.envelope, 1.0)});
+    const auto to = from + juce::Point<float>(0.0f, -15.0f);
+    Mouse(row, juce::ModifierKeys::commandModifier).dragFromTo(from, to);
+    const Clip bent = bench.clip();
+    CHECK(bent.envelope.size() > plain.envelope.size());
+    CHECK(placeOf(row, bench.session, {1.0, valueAt(bent.envelope, 1.0)}).y == Approx(to.y).margin(0.7));
+    for (const Breakpoint& p : plain.envelope)
+        CHECK(std::find(bent.envelope.begin(), bent.envelope.end(), p) != bent.envelope.end());
+    CHECK(bench.session.document().undoName() == "Bend line");
+    bench.session.undo();
+    CHECK(bench.clip() == plain);
+    // Away from the line it is a marquee.
+    Mouse(row, juce::ModifierKeys::commandModifier).dragFromTo(to, to + juce::Point<float>(30.0f, -5.0f));
+    CHECK(bench.clip() == plain);
+}
+
+TEST_CASE("A dragged point sticks to a transient within 8 pixels, unless Alt is held or snapping is off")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    Clip clip = bench.clip();
+    clip.envelope = {{0.0, 0.2}, {0.5, 0.1}, {clip.duration, 0.2}};
+    clip.transients = {{1.0, 0.5, 0.5}};
+    bench.session.setClip("Plain", clip);
+    auto& row = bench.row(envelope);
+    const double perPixel = bench.session.axis().secondsPerPixel;
+    const auto from = placeOf(row, bench.session, clip.envelope[1]);
+    const auto target = placeOf(row, bench.session, {1.0 - 6.0 * perPixel, 0.1});
+    const auto drag = [&](int flags)
+    {
+        Mouse(row, flags).dragFromTo(from, {target.x, from.y});
+        const double time = bench.clip().envelope[1].time;
+        bench.session.undo();
+        return time;
+    };
+    CHECK(drag(0) == 1.0);
+    CHECK(drag(juce::ModifierKeys::altModifier) == Approx(1.0 - 6.0 * perPixel).margin(0.6 * perPixel));
+    bench.view.doCommand(editor::snap);
+    CHECK(drag(0) == Approx(1.0 - 6.0 * perPixel).margin(0.6 * perPixel));
+    bench.view.doCommand(editor::snap);
+    CHECK(drag(0) == 1.0);
+}
+
+TEST_CASE("Each target of snapping counts when it is switched on, and what moves does not stick to itself")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    Clip clip = bench.clip();
+    clip.transients = {{0.43, 0.5, 0.5}, {1.5, 0.5, 0.5}};
+    clip.markers = {{0.7, "a"}};
+    auto& session = bench.session;
+    session.setClip("Plain", clip);
+    session.setPlayhead(1.1);
+    const double perPixel = session.axis().secondsPerPixel;
+    const double near = 7.0 * perPixel;
+    CHECK(editor::snapTime(session, 0.43 + near) == 0.43);
+    CHECK(editor::snapTime(session, 0.43 + 9.0 * perPixel) == 0.43 + 9.0 * perPixel);
+    CHECK(editor::snapTime(session, 0.7 - near) == 0.7);
+    CHECK(editor::snapTime(session, 1.1 + near) == 1.1);
+    Selection moving;
+    moving.transients = {0};
+    editor::Snapping without;
+    without.moving = &moving;
+    without.marker = 0;
+    without.playhead = false;
+    for (const double time : {0.43 + near, 0.7 - near, 1.1 + near})
+        CHECK(editor::snapTime(session, time, without) == time);
+    SnapTargets only{true, true, false, false, false};
+    session.setSnapTargets(only);
+    CHECK(editor::snapTime(session, 0.43 + near) != 0.43);
+    const double line = 1.0; // a second is a line of the ruler at this zoom
+    CHECK(editor::snapTime(session, line + 0.5 * perPixel) == Approx(line));
+}
+
+TEST_CASE("An end of the time range can be dragged in the ruler and sticks to transients")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    Clip clip = bench.clip();
+    clip.transients = {{1.2, 0.5, 0.5}};
+    auto& session = bench.session;
+    session.setClip("Plain", clip);
+    session.setTimeRange(TimeRange{0.5, 1.0});
+    auto& ruler = childOf<editor::TimeRuler>(bench.view.clipView());
+    const auto at = [&](double time)
+    {
+        return juce::Point<float>(static_cast<float>(editor::laneHeadWidth + session.axis().xOf(time)), 20.0f);
+    };
+    Mouse(ruler).dragFromTo(at(1.0) + juce::Point<float>(3.0f, 0.0f), at(1.2) + juce::Point<float>(5.0f, 0.0f));
+    REQUIRE(session.timeRange().has_value());
+    CHECK(session.timeRange()->from == 0.5);
+    CHECK(session.timeRange()->to == 1.2);
+    CHECK(session.playhead() == 0.0);
+}
+
+TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow keys as well")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    Clip clip = bench.clip();
+    clip.envelope = {{0.0, 0.2}, {0.4, 0.1}, {0.6, 0.4}, {0.8, 0.2}, {clip.duration, 0.2}};
+    clip.transients.clear();
+    auto& session = bench.session;
+    session.setClip("Plain", clip);
+    session.select(withPoints({}, envelope, {1, 2, 3}));
+    auto& bar = childOf<editor::SelectionBar>(bench.view.clipView());
+    const auto x = static_cast<float>(session.axis().xOf(0.8));
+    REQUIRE(bar.hitTest(juce::roundToInt(x), 3));
+    CHECK_FALSE(bar.hitTest(juce::roundToInt(session.axis().xOf(0.6)), 3));
+    Mouse(bar, juce::ModifierKeys::altModifier).dragFromTo({x, 3.0f}, {x + 80.0f, 3.0f});
+    const double longer = 80.0 * session.axis().secondsPerPixel;
+    CHECK(bench.clip().envelope[1].time == 0.4);
+    CHECK(bench.clip().envelope[2].time == Approx(0.6 + 0.5 * longer));
+    CHECK(bench.clip().envelope[3].time == Approx(0.8 + longer));
+    CHECK(session.document().undoName() == "Stretch selection");
+    session.undo();
+    CHECK(bench.clip() == clip);
+
+    auto& row = bench.row(envelope);
+    const auto alt = [&](int code)
+    {
+        CHECK(row.keyPressed(juce::KeyPress(code, juce::ModifierKeys::altModifier, 0)));
+    };
+    alt(juce::KeyPress::rightKey);
+    alt(juce::KeyPress::rightKey);
+    CHECK(bench.clip().envelope[3].time == Approx(0.8 + 2.0 * session.axis().secondsPerPixel));
+    CHECK(bench.clip().envelope[1] == clip.envelope[1]);
+    alt(juce::KeyPress::upKey);
+    CHECK(bench.clip().envelope[2].value / bench.clip().envelope[1].value == Approx(std::pow(4.0, 1.05)));
+    session.undo();
+    CHECK(bench.clip() == clip);
+}
+
+TEST_CASE("Version A is shown and played in place of the clip, cannot be edited, and can be taken")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    const Clip first = bench.clip();
+    auto& session = bench.session;
+    CHECK_FALSE(bench.view.doCommand(editor::compareWithA));
+    REQUIRE(bench.view.doCommand(editor::keepVersionA));
+    session.edit("Gain", GainEdit{{}, -6.0});
+    const Clip second = bench.clip();
+    const auto state = session.document().snapshot().state;
+    REQUIRE(bench.view.doCommand(editor::compareWithA));
+    CHECK(bench.clip() == first);
+    CHECK_FALSE(session.edit("Gain", GainEdit{{}, -6.0}));
+    CHECK(bench.view.sheet() != nullptr); // it says why
+    bench.view.showSheet(nullptr);
+    CHECK_FALSE(session.setClip("Change", second, session.beginGesture()));
+    CHECK(bench.view.sheet() == nullptr);
+    CHECK(session.document().snapshot().state == state);
+    REQUIRE(bench.view.doCommand(editor::compareWithA));
+    CHECK(bench.clip() == second);
+    REQUIRE(bench.view.doCommand(editor::takeVersionA));
+    CHECK(bench.clip() == first);
+    CHECK(session.document().undoName() == "Take version A");
+    session.undo();
+    CHECK(bench.clip() == second);
+}
+
+TEST_CASE("Undo, another clip and another project end a comparison")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    auto& session = bench.session;
+    session.keepVersion();
+    session.edit("Gain", GainEdit{{}, -6.0});
+    session.setComparing(true);
+    session.undo();
+    CHECK_FALSE(session.isComparing());
+    session.setComparing(true);
+    session.duplicate();
+    CHECK_FALSE(session.isComparing());
+    CHECK(session.keptVersion() == nullptr); // it was kept of the other clip
+    session.newProject();
+    CHECK(session.clip() == nullptr);
+}
+
+TEST_CASE("Switching between clip and version A while playing makes no gap")
+{
+    EditorBench bench;
+    Clip steady;
+    steady.duration = 5.0;
+    steady.bands.push_back({80.0, 100.0, 120.0, 0, {{0.0, 0.5}, {5.0, 0.5}}, {}});
+    editor::Imported imported;
+    imported.clip = steady;
+    bench.session.add(std::move(imported));
+    auto& session = bench.session;
+    session.keepVersion();
+    session.edit("Gain", GainEdit{{}, -6.0206});
+    session.player.prepare(48000.0);
+    session.play();
+    std::vector<float> block(480);
+    const auto level = [&]
+    {
+        float most = 0.0f;
+        for (int i = 0; i < 2; ++i) // two periods of 100 Hz
+        {
+            session.player.process(block, {});
+            for (const float sample : block)
+                most = std::max(most, std::abs(sample));
+        }
+        return most;
+    };
+    const auto until = [&](float low, float high)
+    {
+        float least = 1.0f;
+        for (int i = 0; i < 2000; ++i)
+        {
+            const float now = level();
+            least = std::min(least, now);
+            if (now > low && now < high)
+                return least;
+            juce::Thread::sleep(1);
+        }
+        FAIL("the level was never reached");
+        return 0.0f;
+    };
+    until(0.2f, 0.3f);
+    const double before = session.playhead();
+    session.setComparing(true);
+    CHECK(until(0.45f, 0.55f) > 0.2f);
+    session.setComparing(false);
+    CHECK(until(0.2f, 0.3f) > 0.2f);
+    CHECK(session.isPlaying());
+    CHECK(session.playhead() > before);
+}
+
+TEST_CASE("One key switches from haptic to sound and back")
+{
+    EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    bench.view.doCommand(editor::hapticOrSound);
+    CHECK(bench.session.heard() == editor::Heard::sound);
+    bench.view.doCommand(editor::hapticOrSound);
+    CHECK(bench.session.heard() == editor::Heard::haptic);
+}
+
+TEST_CASE("What was copied from one clip is pasted into another, and a single lane into the lane that is asked for")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    auto& session = bench.session;
+    const Clip from = bench.clip();
+    session.select(withPoints({}, envelope, allIndices(from.envelope.size())));
+    session.copy();
+    bench.openDemo("knock_wood_bridge");
+    const Clip before = bench.clip();
+    session.setPlayhead(0.1);
+    session.paste();
+    const double start = from.envelope.front().time;
+    for (const double time : {0.2, 0.3})
+        CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(from.envelope, start + time - 0.1)));
+    session.undo();
+    session.paste(Lane{LaneKind::amplitude, 1});
+    CHECK(bench.clip().envelope == before.envelope);
+    CHECK(valueAt(bench.clip().bands[1].amplitude, 0.2) == Approx(valueAt(from.envelope, start + 0.1)));
+    CHECK_FALSE(selectedIn(session.selected(), {LaneKind::amplitude, 1}).empty());
+}
