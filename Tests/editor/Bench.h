@@ -22,10 +22,13 @@ inline std::filesystem::path demoSound(const std::string& name)
 struct EditorBench
 {
     juce::ScopedJuceInitialiser_GUI gui;
-    editor::Session session{{}, {}};
+    editor::Session session;
     editor::EditorView view{session, {}};
 
-    EditorBench() { view.setBounds(0, 0, 1280, 800); }
+    explicit EditorBench(std::vector<editor::NamedProfile> profiles = {}) : session({}, std::move(profiles))
+    {
+        view.setBounds(0, 0, 1280, 800);
+    }
 
     void openDemo(const std::string& name)
     {

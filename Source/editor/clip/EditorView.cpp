@@ -23,6 +23,7 @@ EditorView::EditorView(Session& shared, Surroundings around)
       toolbar(shared),
       clipPart(shared),
       side(*this),
+      meters(shared),
       empty(shared, host.demoSounds)
 {
     setLookAndFeel(&look);
@@ -31,7 +32,8 @@ EditorView::EditorView(Session& shared, Surroundings around)
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     addAndMakeVisible(body);
-    for (juce::Component* child : std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &empty})
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &empty})
         body.addAndMakeVisible(child);
     addKeyListener(menuList.keys());
     toolbar.onCommand = [this](Command command)
@@ -103,6 +105,7 @@ void EditorView::arrange()
     const bool any = open.clip() != nullptr;
     clipPart.setVisible(any);
     side.setVisible(any);
+    meters.setVisible(any);
     empty.setVisible(!any);
 }
 
@@ -121,7 +124,9 @@ void EditorView::resized()
     menuBar.setBounds(area.removeFromTop(menuHeight));
     toolbar.setBounds(area.removeFromTop(toolbarHeight));
     empty.setBounds(area);
-    side.setBounds(area.removeFromRight(sideWidth));
+    auto beside = area.removeFromRight(sideWidth);
+    meters.setBounds(beside.removeFromBottom(MeterPanel::height));
+    side.setBounds(beside);
     clipPart.setBounds(area);
 }
 

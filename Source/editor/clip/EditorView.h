@@ -9,6 +9,7 @@
 #include "editor/clip/Toolbar.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/lanes/ClipView.h"
+#include "editor/clip/panels/MeterPanel.h"
 #include "editor/clip/panels/SidePanel.h"
 #include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
@@ -86,6 +87,7 @@ private:
     Toolbar toolbar;
     ClipView clipPart;
     SidePanel side;
+    MeterPanel meters;
     EmptyState empty;
     std::unique_ptr<Sheet> sheetNow;
     juce::TooltipWindow tooltips{&body, 600};

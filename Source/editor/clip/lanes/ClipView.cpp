@@ -15,6 +15,8 @@ namespace
 {
 constexpr int rulerHeight = 26;
 constexpr int waveformHeight = 72;
+constexpr int spectrumHeight = 112;
+constexpr float wheelForHeight = 0.1f; // of a trackpad; a notch of a wheel is more
 constexpr int overviewHeight = 40;
 constexpr int scrollBarWidth = 10;
 constexpr int headHeight = 8; // of the playhead
@@ -77,7 +79,12 @@ private:
 };
 
 ClipView::ClipView(Session& shared)
-    : session(shared), ruler(shared), waveform(shared), overview(shared), overlay(std::make_unique<Overlay>())
+    : session(shared),
+      ruler(shared),
+      waveform(shared),
+      actuator(shared),
+      overview(shared),
+      overlay(std::make_unique<Overlay>())
 {
     setTitle("Clip");
     setFocusContainerType(FocusContainerType::focusContainer);
@@ -86,7 +93,7 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&ruler, &waveform, &viewport, &overview, overlay.get()})
+         std::initializer_list<juce::Component*>{&ruler, &waveform, &viewport, &actuator, &overview, overlay.get()})
         addAndMakeVisible(child);
     session.listeners.add(this);
     rebuild();
@@ -107,6 +114,8 @@ void ClipView::sessionChanged(unsigned changes)
 {
     if ((changes & (Session::content | Session::look)) != 0)
         rebuild();
+    if ((changes & Session::look) != 0)
+        resized();
     if ((changes & (Session::view | Session::playback | Session::content)) != 0)
         placePlayhead();
 }
@@ -125,6 +134,9 @@ void ClipView::rebuild()
         for (std::size_t k = 0; k < clip->bands.size(); ++k)
             if (auto* row = rowOf({LaneKind::amplitude, k}))
                 row->setTitle("Band at " + laneName(*clip, {LaneKind::amplitude, k}));
+        for (std::size_t k = 0; k < clip->noise.size(); ++k)
+            if (auto* row = rowOf({LaneKind::noise, k}))
+                row->setTitle(laneName(*clip, {LaneKind::noise, k}));
     }
     if (wanted != built)
     {
@@ -176,8 +188,12 @@ void ClipView::resized()
     auto area = getLocalBounds();
     overlay->setBounds(area.withTrimmedRight(scrollBarWidth).withTrimmedBottom(overviewHeight));
     ruler.setBounds(area.removeFromTop(rulerHeight).withTrimmedRight(scrollBarWidth));
-    waveform.setBounds(area.removeFromTop(waveformHeight).withTrimmedRight(scrollBarWidth));
+    const bool tall = session.viewOptions().sound != SoundView::waveform;
+    waveform.setBounds(area.removeFromTop(tall ? spectrumHeight : waveformHeight).withTrimmedRight(scrollBarWidth));
     overview.setBounds(area.removeFromBottom(overviewHeight).withTrimmedRight(scrollBarWidth));
+    actuator.setVisible(session.viewOptions().actuator);
+    if (actuator.isVisible())
+        actuator.setBounds(area.removeFromBottom(actuator.wantedHeight()).withTrimmedRight(scrollBarWidth));
     viewport.setBounds(area);
     session.setViewWidth(plotArea().getWidth());
     layOut();
@@ -206,14 +222,8 @@ void ClipView::placePlayhead()
     if (!session.clip())
         return overlay->setPlayhead(-100);
     const double time = session.playhead();
-    // The view turns its pages with the playhead.
-    const TimeRange shown = session.axis().visible(session.viewWidth());
-    if (session.isPlaying() && !isMouseButtonDownAnywhere() && (time < shown.from || time > shown.to))
-    {
-        TimeAxis axis = session.axis();
-        axis.start = time;
-        session.setAxis(axis);
-    }
+    if (session.isPlaying() && !isMouseButtonDownAnywhere())
+        session.setAxis(followed(session.axis(), time, session.viewWidth(), session.viewOptions().follow));
     const double x = session.axis().xOf(time);
     overlay->setPlayhead(x < 0.0 || x > session.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
 }
@@ -235,8 +245,18 @@ void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWh
     const auto here = event.getEventRelativeTo(this);
     const double x = static_cast<double>(here.position.x) - laneHeadWidth;
     if (event.mods.isAltDown())
-        return session.setLaneHeight(session.laneHeight() + (details.deltaY > 0.0f ? 8 : -8));
+    {
+        // Trackpads send many small steps.
+        heightWheel += details.deltaY;
+        if (std::abs(heightWheel) < wheelForHeight)
+            return;
+        session.setLaneHeight(session.laneHeight() + (heightWheel > 0.0f ? 8 : -8));
+        heightWheel = 0.0f;
+        return;
+    }
     const bool sideways = event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY);
+    if (!sideways && details.isInertial)
+        return; // a trackpad that runs on would zoom away
     if (!sideways)
         return session.zoom(std::exp2(4.0 * static_cast<double>(details.deltaY)), std::max(0.0, x));
     const float delta = std::abs(details.deltaX) > std::abs(details.deltaY) ? details.deltaX : details.deltaY;

@@ -3,6 +3,7 @@
 
 // Everything that a clip holds over one axis of time.
 
+#include "editor/clip/lanes/ActuatorRow.h"
 #include "editor/clip/lanes/Overview.h"
 #include "editor/clip/lanes/PlotLane.h"
 #include "editor/clip/lanes/TimeRuler.h"
@@ -19,7 +20,7 @@ namespace pacini::editor
 {
 
 /// Ruler and sound stay, the lanes below scroll: transients, their sharpness, envelope, centroid, the bands with high
-/// ones above, noise; the overview is at the foot.
+/// ones above, noise; what the actuator plays and the overview are at the foot.
 class ClipView final : public juce::Component, private Session::Listener, private juce::Timer
 {
 public:
@@ -36,6 +37,8 @@ public:
     /// The row of a lane, or null.
     [[nodiscard]] PlotLane* rowOf(Lane lane) const;
     [[nodiscard]] PlotLane* eventRow() const;
+    [[nodiscard]] WaveformRow& soundRow() noexcept { return waveform; }
+    [[nodiscard]] ActuatorRow& actuatorRow() noexcept { return actuator; }
 
 private:
     class Overlay;
@@ -71,6 +74,7 @@ private:
     Session& session;
     TimeRuler ruler;
     WaveformRow waveform;
+    ActuatorRow actuator;
     Overview overview;
     LaneViewport viewport;
     juce::Component rows;
@@ -78,6 +82,7 @@ private:
     std::vector<Lane> built; ///< the lanes that there are rows for
     std::unique_ptr<Overlay> overlay;
     Selection beforeMarquee;
+    float heightWheel = 0.0f; ///< of the wheel since the lanes' height changed
 };
 
 } // namespace pacini::editor

@@ -3,6 +3,7 @@
 
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
+#include "editor/Text.h"
 #include "editor/Theme.h"
 
 #include <algorithm>
@@ -55,6 +56,17 @@ juce::String hertzText(double frequency)
     return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
 }
 
+juce::String rangeText(double low, double high)
+{
+    if (high < 1000.0)
+        return juce::String(juce::roundToInt(low)) + toText("–") + juce::String(juce::roundToInt(high)) + " Hz";
+    const auto kilo = [](double f)
+    {
+        return juce::String(f / 1000.0, f < 1000.0 ? 2 : 1);
+    };
+    return kilo(low) + toText("–") + kilo(high) + " kHz";
+}
+
 juce::String amplitudeText(double amplitude)
 {
     if (amplitude <= 0.0)
@@ -71,7 +83,9 @@ juce::String laneName(const Clip& clip, Lane lane)
     case LaneKind::centroid:
         return "Centroid";
     case LaneKind::noise:
-        return "Noise " + juce::String(static_cast<int>(lane.index) + 1);
+        return lane.index < clip.noise.size()
+                   ? "Noise " + rangeText(clip.noise[lane.index].lowFrequency, clip.noise[lane.index].highFrequency)
+                   : juce::String("Noise");
     default:
         return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
     }
@@ -256,6 +270,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
                 g.fillRect(x, top, 1, std::max(2, low - top));
         }
     }
+    drewHandles = false;
     if (bars)
         return;
     const auto at = [&](std::size_t i)
@@ -301,7 +316,8 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     }
     if (last == points->size() && at(last - 1).x < right)
         line(at(last - 1), {right, at(last - 1).y});
-    if (!showsHandles())
+    drewHandles = showsHandles();
+    if (!drewHandles)
         return;
     const Indices chosen = picked();
     for (std::size_t i = first; i < last; ++i)
@@ -317,6 +333,17 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
             g.drawRect(box, 1.0f);
         }
     }
+}
+
+std::optional<TimeRange> CurveLane::changedTime(const Clip& before, const Clip& now) const
+{
+    const Curve* old = curveOf(before, shown);
+    const Curve* points = curveOf(now, shown);
+    // Names and colours of bands follow from all of them.
+    if (old == nullptr || points == nullptr || before.bands.size() != now.bands.size() ||
+        laneName(before, shown) != laneName(now, shown) || showsHandles() != drewHandles)
+        return std::nullopt;
+    return PlotLane::changedTime(*old, *points);
 }
 
 std::optional<std::size_t> CurveLane::thingAt(juce::Point<float> place) const

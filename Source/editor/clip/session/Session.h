@@ -11,6 +11,7 @@
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/Player.h"
 #include "editor/clip/session/Sound.h"
+#include "editor/clip/session/ViewOptions.h"
 
 #include <juce_core/juce_core.h>
 
@@ -164,6 +165,9 @@ public:
     [[nodiscard]] int laneHeight() const noexcept { return laneSize; } ///< pixels of a band
     void setLaneHeight(int wanted);
 
+    [[nodiscard]] const ViewOptions& viewOptions() const noexcept { return options; }
+    void setViewOptions(const ViewOptions& wanted);
+
     // Playback.
 
     [[nodiscard]] const std::optional<TimeRange>& timeRange() const noexcept { return rangeNow; }
@@ -214,6 +218,7 @@ private:
     double width = 800.0;
     bool decibels = true;
     int laneSize = 48;
+    ViewOptions options;
     std::optional<TimeRange> rangeNow;
     bool looping = false;
     Heard hear = Heard::haptic;
