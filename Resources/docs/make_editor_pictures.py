@@ -20,12 +20,12 @@ from host_test import picture, until  # noqa: E402
 
 DEMO = ROOT / "Resources" / "demo" / "drums_tabla_pattern.flac"
 ACTUATOR_CHOICE = (1280 - 60, 26 + 21)  # in the toolbar
-DOWN_TO_ACTUATOR = 8  # l5-wristband, in the list behind «none»
+DOWN_TO_ACTUATOR = 8  # a phone, in the list behind «none»: it has few voices and a narrow range
 
 
 def settings(home, dark):
     """Light or dark, as the program keeps it."""
-    folder = home / ".config" / "Pacini"
+    folder = home / ".config" / "pacini-editor"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "editor.settings").write_text(
         f'<?xml version="1.0"?>\n<PROPERTIES>\n  <VALUE name="dark" val="{int(dark)}"/>\n</PROPERTIES>\n')
@@ -37,7 +37,7 @@ def take(screen, name):
         whole = Path(folder) / "screen.png"
         picture(screen.display, whole)
         subprocess.run(["convert", str(whole), "-crop", f"1280x800+{screen.left}+{screen.top}", "+repage", "-strip",
-                        "-colors", "255", str(HERE / f"{name}.png")], check=True)
+                        "-define", "png:compression-level=9", str(HERE / f"{name}.png")], check=True)
     print(HERE / f"{name}.png")
 
 
@@ -61,7 +61,7 @@ def run(program, dark, names, files):
         screen.focus()
         screen.keys("alt+3", "End")
         screen.keys(*["ctrl+Left"] * 3)
-        screen.move(700, 640)
+        screen.move(1150, 690)
         time.sleep(6)  # the actuator's rows and the spectrogram are made in the background
         take(screen, names[0])
         if len(names) > 1:

@@ -22,6 +22,7 @@ constexpr int restMilliseconds = 300;    // of the clip, before it is rendered
 constexpr double roomBelowTouch = 12.0;  // dB
 constexpr std::size_t stepsPerPixel = 8; // are looked at, at most
 constexpr int shades = 8;
+constexpr double inaudible = -100.0; // dB
 
 juce::Colour lossColour(Loss loss, const Palette& p, bool dark)
 {
@@ -107,6 +108,7 @@ void ActuatorRow::update()
         return;
     if (!wanted)
     {
+        const bool changedActuator = profile.operator bool() == !askedProfile;
         stopTimer();
         if (cancelled)
             cancelled->store(true);
@@ -115,7 +117,9 @@ void ActuatorRow::update()
         if (profile && clip)
             askedClip.reset(); // hidden: asked again when it is shown
         waiting = false;
-        return show(nullptr);
+        if (shown || changedActuator)
+            show(nullptr);
+        return;
     }
     // Of another clip nothing is to be seen; of an edited one the old until the new is there.
     if (shown && !same)
@@ -202,7 +206,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
                juce::String(source.levels[*step], 0) + " dB";
     }
     const double level = 20.0 * std::log10(std::max(1e-6, static_cast<double>(shown->peaks[*step])));
-    text << (level <= -119.0 ? juce::String("silent") : juce::String(level, 1) + " dB of full drive");
+    text << (level <= inaudible ? juce::String("silent") : juce::String(level, 1) + " dB of full drive");
     const auto why = toText(shown->textOf(*step));
     if (why.isNotEmpty())
         return text + ", " + why;

@@ -114,7 +114,8 @@ void ClipView::sessionChanged(unsigned changes)
 {
     if ((changes & (Session::content | Session::look)) != 0)
         rebuild();
-    if ((changes & Session::look) != 0)
+    const bool higher = actuator.isVisible() && actuator.getHeight() != actuator.wantedHeight();
+    if ((changes & Session::look) != 0 || higher)
         resized();
     if ((changes & (Session::view | Session::playback | Session::content)) != 0)
         placePlayhead();

@@ -17,7 +17,7 @@ namespace
 constexpr float pickRadius = 7.0f;          // pixels
 constexpr double pixelsForHandles = 5.0;    // a point, on average
 constexpr float straightPixels = 8.0f;      // of a line that bends
-constexpr double mostPointsPerColumn = 0.2; // more are drawn as bars
+constexpr double mostPointsPerColumn = 0.2; // on average; more are drawn as bars
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
 std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
@@ -242,8 +242,10 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     TimeAxis axis = session.axis();
     const auto [first, last] =
         reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
-    const double perColumn = static_cast<double>(last - first) / std::max(1, lastColumn - firstColumn + 16);
-    const bool bars = perColumn > mostPointsPerColumn;
+    // By the whole view, so that every part of it is drawn alike.
+    const double width = session.viewWidth();
+    const auto [firstSeen, lastSeen] = reaching(*points, session.axis().visible(width));
+    const bool bars = static_cast<double>(lastSeen - firstSeen) > mostPointsPerColumn * width;
     if (bars || filled)
     {
         // Bars of whole pixels are many times faster than filled paths.

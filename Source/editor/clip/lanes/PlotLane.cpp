@@ -29,7 +29,7 @@ std::vector<double> eventTimes(const Clip& clip)
 }
 } // namespace
 
-PlotLane::PlotLane(Session& shared) : session(shared)
+PlotLane::PlotLane(Session& shared) : session(shared), drawn(shared.clip())
 {
     setOpaque(true);
     setWantsKeyboardFocus(true);
