@@ -6,6 +6,7 @@
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -40,11 +41,12 @@ struct SpectrumLevel
 {
     static constexpr double floor = -96.0; ///< dB
 
-    [[nodiscard]] static std::uint8_t byteOf(double power) noexcept
+    [[nodiscard]] static double decibelsOf(double power) noexcept
     {
-        if (!(power > 0.0))
-            return 0;
-        const double level = 10.0 * std::log10(power);
+        return power > 0.0 ? std::max(floor, 10.0 * std::log10(power)) : floor;
+    }
+    [[nodiscard]] static std::uint8_t byteOf(double level) noexcept
+    {
         return static_cast<std::uint8_t>(std::clamp(std::lround(255.0 * (1.0 - level / floor)), 0L, 255L));
     }
     [[nodiscard]] static double decibels(std::uint8_t level) noexcept { return floor * (1.0 - level / 255.0); }
@@ -60,43 +62,60 @@ public:
     SpectrumAnalyser(std::span<const float> channel, double sampleRate, const SpectrumRows& wanted)
         : samples(channel), fs(sampleRate)
     {
-        struct Window
+        for (const double seconds : windows)
         {
-            double seconds, below;
-        };
-        std::size_t row = 0;
-        for (const Window& window : {Window{0.2, 160.0}, Window{0.06, 1000.0}, Window{0.02, 1e9}})
-        {
-            const auto first = row;
-            while (row < wanted.count && wanted.frequencyAt(static_cast<double>(row) + 0.5) < window.below)
-                ++row;
-            if (row == first)
-                continue;
-            Part part(nextFastFftSize(std::max<std::size_t>(64, static_cast<std::size_t>(window.seconds * fs))));
-            const double bins = static_cast<double>(part.fft.size()) / fs;
-            for (std::size_t k = first; k < row; ++k)
-                part.rows.push_back({bins * wanted.frequencyAt(static_cast<double>(k)),
-                                     bins * wanted.frequencyAt(static_cast<double>(k) + 1.0)});
+            const std::size_t size = nextFastFftSize(std::max<std::size_t>(64, static_cast<std::size_t>(seconds * fs)));
+            Part part(size);
+            const double bins = static_cast<double>(size) / fs;
+            for (std::size_t k = 0; k < wanted.count; ++k)
+                if (const double share = shareOf(parts.size(), wanted.frequencyAt(static_cast<double>(k) + 0.5));
+                    share > 0.0)
+                    part.rows.push_back({k, bins * wanted.frequencyAt(static_cast<double>(k)),
+                                         bins * wanted.frequencyAt(static_cast<double>(k) + 1.0), share});
             parts.push_back(std::move(part));
         }
+        sums.resize(wanted.count);
     }
 
     /// The levels of all rows about `time` s; see SpectrumLevel. 0 outside the sound and above half the sample rate.
     void column(double time, std::span<std::uint8_t> levels)
     {
-        std::size_t row = 0;
+        std::fill(sums.begin(), sums.end(), 0.0);
         for (Part& part : parts)
         {
+            if (part.rows.empty())
+                continue;
             part.transform(samples, std::llround(time * fs));
-            for (const Bins& bins : part.rows)
-                levels[row++] = SpectrumLevel::byteOf(part.strongest(bins));
+            for (const Row& row : part.rows)
+                sums[row.index] += row.share * SpectrumLevel::decibelsOf(part.strongest(row));
         }
+        std::transform(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(levels.size()), levels.begin(),
+                       SpectrumLevel::byteOf);
     }
 
 private:
-    struct Bins
+    static constexpr std::array<double, 3> windows{0.2, 0.06, 0.02}; // s
+    static constexpr std::array<double, 2> crossings{160.0, 1000.0}; // Hz
+
+    /// How much a window counts at a frequency: from half an octave below a crossing to half an octave above it one
+    /// gives way to the next, else noise, whose level depends on the window, would show a step.
+    [[nodiscard]] static double shareOf(std::size_t window, double frequency) noexcept
     {
-        double from, to;
+        const auto above = [frequency](double crossing)
+        {
+            return std::clamp(std::log2(frequency / crossing) + 0.5, 0.0, 1.0);
+        };
+        const double from = window == 0 ? 1.0 : above(crossings[window - 1]);
+        const double to = window == crossings.size() ? 0.0 : above(crossings[window]);
+        return from - to;
+    }
+
+    /// A row as a window sees it.
+    struct Row
+    {
+        std::size_t index;
+        double from, to; // bins
+        double share;
     };
 
     /// The rows that share a window.
@@ -138,10 +157,10 @@ private:
             return powers[below] + part * (powers[below + 1] - powers[below]);
         }
 
-        [[nodiscard]] double strongest(const Bins& bins) const
+        [[nodiscard]] double strongest(const Row& row) const
         {
-            double best = at(0.5 * (bins.from + bins.to));
-            for (auto k = static_cast<std::size_t>(std::ceil(bins.from)); static_cast<double>(k) <= bins.to; ++k)
+            double best = at(0.5 * (row.from + row.to));
+            for (auto k = static_cast<std::size_t>(std::ceil(row.from)); static_cast<double>(k) <= row.to; ++k)
                 if (k < powers.size())
                     best = std::max(best, powers[k]);
                 else
@@ -153,13 +172,14 @@ private:
         std::vector<float> window, frame;
         std::vector<std::complex<float>> spectrum;
         std::vector<double> powers;
-        std::vector<Bins> rows;
+        std::vector<Row> rows;
         double scale = 1.0;
     };
 
     std::span<const float> samples;
     double fs;
     std::vector<Part> parts;
+    std::vector<double> sums; ///< dB
 };
 
 } // namespace pacini

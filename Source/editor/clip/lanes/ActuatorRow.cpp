@@ -203,7 +203,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
         if (source.levels[*step] <= ActuatorTrace::silent)
             return text + "silent";
         return text + "played at " + hertzText(static_cast<double>(source.played[*step])) + ", " +
-               juce::String(source.levels[*step], 0) + " dB";
+               juce::String(juce::roundToInt(source.levels[*step])) + " dB";
     }
     const double level = 20.0 * std::log10(std::max(1e-6, static_cast<double>(shown->peaks[*step])));
     text << (level <= inaudible ? juce::String("silent") : juce::String(level, 1) + " dB of full drive");
@@ -211,7 +211,7 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
     if (why.isNotEmpty())
         return text + ", " + why;
     if (level > shown->touch)
-        text << ", " << juce::String(level - shown->touch, 0) << " dB above touch";
+        text << ", " << juce::roundToInt(level - shown->touch) << " dB above touch";
     return text;
 }
 

@@ -181,7 +181,7 @@ PlotLane::Style CurveLane::style() const
     const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
     const Curve* points = curve();
     const juce::String number(points != nullptr ? static_cast<int>(points->size()) : 0);
-    Style result{laneName(*clip, shown), number + " points",
+    Style result{laneName(*clip, shown), number + (number == "1" ? " point" : " points"),
                  laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
     if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
         result.note = {};

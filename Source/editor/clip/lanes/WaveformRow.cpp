@@ -110,8 +110,9 @@ void WaveformRow::mouseMove(const juce::MouseEvent& event)
     const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
     const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
     const double level = spectrum.levelAt(time, frequency);
-    setTooltip(juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
-               (level <= SpectrumLevel::floor ? juce::String("silent") : juce::String(level, 0) + " dB"));
+    setTooltip(
+        juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
+        (level <= SpectrumLevel::floor ? juce::String("silent") : juce::String(juce::roundToInt(level)) + " dB"));
 }
 
 void WaveformRow::paint(juce::Graphics& g)
@@ -145,6 +146,13 @@ void WaveformRow::paint(juce::Graphics& g)
         paintWaveform(g, plot, *sound, shown == SoundView::both);
     if (shown == SoundView::waveform)
         return;
+    // Windows reach over the end.
+    if (const auto clip = session.clip())
+    {
+        const int end = plot.getX() + juce::roundToInt(std::min(1e6, session.axis().xOf(clip->duration)));
+        g.setColour(p.background);
+        g.fillRect(plot.withLeft(std::clamp(end, plot.getX(), plot.getRight())));
+    }
     // The scale of frequencies, over both.
     g.setFont(smallFont());
     for (const double frequency : {50.0, 200.0, 1000.0, 5000.0})

@@ -29,6 +29,7 @@ MeterPanel::MeterPanel(Session& shared)
     setOpaque(true);
     for (juce::Component* meter : std::initializer_list<juce::Component*>{&output, &reduction, &felt})
         addAndMakeVisible(meter);
+    felt.show(-std::numeric_limits<double>::infinity());
     session.listeners.add(this);
     sessionChanged(Session::playback);
 }
