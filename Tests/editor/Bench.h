@@ -7,6 +7,7 @@
 #include "support/Catch.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -44,6 +45,31 @@ struct EditorBench
         REQUIRE(found != nullptr);
         return *found;
     }
+};
+
+/// Lets the message thread run until something holds. Once for each JUCE.
+class Waiting final : private juce::Timer
+{
+public:
+    bool until(std::function<bool()> wanted)
+    {
+        condition = std::move(wanted);
+        startTimer(5);
+        juce::MessageManager::getInstance()->runDispatchLoop();
+        return condition();
+    }
+
+private:
+    void timerCallback() override
+    {
+        if (condition() || ++calls > 4000)
+        {
+            stopTimer();
+            juce::MessageManager::getInstance()->stopDispatchLoop();
+        }
+    }
+    std::function<bool()> condition;
+    int calls = 0;
 };
 
 /// One gesture with the left button.

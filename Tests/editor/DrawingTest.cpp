@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <set>
 #include <vector>
 
@@ -41,6 +42,19 @@ Clip longClip()
     for (int i = 0; i < 1000; ++i)
         clip.transients.push_back({0.6 * i, random.uniform(0.1, 1.0), random.uniform(0.0, 1.0)});
     return clip;
+}
+
+/// What this thread has worked, without the time in which others had the processor where that can be told.
+double threadMilliseconds()
+{
+#if defined(__linux__)
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+#else
+    const std::chrono::duration<double, std::milli> now = std::chrono::steady_clock::now().time_since_epoch();
+    return now.count();
+#endif
 }
 
 std::size_t coloursIn(const juce::Image& image)
@@ -162,6 +176,12 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
                              << " ms for one");
     }
     juce::Image image(juce::Image::RGB, view.getWidth(), view.getHeight(), true);
+    editor::ViewOptions spectral = bench.session.viewOptions();
+    spectral.sound = editor::SoundView::spectrum;
+    bench.session.setViewOptions(spectral);
+    view.createComponentSnapshot(view.getLocalBounds());
+    Waiting waiting;
+    REQUIRE(waiting.until([&] { return view.soundRow().isComplete(); }));
     struct Way
     {
         const char* name;
@@ -181,7 +201,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
             std::vector<double> times;
             for (int i = 0; i < 120; ++i)
             {
-                const auto start = Clock::now();
+                const double start = threadMilliseconds();
                 TimeAxis axis = bench.session.axis();
                 axis.start += way.pixels * axis.secondsPerPixel;
                 bench.session.setAxis(axis.zoomed(way.factor, 400.0));
@@ -189,7 +209,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
                     juce::Graphics g(image);
                     view.paintEntireComponent(g, true);
                 }
-                times.push_back(since(start));
+                times.push_back(threadMilliseconds() - start);
             }
             double sum = 0.0;
             for (const double time : times)
@@ -198,7 +218,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
             WARN("view " << static_cast<int>(shown) << ", " << way.name << ": mean "
                          << sum / static_cast<double>(times.size()) << " ms, 95 % " << times[114] << " ms, worst "
                          << times.back() << " ms of " << view.getWidth() << " x " << view.getHeight());
-            CHECK(times[60] < 16.0);
+            CHECK(times[114] < 16.0);
         }
     }
 }

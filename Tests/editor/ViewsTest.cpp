@@ -3,7 +3,6 @@
 #include "editor/Bench.h"
 
 #include <array>
-#include <functional>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -16,31 +15,6 @@ editor::NamedProfile shipped(const std::string& name)
     REQUIRE(read.ok());
     return {name, std::make_shared<const Profile>(std::move(read).value())};
 }
-
-/// Lets the message thread run until something holds. Once for each JUCE.
-class Waiting final : private juce::Timer
-{
-public:
-    bool until(std::function<bool()> wanted)
-    {
-        condition = std::move(wanted);
-        startTimer(5);
-        juce::MessageManager::getInstance()->runDispatchLoop();
-        return condition();
-    }
-
-private:
-    void timerCallback() override
-    {
-        if (condition() || ++calls > 4000)
-        {
-            stopTimer();
-            juce::MessageManager::getInstance()->stopDispatchLoop();
-        }
-    }
-    std::function<bool()> condition;
-    int calls = 0;
-};
 
 juce::Image pictureOf(juce::Component& component)
 {
