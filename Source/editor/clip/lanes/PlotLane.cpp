@@ -68,8 +68,8 @@ bool PlotLane::repaintChanged()
     const int from = xOf(range->from) - edgeOfThings;
     const int to = xOf(range->to) + edgeOfThings;
     repaint(plot.getIntersection(plot.withX(plot.getX() + from).withWidth(to - from)));
-    if (style().note.isNotEmpty())
-        repaint(getLocalBounds().withWidth(laneHeadWidth)); // how many there are
+    if (style().note != drawnNote)
+        repaint(getLocalBounds().withWidth(laneHeadWidth));
     return true;
 }
 
@@ -203,6 +203,7 @@ void PlotLane::paintHead(juce::Graphics& g)
         g.setColour(p.accent);
         g.drawRect(head, 2);
     }
+    drawnNote = look.note;
     auto text = head.withTrimmedLeft(grid).withTrimmedRight(grid / 2);
     g.setColour(p.text);
     g.setFont(usualFont());

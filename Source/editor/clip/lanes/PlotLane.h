@@ -109,6 +109,7 @@ private:
     mutable std::optional<ValueAxis> scaleNow;
     std::shared_ptr<const Clip> drawn; ///< the content of the last repaint
     Indices drawnPicked;
+    juce::String drawnNote;
     Drag drag = Drag::none;
     Gesture gesture = 0;
     Selection dragged; ///< at the start of the gesture
