@@ -333,6 +333,23 @@ void PreviewEngine::processBlock(std::span<float> haptic, std::span<const std::s
     }
 }
 
+void PreviewEngine::meter(std::span<const float> haptic) noexcept
+{
+    float peak = 0.0f;
+    for (const float sample : haptic)
+        peak = std::max(peak, std::abs(sample));
+    double reduction = 0.0;
+    for (const auto* parcel : {current, fadingIn()})
+        if (parcel != nullptr && parcel->content.player && isPlaying())
+            if (const ProtectionMeter* protection = parcel->content.player->protectionMeter())
+                reduction = std::max(reduction, protection->gainReduction);
+    // A reader between the two lines only takes one block's reading twice.
+    if (peak > peakHeard.load(std::memory_order_relaxed))
+        peakHeard.store(peak, std::memory_order_relaxed);
+    if (static_cast<float>(reduction) > reductionHeard.load(std::memory_order_relaxed))
+        reductionHeard.store(static_cast<float>(reduction), std::memory_order_relaxed);
+}
+
 void PreviewEngine::process(std::span<float> haptic, std::span<const std::span<float>> sound) noexcept
 {
     std::fill(haptic.begin(), haptic.end(), 0.0f);
@@ -344,6 +361,7 @@ void PreviewEngine::process(std::span<float> haptic, std::span<const std::span<f
     {
         const std::size_t n = std::min(haptic.size() - done, blockFrames);
         processBlock(haptic, sound, done, n);
+        meter(haptic.subspan(done, n));
         done += n;
     }
     const auto* newest = fadingIn() != nullptr ? next : current;

@@ -34,6 +34,13 @@ namespace pacini
 class PreviewEngine
 {
 public:
+    /// What the actuator gets.
+    struct Meters
+    {
+        double peak = 0.0;          ///< of the drive signal, 1 = full drive
+        double gainReduction = 0.0; ///< dB that the protection takes at most
+    };
+
     static constexpr double exactFrom = 5.0; ///< s
 
     /// `sampleRate` 2000 to 192000 Hz.
@@ -57,6 +64,13 @@ public:
 
     /// The playhead, s of the clip. [any]
     [[nodiscard]] double position() const noexcept { return playhead.load(std::memory_order_relaxed); }
+
+    /// The most since the last call; one reader. [any]
+    [[nodiscard]] Meters takeMeters() noexcept
+    {
+        return {static_cast<double>(peakHeard.exchange(0.0f, std::memory_order_relaxed)),
+                static_cast<double>(reductionHeard.exchange(0.0f, std::memory_order_relaxed))};
+    }
 
     /// Whether service() has something to do. [any]
     [[nodiscard]] bool wantsService() const noexcept;
@@ -121,6 +135,7 @@ private:
     void processBlock(std::span<float> haptic, std::span<const std::span<float>> sound, std::size_t at,
                       std::size_t n) noexcept;
     void renderPiece(Piece& piece, std::span<float> out) noexcept;
+    void meter(std::span<const float> haptic) noexcept;
     void addSound(const Piece& piece, std::span<const std::span<float>> sound, std::size_t at, std::size_t n,
                   std::span<const float> gains) const noexcept;
 
@@ -138,8 +153,9 @@ private:
     std::atomic<std::uint64_t> playing{0}; ///< Wanted::start of what plays; 0: stopped
     std::atomic<bool> hearHaptic{true}, hearSource{false};
     std::atomic<double> playhead{0.0};
-    std::atomic<std::int64_t> reached{0};       ///< frames since the start
-    std::atomic<std::uint64_t> reachedStart{0}; ///< the start that they count from
+    std::atomic<float> peakHeard{0.0f}, reductionHeard{0.0f}; ///< see takeMeters()
+    std::atomic<std::int64_t> reached{0};                     ///< frames since the start
+    std::atomic<std::uint64_t> reachedStart{0};               ///< the start that they count from
     std::atomic<std::int64_t> builtTo{0};
 
     // Of the audio thread.

@@ -21,6 +21,7 @@ LevelMeter::LevelMeter(const juce::String& name, const juce::String& help, Scale
     setTitle(name);
     setDescription(help);
     setHelpText(help);
+    setTooltip(help);
     setInterceptsMouseClicks(true, false);
 }
 

@@ -10,7 +10,7 @@ namespace pacini::editor
 
 /// A horizontal bar over a range of decibels with its name and its value. It falls back slowly and repaints only when a
 /// pixel or a digit changes.
-class LevelMeter final : public juce::Component
+class LevelMeter final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
     struct Scale

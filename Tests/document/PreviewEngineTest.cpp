@@ -283,3 +283,26 @@ TEST_CASE("Takes A and B, soloed bands and a worker thread")
     CHECK(level() == Approx(0.2).margin(0.02));
     CHECK_FALSE(worker.lastError());
 }
+
+TEST_CASE("The meters of a preview tell the peak of the drive and what protection takes, once")
+{
+    Profile profile; // a plain signal that is kept within full drive
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(tone(2.0, 2.0))); // 6 dB above that
+    engine.setProfile(std::make_shared<const Profile>(profile));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    run(engine, 20000);
+    (void)engine.takeMeters();
+    const auto heard = run(engine, 20000);
+    const auto meters = engine.takeMeters();
+    CHECK(meters.peak == Approx(static_cast<double>(largest(heard))));
+    CHECK(meters.gainReduction == Approx(6.02).margin(0.5));
+    CHECK(engine.takeMeters().peak == 0.0);
+    engine.stop();
+    run(engine, 4800);
+    (void)engine.takeMeters();
+    run(engine, 4800);
+    CHECK(engine.takeMeters().peak == 0.0);
+    CHECK(engine.takeMeters().gainReduction == 0.0);
+}

@@ -7,6 +7,7 @@
 #include "support/Catch.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,10 +23,13 @@ inline std::filesystem::path demoSound(const std::string& name)
 struct EditorBench
 {
     juce::ScopedJuceInitialiser_GUI gui;
-    editor::Session session{{}, {}};
+    editor::Session session;
     editor::EditorView view{session, {}};
 
-    EditorBench() { view.setBounds(0, 0, 1280, 800); }
+    explicit EditorBench(std::vector<editor::NamedProfile> profiles = {}) : session({}, std::move(profiles))
+    {
+        view.setBounds(0, 0, 1280, 800);
+    }
 
     void openDemo(const std::string& name)
     {
@@ -41,6 +45,31 @@ struct EditorBench
         REQUIRE(found != nullptr);
         return *found;
     }
+};
+
+/// Lets the message thread run until something holds. Once for each JUCE.
+class Waiting final : private juce::Timer
+{
+public:
+    bool until(std::function<bool()> wanted)
+    {
+        condition = std::move(wanted);
+        startTimer(5);
+        juce::MessageManager::getInstance()->runDispatchLoop();
+        return condition();
+    }
+
+private:
+    void timerCallback() override
+    {
+        if (condition() || ++calls > 4000)
+        {
+            stopTimer();
+            juce::MessageManager::getInstance()->stopDispatchLoop();
+        }
+    }
+    std::function<bool()> condition;
+    int calls = 0;
 };
 
 /// One gesture with the left button.

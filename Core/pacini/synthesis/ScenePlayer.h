@@ -120,6 +120,14 @@ public:
         }
     }
 
+    /// What the protection of an actuator did in the last call of process(), or in the last 1024 frames of a longer
+    /// one; null when nothing is protected. [audio]
+    [[nodiscard]] const ProtectionMeter* protectionMeter(std::size_t actuator = 0) const noexcept
+    {
+        const bool any = actuator < outputs.size() && outputs[actuator].protection;
+        return any ? &outputs[actuator].protection->meter() : nullptr;
+    }
+
     /// From the next frame on, glides play `play` of the scene (its index there) to `gain` (linear, on top of the
     /// scene's own) within 5 ms. Plays that the plan leaves out stay out. [audio]
     void setGain(std::size_t play, double gain) noexcept

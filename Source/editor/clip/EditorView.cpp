@@ -25,6 +25,7 @@ EditorView::EditorView(Session& shared, Surroundings around)
       toolbar(shared),
       clipPart(shared),
       side(*this),
+      meters(shared),
       empty(shared, host.demoSounds),
       workBar(shared)
 {
@@ -34,7 +35,8 @@ EditorView::EditorView(Session& shared, Surroundings around)
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     addAndMakeVisible(body);
-    for (juce::Component* child : std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &empty})
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &empty})
         body.addAndMakeVisible(child);
     body.addChildComponent(workBar);
     addKeyListener(menuList.keys());
@@ -116,6 +118,7 @@ void EditorView::arrange()
     const bool any = open.clip() != nullptr || open.isShowingUnanalysed();
     clipPart.setVisible(any);
     side.setVisible(any);
+    meters.setVisible(any);
     empty.setVisible(!any);
 }
 
@@ -134,7 +137,9 @@ void EditorView::resized()
     menuBar.setBounds(area.removeFromTop(menuHeight));
     toolbar.setBounds(area.removeFromTop(toolbarHeight));
     empty.setBounds(area);
-    side.setBounds(area.removeFromRight(sideWidth));
+    auto beside = area.removeFromRight(sideWidth);
+    meters.setBounds(beside.removeFromBottom(MeterPanel::height));
+    side.setBounds(beside);
     clipPart.setBounds(area);
     workBar.setBounds(area.withTrimmedBottom(7 * grid)
                           .removeFromBottom(workBarHeight)

@@ -11,6 +11,7 @@
 #include "editor/clip/commands/HeldSwitch.h"
 #include "editor/clip/commands/Menus.h"
 #include "editor/clip/lanes/ClipView.h"
+#include "editor/clip/panels/MeterPanel.h"
 #include "editor/clip/panels/SidePanel.h"
 #include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
@@ -96,6 +97,7 @@ private:
     Toolbar toolbar;
     ClipView clipPart;
     SidePanel side;
+    MeterPanel meters;
     EmptyState empty;
     WorkBar workBar;
     std::unique_ptr<Sheet> sheetNow;

@@ -46,6 +46,11 @@ struct Menu
 [[nodiscard]] Menu helpMenu(EditorView& view);
 
 /// A key with Ctrl (Cmd on a Mac), Shift.
+[[nodiscard]] inline juce::KeyPress alt(int key)
+{
+    return {key, juce::ModifierKeys::altModifier, 0};
+}
+
 [[nodiscard]] inline juce::KeyPress ctrl(int key)
 {
     return {key, juce::ModifierKeys::commandModifier, 0};

@@ -43,6 +43,32 @@ Menu viewMenu(EditorView& view)
     {
         session.setLaneHeight(session.laneHeight() + pixels);
     };
+    // An option, and the value that an action gives it.
+    const auto has = [&session](auto ViewOptions::*option, auto value)
+    {
+        return [&session, option, value]
+        {
+            return session.viewOptions().*option == value;
+        };
+    };
+    const auto give = [&session](auto ViewOptions::*option, auto value)
+    {
+        return [&session, option, value]
+        {
+            ViewOptions wanted = session.viewOptions();
+            wanted.*option = value;
+            session.setViewOptions(wanted);
+        };
+    };
+    const auto change = [&session](bool ViewOptions::*option)
+    {
+        return [&session, option]
+        {
+            ViewOptions wanted = session.viewOptions();
+            wanted.*option = !(wanted.*option);
+            session.setViewOptions(wanted);
+        };
+    };
     using Key = juce::KeyPress;
     Menu menu{"View", {}};
     menu.actions = {
@@ -125,6 +151,52 @@ Menu viewMenu(EditorView& view)
          {
              return snapChoices(session);
          }},
+        {.id = showWaveform,
+         .name = "Waveform",
+         .help = "Shows the sound as its waveform",
+         .run = give(&ViewOptions::sound, SoundView::waveform),
+         .on = has(&ViewOptions::sound, SoundView::waveform),
+         .keys = {alt('1')},
+         .lineBefore = true},
+        {.id = showSpectrum,
+         .name = "Spectrogram",
+         .help = "Shows the sound as its frequencies over time",
+         .run = give(&ViewOptions::sound, SoundView::spectrum),
+         .on = has(&ViewOptions::sound, SoundView::spectrum),
+         .keys = {alt('2')}},
+        {.id = showBoth,
+         .name = "Waveform over spectrogram",
+         .help = "Shows both over each other",
+         .run = give(&ViewOptions::sound, SoundView::both),
+         .on = has(&ViewOptions::sound, SoundView::both),
+         .keys = {alt('3')}},
+        {.id = wholeSpectrum,
+         .name = "All frequencies of the spectrogram",
+         .help = "Up to half the sample rate, or to 2 kHz, which is all that can be felt",
+         .run = change(&ViewOptions::wholeSpectrum),
+         .on = has(&ViewOptions::wholeSpectrum, true)},
+        {.id = showActuator,
+         .name = "What the actuator plays",
+         .help = "Shows the drive of the actuator and what is lost, below the lanes",
+         .run = change(&ViewOptions::actuator),
+         .on = has(&ViewOptions::actuator, true),
+         .keys = {alt('4')}},
+        {.id = followOff,
+         .name = "Do not follow the playhead",
+         .help = "The view stays while playing",
+         .run = give(&ViewOptions::follow, Follow::off),
+         .on = has(&ViewOptions::follow, Follow::off),
+         .lineBefore = true},
+        {.id = followPage,
+         .name = "Turn pages with the playhead",
+         .help = "The view turns when the playhead leaves it",
+         .run = give(&ViewOptions::follow, Follow::page),
+         .on = has(&ViewOptions::follow, Follow::page)},
+        {.id = followSmooth,
+         .name = "Keep the playhead in the middle",
+         .help = "The view moves along while playing",
+         .run = give(&ViewOptions::follow, Follow::smooth),
+         .on = has(&ViewOptions::follow, Follow::smooth)},
         {.id = lightLook,
          .name = "Light colours",
          .help = "Dark text on light ground",

@@ -15,6 +15,8 @@ namespace
 {
 constexpr int rulerHeight = 26;
 constexpr int waveformHeight = 72;
+constexpr int spectrumHeight = 112;
+constexpr float wheelForHeight = 0.1f; // of a trackpad; a notch of a wheel is more
 constexpr int overviewHeight = 40;
 constexpr int scrollBarWidth = 10;
 constexpr int headHeight = 8; // of the playhead
@@ -119,6 +121,7 @@ ClipView::ClipView(Session& shared)
       selectionBar(shared),
       markers(shared),
       waveform(shared),
+      actuator(shared),
       overview(shared),
       overlay(std::make_unique<Overlay>(shared))
 {
@@ -129,7 +132,8 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform, &viewport, &overview})
+         std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform, &viewport, &actuator,
+                                                 &overview})
         addAndMakeVisible(child);
     addChildComponent(markers);
     addAndMakeVisible(*overlay);
@@ -158,11 +162,12 @@ void ClipView::sessionChanged(unsigned changes)
     if ((changes & (Session::content | Session::look)) != 0)
         rebuild();
     const auto clip = session.clip();
-    if (const bool any = clip && !clip->markers.empty(); any != markers.isVisible())
-    {
-        markers.setVisible(any);
+    const bool anyMarkers = clip && !clip->markers.empty();
+    const bool otherMarkers = anyMarkers != markers.isVisible();
+    markers.setVisible(anyMarkers);
+    const bool higher = actuator.isVisible() && actuator.getHeight() != actuator.wantedHeight();
+    if ((changes & Session::look) != 0 || higher || otherMarkers)
         resized();
-    }
     if ((changes & (Session::view | Session::playback | Session::content)) != 0)
         placePlayhead();
 }
@@ -181,6 +186,9 @@ void ClipView::rebuild()
         for (std::size_t k = 0; k < clip->bands.size(); ++k)
             if (auto* row = rowOf({LaneKind::amplitude, k}))
                 row->setTitle("Band at " + laneName(*clip, {LaneKind::amplitude, k}));
+        for (std::size_t k = 0; k < clip->noise.size(); ++k)
+            if (auto* row = rowOf({LaneKind::noise, k}))
+                row->setTitle(laneName(*clip, {LaneKind::noise, k}));
     }
     if (wanted != built)
     {
@@ -236,8 +244,12 @@ void ClipView::resized()
     selectionBar.setBounds(ruler.getBounds().withTrimmedLeft(laneHeadWidth).withHeight(SelectionBar::height));
     if (markers.isVisible())
         markers.setBounds(area.removeFromTop(MarkerStrip::height).withTrimmedRight(scrollBarWidth));
-    waveform.setBounds(area.removeFromTop(waveformHeight).withTrimmedRight(scrollBarWidth));
+    const bool tall = session.viewOptions().sound != SoundView::waveform;
+    waveform.setBounds(area.removeFromTop(tall ? spectrumHeight : waveformHeight).withTrimmedRight(scrollBarWidth));
     overview.setBounds(area.removeFromBottom(overviewHeight).withTrimmedRight(scrollBarWidth));
+    actuator.setVisible(session.viewOptions().actuator);
+    if (actuator.isVisible())
+        actuator.setBounds(area.removeFromBottom(actuator.wantedHeight()).withTrimmedRight(scrollBarWidth));
     viewport.setBounds(area);
     session.setViewWidth(plotArea().getWidth());
     layOut();
@@ -266,14 +278,8 @@ void ClipView::placePlayhead()
     if (!session.clip())
         return overlay->setPlayhead(-100);
     const double time = session.playhead();
-    // The view turns its pages with the playhead.
-    const TimeRange shown = session.axis().visible(session.viewWidth());
-    if (session.isPlaying() && !isMouseButtonDownAnywhere() && (time < shown.from || time > shown.to))
-    {
-        TimeAxis axis = session.axis();
-        axis.start = time;
-        session.setAxis(axis);
-    }
+    if (session.isPlaying() && !isMouseButtonDownAnywhere())
+        session.setAxis(followed(session.axis(), time, session.viewWidth(), session.viewOptions().follow));
     const double x = session.axis().xOf(time);
     overlay->setPlayhead(x < 0.0 || x > session.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
 }
@@ -295,8 +301,18 @@ void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWh
     const auto here = event.getEventRelativeTo(this);
     const double x = static_cast<double>(here.position.x) - laneHeadWidth;
     if (event.mods.isAltDown())
-        return session.setLaneHeight(session.laneHeight() + (details.deltaY > 0.0f ? 8 : -8));
+    {
+        // Trackpads send many small steps.
+        heightWheel += details.deltaY;
+        if (std::abs(heightWheel) < wheelForHeight)
+            return;
+        session.setLaneHeight(session.laneHeight() + (heightWheel > 0.0f ? 8 : -8));
+        heightWheel = 0.0f;
+        return;
+    }
     const bool sideways = event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY);
+    if (!sideways && details.isInertial)
+        return; // a trackpad that runs on would zoom away
     if (!sideways)
         return session.zoom(std::exp2(4.0 * static_cast<double>(details.deltaY)), std::max(0.0, x));
     const float delta = std::abs(details.deltaX) > std::abs(details.deltaY) ? details.deltaX : details.deltaY;

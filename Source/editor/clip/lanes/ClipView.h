@@ -4,6 +4,7 @@
 // Everything that a clip holds over one axis of time.
 
 #include "editor/clip/commands/Command.h"
+#include "editor/clip/lanes/ActuatorRow.h"
 #include "editor/clip/lanes/MarkerStrip.h"
 #include "editor/clip/lanes/Overview.h"
 #include "editor/clip/lanes/PlotLane.h"
@@ -24,7 +25,7 @@ namespace pacini::editor
 {
 
 /// Ruler, markers (where there are some) and sound stay, the lanes below scroll: transients, their sharpness, envelope,
-/// centroid, the bands with high ones above, noise; the overview is at the foot.
+/// centroid, the bands with high ones above, noise; what the actuator plays and the overview are at the foot.
 class ClipView final : public juce::Component, private Session::Listener, private juce::Timer
 {
 public:
@@ -43,6 +44,8 @@ public:
     /// The row of a lane, or null.
     [[nodiscard]] PlotLane* rowOf(Lane lane) const;
     [[nodiscard]] PlotLane* eventRow() const;
+    [[nodiscard]] WaveformRow& soundRow() noexcept { return waveform; }
+    [[nodiscard]] ActuatorRow& actuatorRow() noexcept { return actuator; }
 
 private:
     class Overlay;
@@ -81,6 +84,7 @@ private:
     SelectionBar selectionBar;
     MarkerStrip markers;
     WaveformRow waveform;
+    ActuatorRow actuator;
     Overview overview;
     LaneViewport viewport;
     juce::Component rows;
@@ -88,6 +92,7 @@ private:
     std::vector<Lane> built; ///< the lanes that there are rows for
     std::unique_ptr<Overlay> overlay;
     Selection beforeMarquee;
+    float heightWheel = 0.0f; ///< of the wheel since the lanes' height changed
 };
 
 } // namespace pacini::editor

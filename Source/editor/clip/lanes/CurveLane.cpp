@@ -3,6 +3,7 @@
 
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
+#include "editor/Text.h"
 #include "editor/Theme.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace
 constexpr float pickRadius = 7.0f;          // pixels
 constexpr double pixelsForHandles = 5.0;    // a point, on average
 constexpr float straightPixels = 8.0f;      // of a line that bends
-constexpr double mostPointsPerColumn = 0.2; // more are drawn as bars
+constexpr double mostPointsPerColumn = 0.2; // on average; more are drawn as bars
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
 std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
@@ -55,6 +56,17 @@ juce::String hertzText(double frequency)
     return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
 }
 
+juce::String rangeText(double low, double high)
+{
+    if (high < 1000.0)
+        return juce::String(juce::roundToInt(low)) + toText("–") + juce::String(juce::roundToInt(high)) + " Hz";
+    const auto kilo = [](double f)
+    {
+        return juce::String(f / 1000.0, f < 1000.0 ? 2 : 1);
+    };
+    return kilo(low) + toText("–") + kilo(high) + " kHz";
+}
+
 juce::String amplitudeText(double amplitude)
 {
     if (amplitude <= 0.0)
@@ -71,7 +83,9 @@ juce::String laneName(const Clip& clip, Lane lane)
     case LaneKind::centroid:
         return "Centroid";
     case LaneKind::noise:
-        return "Noise " + juce::String(static_cast<int>(lane.index) + 1);
+        return lane.index < clip.noise.size()
+                   ? "Noise " + rangeText(clip.noise[lane.index].lowFrequency, clip.noise[lane.index].highFrequency)
+                   : juce::String("Noise");
     default:
         return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
     }
@@ -167,7 +181,7 @@ PlotLane::Style CurveLane::style() const
     const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
     const Curve* points = curve();
     const juce::String number(points != nullptr ? static_cast<int>(points->size()) : 0);
-    Style result{laneName(*clip, shown), number + " points",
+    Style result{laneName(*clip, shown), number + (number == "1" ? " point" : " points"),
                  laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
     if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
         result.note = {};
@@ -228,8 +242,10 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     TimeAxis axis = session.axis();
     const auto [first, last] =
         reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
-    const double perColumn = static_cast<double>(last - first) / std::max(1, lastColumn - firstColumn + 16);
-    const bool bars = perColumn > mostPointsPerColumn;
+    // By the whole view, so that every part of it is drawn alike.
+    const double width = session.viewWidth();
+    const auto [firstSeen, lastSeen] = reaching(*points, session.axis().visible(width));
+    const bool bars = static_cast<double>(lastSeen - firstSeen) > mostPointsPerColumn * width;
     if (bars || filled)
     {
         // Bars of whole pixels are many times faster than filled paths.
@@ -256,6 +272,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
                 g.fillRect(x, top, 1, std::max(2, low - top));
         }
     }
+    drewHandles = false;
     if (bars)
         return;
     const auto at = [&](std::size_t i)
@@ -301,7 +318,8 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     }
     if (last == points->size() && at(last - 1).x < right)
         line(at(last - 1), {right, at(last - 1).y});
-    if (!showsHandles())
+    drewHandles = showsHandles();
+    if (!drewHandles)
         return;
     const Indices chosen = picked();
     for (std::size_t i = first; i < last; ++i)
@@ -317,6 +335,17 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
             g.drawRect(box, 1.0f);
         }
     }
+}
+
+std::optional<TimeRange> CurveLane::changedTime(const Clip& before, const Clip& now) const
+{
+    const Curve* old = curveOf(before, shown);
+    const Curve* points = curveOf(now, shown);
+    // Names and colours of bands follow from all of them.
+    if (old == nullptr || points == nullptr || before.bands.size() != now.bands.size() ||
+        laneName(before, shown) != laneName(now, shown) || showsHandles() != drewHandles)
+        return std::nullopt;
+    return PlotLane::changedTime(*old, *points);
 }
 
 std::optional<std::size_t> CurveLane::thingAt(juce::Point<float> place) const

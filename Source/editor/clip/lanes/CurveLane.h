@@ -15,6 +15,8 @@ namespace pacini::editor
 
 /// "62 Hz", "1.2 kHz".
 [[nodiscard]] juce::String hertzText(double frequency);
+/// "60–125 Hz", "0.50–2.0 kHz".
+[[nodiscard]] juce::String rangeText(double low, double high);
 /// "-12.3 dB", "silent".
 [[nodiscard]] juce::String amplitudeText(double amplitude);
 /// The name of a lane for people.
@@ -47,6 +49,7 @@ private:
     EditedClip added(const Clip& clip, Breakpoint where) const override;
     SelectionMove move(Breakpoint from, Breakpoint to) const override;
     juce::String valueText(double value) const override;
+    std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const override;
     const char* moveName() const override { return "Move points"; }
     void follow(unsigned changes) override;
     bool beginTool(const juce::MouseEvent& event) override;
@@ -70,6 +73,7 @@ private:
     std::optional<Bend> bent;
     Gesture toolGesture = 0;
     bool muted = false;
+    bool drewHandles = false; ///< the last time
     juce::ToggleButton pitchButton, soloButton, muteButton;
 };
 

@@ -62,6 +62,11 @@ ValueAxis EventLane::valueAxis(double height) const
     return amplitudeAxis(decibels, (decibels ? 2.0 : 1.12) * highest, height);
 }
 
+std::optional<TimeRange> EventLane::changedTime(const Clip& before, const Clip& now) const
+{
+    return PlotLane::changedTime(before.transients, now.transients);
+}
+
 void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
 {
     const auto clip = session.clip();

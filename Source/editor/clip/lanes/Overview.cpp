@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace pacini::editor
@@ -27,7 +28,14 @@ Overview::~Overview()
 
 void Overview::sessionChanged(unsigned changes)
 {
-    if ((changes & (Session::view | Session::content)) != 0)
+    if ((changes & Session::content) != 0)
+    {
+        const auto before = std::exchange(drawn, session.clip());
+        const bool same = before && drawn && before->duration == drawn->duration && before->envelope == drawn->envelope;
+        if (!same)
+            repaint();
+    }
+    if ((changes & Session::view) != 0)
         repaint();
 }
 

@@ -5,6 +5,8 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <memory>
+
 namespace pacini::editor
 {
 
@@ -33,6 +35,7 @@ private:
         right
     };
     Drag drag = Drag::frame;
+    std::shared_ptr<const Clip> drawn;
     TimeRange before; // the visible range when a drag began
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -16,11 +17,12 @@ namespace
 {
 constexpr juce::uint32 nudgePause = 700;                         // ms: presses nearer than this are one step of undo
 constexpr double spreadStep = 1.05;                              // of differences of levels, a press
+constexpr int edgeOfThings = 9;                                  // pixels to either side of what has changed
 constexpr double floorAmplitude = 0.001;                         // -60 dB
 constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
 } // namespace
 
-PlotLane::PlotLane(Session& shared) : session(shared)
+PlotLane::PlotLane(Session& shared) : session(shared), drawn(shared.clip())
 {
     setOpaque(true);
     setWantsKeyboardFocus(true);
@@ -37,13 +39,48 @@ bool PlotLane::concerns(unsigned changes) const
     return (changes & (Session::content | Session::selection | Session::view | Session::range | Session::look)) != 0;
 }
 
+bool PlotLane::repaintChanged()
+{
+    const auto before = std::exchange(drawn, session.clip());
+    const Indices pickedBefore = std::exchange(drawnPicked, picked());
+    const auto scaleBefore = scaleNow;
+    forgetScale();
+    if (!before || !drawn || before->duration != drawn->duration || !scaleBefore || scale() != *scaleBefore ||
+        pickedBefore != drawnPicked)
+        return false;
+    const auto range = changedTime(*before, *drawn);
+    if (!range)
+        return false;
+    if (range->from > range->to)
+        return true;
+    const auto plot = plotArea();
+    const auto xOf = [&](double time)
+    {
+        return juce::roundToInt(std::clamp(session.axis().xOf(time), -100.0, plot.getWidth() + 100.0));
+    };
+    const int from = xOf(range->from) - edgeOfThings;
+    const int to = xOf(range->to) + edgeOfThings;
+    repaint(plot.getIntersection(plot.withX(plot.getX() + from).withWidth(to - from)));
+    if (style().note != drawnNote)
+        repaint(getLocalBounds().withWidth(laneHeadWidth));
+    return true;
+}
+
 void PlotLane::sessionChanged(unsigned changes)
 {
-    if ((changes & (Session::content | Session::look)) != 0)
-        forgetScale();
     follow(changes);
+    const unsigned more = Session::view | Session::range | Session::look;
+    if ((changes & Session::content) != 0 && (changes & more) == 0 && repaintChanged())
+        return;
+    if ((changes & (Session::content | Session::look)) != 0)
+    {
+        forgetScale();
+        drawn = session.clip();
+    }
     if (!concerns(changes))
         return;
+    if ((changes & (Session::content | Session::selection)) != 0)
+        drawnPicked = picked();
     if ((changes & ~(Session::view | Session::range | Session::selection)) == 0)
         repaint(plotArea());
     else
@@ -156,6 +193,7 @@ void PlotLane::paintHead(juce::Graphics& g)
         g.setColour(p.accent);
         g.drawRect(head, 2);
     }
+    drawnNote = look.note;
     auto text = head.withTrimmedLeft(grid).withTrimmedRight(grid / 2);
     g.setColour(p.text);
     g.setFont(usualFont());

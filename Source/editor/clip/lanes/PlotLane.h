@@ -8,8 +8,13 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -79,6 +84,12 @@ protected:
     {
         return juce::MouseCursor::NormalCursor;
     }
+    /// The time in which the plot of `now` differs from that of `before`, of the same scale; from > to: nowhere.
+    /// Nothing: everywhere.
+    [[nodiscard]] virtual std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const = 0;
+    /// What changed lies between the neighbours of the first and the last of a list's items that differ.
+    template <typename Item>
+    [[nodiscard]] static TimeRange changedTime(const std::vector<Item>& before, const std::vector<Item>& now);
 
     void say(const juce::String& text);
     [[nodiscard]] const ValueAxis& scale() const;
@@ -92,6 +103,7 @@ protected:
 
 private:
     void sessionChanged(unsigned changes) final;
+    bool repaintChanged();
     void paintHead(juce::Graphics& g);
     void nudge(double pixels, double steps);
     void scaleByKeys(double pixels, double steps);
@@ -107,6 +119,9 @@ private:
         tool
     };
     mutable std::optional<ValueAxis> scaleNow;
+    std::shared_ptr<const Clip> drawn; ///< the content of the last repaint
+    Indices drawnPicked;
+    juce::String drawnNote;
     Drag drag = Drag::none;
     Gesture gesture = 0;
     Selection dragged; ///< at the start of the gesture
@@ -118,5 +133,21 @@ private:
     juce::uint32 lastNudge = 0;
     std::optional<std::size_t> hovered;
 };
+
+template <typename Item>
+TimeRange PlotLane::changedTime(const std::vector<Item>& before, const std::vector<Item>& now)
+{
+    constexpr double everything = std::numeric_limits<double>::infinity();
+    const std::size_t both = std::min(before.size(), now.size());
+    std::size_t first = 0;
+    while (first < both && before[first] == now[first])
+        ++first;
+    if (first == before.size() && first == now.size())
+        return {1.0, 0.0};
+    std::size_t last = 0; // from the end
+    while (last < both - first && before[before.size() - 1 - last] == now[now.size() - 1 - last])
+        ++last;
+    return {first > 0 ? now[first - 1].time : -everything, last > 0 ? now[now.size() - last].time : everything};
+}
 
 } // namespace pacini::editor

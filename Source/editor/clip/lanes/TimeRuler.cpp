@@ -47,7 +47,7 @@ TimeRuler::~TimeRuler()
 
 void TimeRuler::sessionChanged(unsigned changes)
 {
-    if ((changes & (Session::view | Session::range | Session::content)) != 0)
+    if ((changes & (Session::view | Session::range)) != 0)
         repaint();
 }
 

@@ -3,20 +3,53 @@
 
 #include "document/view/Columns.h"
 #include "editor/Theme.h"
+#include "editor/clip/lanes/CurveLane.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pacini::editor
 {
 
+namespace
+{
+constexpr int buttonHeight = 20;
+
+bool isDark(const juce::Component& component)
+{
+    const auto* look = dynamic_cast<const Look*>(&component.getLookAndFeel());
+    return look == nullptr || look->isDark();
+}
+} // namespace
+
 WaveformRow::WaveformRow(Session& shared) : session(shared)
 {
     setOpaque(true);
-    setTitle("Waveform of the sound");
-    setTooltip("The sound that the clip was made from, mean of its channels, -1 to 1");
+    setTitle("Sound");
+    viewButton.setTooltip("Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)");
+    viewButton.onClick = [this]
+    {
+        ViewOptions wanted = session.viewOptions();
+        wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
+        session.setViewOptions(wanted);
+    };
+    rangeButton.setTooltip("The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)");
+    rangeButton.onClick = [this]
+    {
+        ViewOptions wanted = session.viewOptions();
+        wanted.wholeSpectrum = !wanted.wholeSpectrum;
+        session.setViewOptions(wanted);
+    };
+    spectrum.onChanged = [this]
+    {
+        repaint(plotArea());
+    };
+    addAndMakeVisible(viewButton);
+    addChildComponent(rangeButton);
     session.listeners.add(this);
+    showOptions();
 }
 
 WaveformRow::~WaveformRow()
@@ -24,52 +57,164 @@ WaveformRow::~WaveformRow()
     session.listeners.remove(this);
 }
 
+juce::Rectangle<int> WaveformRow::plotArea() const
+{
+    return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedBottom(1);
+}
+
 void WaveformRow::sessionChanged(unsigned changes)
 {
-    if ((changes & (Session::view | Session::range | Session::content | Session::sound)) != 0)
+    if ((changes & (Session::look | Session::content | Session::sound)) != 0)
+        showOptions();
+    const auto sound = session.soundOfClip();
+    if ((changes & (Session::sound | Session::look)) != 0 || sound != drawn)
         repaint();
+    else if ((changes & Session::view) != 0)
+        repaint(plotArea());
+    drawn = sound;
+}
+
+void WaveformRow::showOptions()
+{
+    const ViewOptions& options = session.viewOptions();
+    const bool spectral = options.sound != SoundView::waveform;
+    const juce::String name = options.sound == SoundView::waveform   ? "Waveform"
+                              : options.sound == SoundView::spectrum ? "Spectrum"
+                                                                     : "Both";
+    viewButton.setButtonText(name);
+    viewButton.setTitle("View of the sound: " + name.toLowerCase());
+    rangeButton.setButtonText(options.wholeSpectrum ? "All" : "2 kHz");
+    rangeButton.setTitle(juce::String("Highest frequency: ") + (options.wholeSpectrum ? "all" : "2 kHz"));
+    rangeButton.setVisible(spectral);
+    spectrum.show(spectral ? session.soundOfClip() : nullptr, options.wholeSpectrum);
+    setTooltip(spectral
+                   ? "The frequencies of the sound over time, Hz; bright is loud in dark colours, dark in light ones"
+                   : "The sound that the clip was made from, mean of its channels, -1 to 1");
+}
+
+void WaveformRow::resized()
+{
+    auto head = getLocalBounds().removeFromLeft(laneHeadWidth).withTrimmedLeft(grid + 3).withTrimmedRight(6);
+    auto buttons = head.withTrimmedBottom(6).removeFromBottom(buttonHeight);
+    viewButton.setBounds(buttons.removeFromLeft(76));
+    buttons.removeFromLeft(4);
+    rangeButton.setBounds(buttons);
+}
+
+void WaveformRow::mouseMove(const juce::MouseEvent& event)
+{
+    const auto plot = plotArea();
+    if (session.viewOptions().sound == SoundView::waveform || !plot.contains(event.getPosition()))
+        return showOptions();
+    const double time = session.axis().timeAt(event.position.x - static_cast<float>(plot.getX()));
+    const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
+    const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
+    const double level = spectrum.levelAt(time, frequency);
+    setTooltip(
+        juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
+        (level <= SpectrumLevel::floor ? juce::String("silent") : juce::String(juce::roundToInt(level)) + " dB"));
 }
 
 void WaveformRow::paint(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
     g.fillAll(p.card);
-    const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedBottom(1);
+    const auto plot = plotArea();
     const auto sound = session.soundOfClip();
     if (g.getClipBounds().getX() < plot.getX())
-    {
-        g.setColour(p.dim);
-        g.fillRect(0, 0, 3, plot.getHeight());
-        auto head = getLocalBounds()
-                        .withWidth(laneHeadWidth)
-                        .withTrimmedLeft(grid + 3)
-                        .withSizeKeepingCentre(laneHeadWidth - grid - 7, 36);
-        g.setColour(p.text);
-        g.setFont(usualFont());
-        g.drawFittedText("Sound", head.removeFromTop(19), juce::Justification::centredLeft, 1);
-        g.setColour(p.dim);
-        g.setFont(smallFont());
-        g.drawFittedText(sound ? juce::String(sound->audio.sampleRate / 1000.0, 1) + " kHz, " +
-                                     juce::String(sound->audio.channels) + " ch"
-                               : juce::String("none"),
-                         head, juce::Justification::centredLeft, 1);
-    }
+        paintHead(g, sound.get());
     g.setColour(p.line);
     g.fillRect(getLocalBounds().removeFromBottom(1));
-    const auto visible = g.getClipBounds().getIntersection(plot);
     g.setColour(p.well);
+    const auto visible = g.getClipBounds().getIntersection(plot);
     g.fillRect(visible);
-    if (!sound || visible.isEmpty())
+    if (visible.isEmpty())
         return;
+    if (!sound)
+    {
+        g.setColour(p.dim);
+        g.setFont(smallFont());
+        g.drawText("This clip has no sound of its own", plot.reduced(grid, 0), juce::Justification::centredLeft, true);
+        return;
+    }
+    const juce::Graphics::ScopedSaveState saved(g);
+    g.reduceClipRegion(visible);
+    const SoundView shown = session.viewOptions().sound;
+    if (shown != SoundView::waveform)
+        paintSpectrum(g, plot);
+    if (shown != SoundView::spectrum)
+        paintWaveform(g, plot, *sound, shown == SoundView::both);
+    if (shown == SoundView::waveform)
+        return;
+    // Windows reach over the end.
+    if (const auto clip = session.clip())
+    {
+        const int end = plot.getX() + juce::roundToInt(std::min(1e6, session.axis().xOf(clip->duration)));
+        g.setColour(p.background);
+        g.fillRect(plot.withLeft(std::clamp(end, plot.getX(), plot.getRight())));
+    }
+    // The scale of frequencies, over both.
+    g.setFont(smallFont());
+    for (const double frequency : {50.0, 200.0, 1000.0, 5000.0})
+    {
+        const double place = spectrum.rows().placeOf(frequency) / static_cast<double>(spectrum.rows().count);
+        if (place > 0.95)
+            continue;
+        const int y = plot.getBottom() - juce::roundToInt(place * plot.getHeight());
+        g.setColour(p.text.withAlpha(0.25f));
+        g.fillRect(plot.getX(), y, plot.getWidth(), 1);
+        const auto text = frequency < 1000.0 ? juce::String(juce::roundToInt(frequency)) + " Hz"
+                                             : juce::String(juce::roundToInt(frequency / 1000.0)) + " kHz";
+        const juce::Rectangle<int> label(plot.getX() + 3, y - 14, 42, 13);
+        g.setColour(p.well.withAlpha(0.7f));
+        g.fillRect(label);
+        g.setColour(p.text);
+        g.drawText(text, label.withTrimmedLeft(3), juce::Justification::centredLeft, false);
+    }
+}
+
+void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
+{
+    const Palette& p = paletteFor(*this);
+    g.setColour(p.dim);
+    g.fillRect(0, 0, 3, getHeight() - 1);
+    auto head = getLocalBounds()
+                    .withWidth(laneHeadWidth)
+                    .withTrimmedLeft(grid + 3)
+                    .withTrimmedRight(4)
+                    .withTrimmedBottom(buttonHeight + 6)
+                    .withSizeKeepingCentre(laneHeadWidth - grid - 7, 36);
+    g.setColour(p.text);
+    g.setFont(usualFont());
+    g.drawFittedText("Sound", head.removeFromTop(19), juce::Justification::centredLeft, 1);
+    g.setColour(p.dim);
+    g.setFont(smallFont());
+    g.drawFittedText(sound != nullptr ? juce::String(sound->audio.sampleRate / 1000.0, 1) + " kHz, " +
+                                            juce::String(sound->audio.channels) + " ch"
+                                      : juce::String("none"),
+                     head, juce::Justification::centredLeft, 1);
+}
+
+void WaveformRow::paintSpectrum(juce::Graphics& g, juce::Rectangle<int> plot)
+{
+    const auto& image = spectrum.picture(session.axis(), plot.getWidth(), plot.getHeight(), isDark(*this));
+    g.drawImageAt(image, plot.getX(), plot.getY());
+}
+
+void WaveformRow::paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, const Sound& sound, bool overSpectrum)
+{
+    const Palette& p = paletteFor(*this);
+    const auto visible = g.getClipBounds().getIntersection(plot);
     TimeAxis axis = session.axis();
     axis.start = axis.timeAt(visible.getX() - plot.getX());
     std::vector<Column> columns(static_cast<std::size_t>(visible.getWidth()));
-    sound->peaks.columns(axis, columns);
+    sound.peaks.columns(axis, columns);
     const float middle = static_cast<float>(plot.getCentreY());
     const float half = 0.5f * static_cast<float>(plot.getHeight() - 4);
     g.setColour(p.line);
-    g.fillRect(visible.getX(), plot.getCentreY(), visible.getWidth(), 1);
-    g.setColour(p.dim);
+    if (!overSpectrum)
+        g.fillRect(visible.getX(), plot.getCentreY(), visible.getWidth(), 1);
+    g.setColour(overSpectrum ? p.text.withAlpha(0.55f) : p.dim);
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
         const int top = juce::roundToInt(middle - half * std::clamp(columns[i].high, -1.0f, 1.0f));

@@ -1,26 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "editor/clip/lanes/SpectrogramPicture.h"
 #include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <memory>
+
 namespace pacini::editor
 {
 
-/// The sound that the clip was made from. Clicks and drags as in the ruler.
+/// The sound that the clip was made from, as its waveform, its spectrogram or both over each other.
 class WaveformRow final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
 {
 public:
     explicit WaveformRow(Session& shared);
     ~WaveformRow() override;
 
+    /// Whether all of the spectrogram that is visible has been computed.
+    [[nodiscard]] bool isComplete() const { return spectrum.isComplete(); }
+
     void paint(juce::Graphics& g) override;
+    void resized() override;
+    void mouseMove(const juce::MouseEvent& event) override;
 
 private:
     void sessionChanged(unsigned changes) override;
+    void showOptions();
+    [[nodiscard]] juce::Rectangle<int> plotArea() const;
+    void paintHead(juce::Graphics& g, const Sound* sound);
+    void paintSpectrum(juce::Graphics& g, juce::Rectangle<int> plot);
+    void paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, const Sound& sound, bool overSpectrum);
 
     Session& session;
+    SpectrogramPicture spectrum;
+    std::shared_ptr<const Sound> drawn;
+    juce::TextButton viewButton, rangeButton;
 };
 
 } // namespace pacini::editor

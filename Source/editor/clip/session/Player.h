@@ -38,7 +38,8 @@ public:
     void play(double time);
     void stop() { engine->stop(); }
     [[nodiscard]] bool isPlaying() const noexcept { return engine->isPlaying(); }
-    [[nodiscard]] double position() const noexcept { return engine->position(); } ///< s of the clip
+    [[nodiscard]] double position() const noexcept { return engine->position(); }     ///< s of the clip
+    [[nodiscard]] PreviewEngine::Meters takeMeters() { return engine->takeMeters(); } ///< since the last call
     [[nodiscard]] std::optional<Error> lastError() const { return worker->lastError(); }
 
 private:

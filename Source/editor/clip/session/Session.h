@@ -14,6 +14,7 @@
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/Player.h"
 #include "editor/clip/session/Sound.h"
+#include "editor/clip/session/ViewOptions.h"
 
 #include <juce_core/juce_core.h>
 
@@ -231,6 +232,8 @@ public:
     void setDrawing(bool wanted);
     [[nodiscard]] const SnapTargets& snapTargets() const noexcept { return snapNow; }
     void setSnapTargets(const SnapTargets& wanted);
+    [[nodiscard]] const ViewOptions& viewOptions() const noexcept { return options; }
+    void setViewOptions(const ViewOptions& wanted);
 
     // Playback.
 
@@ -311,6 +314,7 @@ private:
     double width = 800.0;
     bool decibels = true;
     int laneSize = 48;
+    ViewOptions options;
     std::optional<TimeRange> rangeNow;
     bool looping = false;
     Heard hear = Heard::haptic;

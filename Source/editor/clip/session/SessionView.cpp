@@ -89,4 +89,12 @@ void Session::setLaneHeight(int wanted)
     changed(look);
 }
 
+void Session::setViewOptions(const ViewOptions& wanted)
+{
+    if (wanted == options)
+        return;
+    options = wanted;
+    changed(look);
+}
+
 } // namespace pacini::editor

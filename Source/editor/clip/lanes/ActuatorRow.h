@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the chosen actuator really plays of the clip.
+
+#include "document/ActuatorTrace.h"
+#include "editor/clip/session/Jobs.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+namespace pacini::editor
+{
+
+/// Two plots: the drive with what protection takes from it, and under it one line for each band, shaded where it is not
+/// played as it is in the clip. Rendered in the background when the clip has rested for a moment. Muted and soloed
+/// bands do not count here.
+class ActuatorRow final : public juce::Component,
+                          public juce::SettableTooltipClient,
+                          private Session::Listener,
+                          private juce::Timer
+{
+public:
+    explicit ActuatorRow(Session& shared);
+    ~ActuatorRow() override;
+
+    /// Low without an actuator.
+    [[nodiscard]] int wantedHeight() const;
+
+    /// What is shown; null: nothing yet, or no actuator.
+    [[nodiscard]] std::shared_ptr<const ActuatorTrace> trace() const noexcept { return shown; }
+    void show(std::shared_ptr<const ActuatorTrace> wanted);
+
+    /// What the plots say at a place: time, band, level and loss.
+    [[nodiscard]] juce::String textAt(juce::Point<float> place) const;
+
+    void paint(juce::Graphics& g) override;
+    void mouseMove(const juce::MouseEvent& event) override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override;
+    void update();
+    [[nodiscard]] juce::Rectangle<int> drivePlot() const;
+    [[nodiscard]] juce::Rectangle<int> lossPlot() const;
+    [[nodiscard]] std::size_t sourceAt(double y) const; ///< y from the top of the losses
+    void paintHead(juce::Graphics& g);
+    void paintDrive(juce::Graphics& g, juce::Rectangle<int> plot);
+    void paintLosses(juce::Graphics& g, juce::Rectangle<int> plot);
+
+    Session& session;
+    std::shared_ptr<const Clip> askedClip; ///< what is rendered or has been
+    std::optional<Profile> askedProfile;
+    std::shared_ptr<std::atomic<bool>> cancelled;
+    std::shared_ptr<const ActuatorTrace> shown;
+    juce::String summary, failure;
+    bool waiting = false; ///< the clip has changed since
+    juce::Image losses;
+    TimeAxis lossAxis;
+    bool lossDark = true, lossStale = true;
+    Jobs jobs; ///< ends before the rest
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/MeterPanel.h"
+
+#include "editor/Theme.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rate = 30;            // Hz
+constexpr int fallCalls = 5 * rate; // until all bars are down
+constexpr double leastShown = 0.05; // dB
+} // namespace
+
+MeterPanel::MeterPanel(Session& shared)
+    : session(shared),
+      output("Output", "Peak of the drive signal in dB; 0 dB is full drive",
+             {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
+      reduction("Gain reduction", "What the protection of the actuator takes away, dB",
+                {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
+      felt("Above touch threshold", "How far the drive stands above what is just felt on the chosen actuator, dB",
+           {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true})
+{
+    setTitle("Meters");
+    setOpaque(true);
+    for (juce::Component* meter : std::initializer_list<juce::Component*>{&output, &reduction, &felt})
+        addAndMakeVisible(meter);
+    felt.show(-std::numeric_limits<double>::infinity());
+    session.listeners.add(this);
+    sessionChanged(Session::playback);
+}
+
+MeterPanel::~MeterPanel()
+{
+    session.listeners.remove(this);
+}
+
+void MeterPanel::sessionChanged(unsigned changes)
+{
+    if ((changes & (Session::playback | Session::project)) == 0)
+        return;
+    felt.setEnabled(session.profile() != nullptr);
+    felt.setAlpha(felt.isEnabled() ? 1.0f : 0.45f);
+    if (session.isPlaying() && !isTimerRunning())
+    {
+        quiet = 0;
+        startTimerHz(rate);
+    }
+}
+
+void MeterPanel::timerCallback()
+{
+    const auto reading = session.player.takeMeters();
+    const double level = 20.0 * std::log10(reading.peak);
+    const auto profile = session.profile();
+    output.show(level);
+    reduction.show(reading.gainReduction > leastShown ? reading.gainReduction : -1.0);
+    felt.show(profile ? level + profile->range.dynamicRange : -std::numeric_limits<double>::infinity());
+    quiet = session.isPlaying() ? 0 : quiet + 1;
+    if (quiet > fallCalls)
+        stopTimer();
+}
+
+void MeterPanel::paint(juce::Graphics& g)
+{
+    g.fillAll(paletteFor(*this).card);
+    g.setColour(paletteFor(*this).line);
+    g.fillRect(getLocalBounds().removeFromTop(1));
+}
+
+void MeterPanel::resized()
+{
+    auto area = getLocalBounds().reduced(12, 6);
+    const int row = area.getHeight() / 3;
+    output.setBounds(area.removeFromTop(row));
+    reduction.setBounds(area.removeFromTop(row));
+    felt.setBounds(area.removeFromTop(row));
+}
+
+} // namespace pacini::editor

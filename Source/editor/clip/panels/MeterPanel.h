@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the actuator gets while playing.
+
+#include "editor/Meters.h"
+#include "editor/clip/session/Session.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace pacini::editor
+{
+
+/// Output level, gain reduction and level above the threshold of touch, which is known of a chosen actuator only.
+class MeterPanel final : public juce::Component, private Session::Listener, private juce::Timer
+{
+public:
+    static constexpr int height = 3 * 30 + 12;
+
+    explicit MeterPanel(Session& shared);
+    ~MeterPanel() override;
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void sessionChanged(unsigned changes) override;
+    void timerCallback() override;
+
+    Session& session;
+    LevelMeter output, reduction, felt;
+    int quiet = 0; ///< calls of the timer since something played
+};
+
+} // namespace pacini::editor
