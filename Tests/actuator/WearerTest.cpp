@@ -1,6 +1,6 @@
 // Simulated wearers.
 
-#include "cli/Wearer.h"
+#include <pacini/actuator/Wearer.h>
 
 #include "support/Catch.h"
 
@@ -8,8 +8,6 @@
 #include <set>
 
 using namespace pacini;
-using pacini::cli::bodyOn;
-using pacini::cli::simulatedWearers;
 
 TEST_CASE("wearer 0 is the profile's own", "[wearer]")
 {
