@@ -15,7 +15,7 @@ constexpr int none = 1; // menus know no item 0; channels follow
 DevicesSheet::DevicesSheet(PreviewRig& wanted)
     : Sheet("Sound devices", 640, 560),
       rig(wanted),
-      selector(wanted.devices(), 0, 0, 0, 256, false, false, false, false)
+      selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
 {
     const auto prepare =
         [this](juce::Label& label, juce::ComboBox& box, const juce::String& name, const juce::String& help)

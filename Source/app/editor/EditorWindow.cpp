@@ -2,18 +2,18 @@
 #include "app/editor/EditorWindow.h"
 
 #include "app/editor/DevicesSheet.h"
+#include "app/editor/MeasureDevice.h"
 
 namespace pacini::app
 {
 
-EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos)
+EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos,
+                           std::filesystem::path profileFolder)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
-      content(session, {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
-                        [this]
-                        {
-                            showDevices();
-                        }})
+      content(session,
+              {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
+               [this] { showDevices(); }, std::make_shared<MeasureDevice>(wanted.devices()), std::move(profileFolder)})
 {
     setUsingNativeTitleBar(true);
     setContentNonOwned(&content, false);

@@ -59,6 +59,8 @@ enum Command : int
     smallerInterface,
     soundDevices,
 
+    measureActuator,
+
     shortcuts
 };
 

@@ -22,7 +22,7 @@ bool canDo(const Action& action)
 
 Menus::Menus(EditorView& view) : owner(view)
 {
-    for (const auto make : {fileMenu, editMenu, clipMenu, playMenu, viewMenu, helpMenu})
+    for (const auto make : {fileMenu, editMenu, clipMenu, playMenu, viewMenu, toolsMenu, helpMenu})
         menus.push_back(make(view));
     manager.registerAllCommandsForTarget(this);
     manager.setFirstCommandTarget(this);
