@@ -41,7 +41,7 @@ RecordedSweep recordedOn(SimulatedMeasureRig& rig, std::vector<float> signal, co
     while (rig.state() == RigState::playing)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     REQUIRE(rig.state() == RigState::finished);
-    RecordedSweep recorded{rig.takeRecording(), {}, sweep.sampleRate, sweep};
+    RecordedSweep recorded{rig.takeRecording(), {}, sweep.sampleRate, sweep, true};
     for (const std::size_t input : inputs)
         recorded.inputs.push_back(rig.ports().inputs[input]);
     CHECK(rig.state() == RigState::idle);
@@ -188,6 +188,7 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
         const auto fitting = analyseFitting("x", recordedOn(rig, signal, sweep, inputs), settings);
         REQUIRE_FALSE(fitting.ok());
         CHECK(fitting.error().where.empty());
+        UNSCOPED_INFO(fitting.error().message);
         return fitting.error().message;
     };
     SimulatedMeasureRig rig(usualRig(), 0.0);
@@ -203,14 +204,16 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
     SECTION("the sensor is overloaded")
     {
         RigParams narrow = usualRig();
-        narrow.range = 0.25 * standardGravity;
-        narrow.axes = 3;
+        narrow.range = 2.0 * standardGravity;
         SimulatedMeasureRig small(narrow, 0.0);
         const auto fitting = analyseFitting("x", recordedOn(small, signal, sweep, {0, 1, 2}), settings);
         REQUIRE(fitting.ok());
         REQUIRE_FALSE(fitting->notes.empty());
         CHECK(fitting->notes.front().find("' clips: ") != std::string::npos);
         CHECK(fitting->notes.front().find("record or drive at a lower level") != std::string::npos);
+        narrow.range = 1.1 * standardGravity;
+        SimulatedMeasureRig smaller(narrow, 0.0);
+        CHECK(failure(smaller, {0, 1, 2}).find("' clips: ") != std::string::npos);
     }
     SECTION("the recording ends too early")
     {

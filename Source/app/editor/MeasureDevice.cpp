@@ -130,8 +130,9 @@ RigState MeasureDevice::state() const
 std::vector<std::vector<float>> MeasureDevice::takeRecording()
 {
     const auto recorded = callback.sweeps().recording();
-    running = false;
-    return {recorded.begin(), recorded.end()};
+    std::vector<std::vector<float>> channels(recorded.begin(), recorded.end());
+    stop();
+    return channels;
 }
 
 void MeasureDevice::audioDeviceAboutToStart(juce::AudioIODevice* device)

@@ -37,13 +37,14 @@ public:
         tone.store(level ? static_cast<float>(Decibels(*level).gain()) : 0.0f, std::memory_order_relaxed);
     }
 
-    /// [audio] As PlayAndRecord::process(). The tone is silent while a sweep plays.
+    /// [audio] As PlayAndRecord::process(). The tone is silent from the start of a sweep until it
+    /// has been stopped, finished or not.
     void process(std::span<const std::span<const float>> inputs, std::span<float> out) noexcept
     {
         recorder.process(inputs, out);
-        const bool playing = recorder.state() == PlayAndRecordState::playing;
-        const float wanted = playing ? 0.0f : tone.load(std::memory_order_relaxed);
-        if (playing)
+        const bool idle = recorder.state() == PlayAndRecordState::idle;
+        const float wanted = idle ? tone.load(std::memory_order_relaxed) : 0.0f;
+        if (!idle)
             gain = 0.0f;
         if (gain == 0.0f && wanted == 0.0f)
             return;

@@ -45,6 +45,21 @@ Error plain(const Error& error)
     return {error.code, {}, explain(error, {})};
 }
 
+/// Why there is no result. Noise that was taken for a sweep shows itself by a drift that one clock cannot have, and an
+/// overload can hide a sweep.
+std::string whyNothing(Error error, const RecordedSweep& recorded)
+{
+    if (recorded.oneClock && error.where == "clock")
+        error.where = "channels";
+    std::vector<MeasurementWarning> seen;
+    if (checkRecording(recorded.channels))
+        warnOfChannels(recorded.channels, recorded.sampleRate, seen);
+    for (const MeasurementWarning& warning : seen)
+        if (warning.code == MeasurementDefect::clipping)
+            return explain(warning, recorded.inputs);
+    return explain(error, recorded.inputs);
+}
+
 /// Whether the warning says that the channel shows no movement.
 bool showsNothing(const MeasurementWarning& warning)
 {
@@ -57,7 +72,7 @@ Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& rec
 {
     auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, analysisOf(settings));
     if (!measured)
-        return Error{measured.error().code, {}, explain(measured.error(), recorded.inputs)};
+        return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
     Fitting fitting{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
     std::set<std::string> useless;
     for (const MeasurementWarning& warning : fitting.measurement.warnings)

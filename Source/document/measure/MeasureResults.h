@@ -28,6 +28,7 @@ struct RecordedSweep
     std::vector<std::string> inputs; ///< their names
     double sampleRate = 48000.0;     ///< Hz of the recording
     SweepParams sweep;               ///< as it was played
+    bool oneClock = false;           ///< one device has played and recorded
 };
 
 /// One recording of the actuator: on one wearer, attached once.

@@ -320,7 +320,7 @@ void MeasureDesk::poll()
     case RigState::finished:
         break;
     }
-    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep};
+    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep, true};
     analyse(std::move(recorded), {verifying, nextName});
 }
 
@@ -407,7 +407,7 @@ void MeasureDesk::readRecording(const std::filesystem::path& file, bool throughE
         return fail(throughEqualizer,
                     file.filename().string() + " has " + std::to_string(width) +
                         " channels. Keep those of the microphone or of the axes of the sensor, three at most.");
-    RecordedSweep recorded{{}, {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate)};
+    RecordedSweep recorded{{}, {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate), false};
     if (throughEqualizer)
         if (const auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, soundRate))
             recorded.sweep = made->sweep;
