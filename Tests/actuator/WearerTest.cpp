@@ -1,8 +1,8 @@
 // Simulated wearers.
 
-#include <pacini/actuator/Wearer.h>
-
 #include "support/Catch.h"
+
+#include <pacini/actuator/Wearer.h>
 
 #include <algorithm>
 #include <set>

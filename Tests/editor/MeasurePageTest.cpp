@@ -322,7 +322,7 @@ TEST_CASE("A plot draws its curve where its scales say", "[measure]")
     content.curves = {{"line", line}};
     plot.show(content);
     CHECK(plot.placeOf(100.0, 0.0).x - plot.placeOf(10.0, 0.0).x ==
-          Catch::Approx(plot.placeOf(1000.0, 0.0).x - plot.placeOf(100.0, 0.0).x).margin(0.01));
+          Approx(plot.placeOf(1000.0, 0.0).x - plot.placeOf(100.0, 0.0).x).margin(0.01));
     const auto picture = plot.createComponentSnapshot(plot.getLocalBounds(), true, 1.0f);
     const auto accent = editor::paletteFor(plot).accent;
     for (const double f : {20.0, 90.0, 700.0})

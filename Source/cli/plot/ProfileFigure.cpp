@@ -62,8 +62,8 @@ std::vector<Point> feltResponse(const Profile& profile, unsigned wearer, const s
     const bool spins = isMotor(profile);
     const double rated = profile.resonance.frequency;
     const MotorDriveParams motor = motorDriveParams(profile);
-    const BodyChain chain = makeBodyChain(bodyOn(wearer, *profile.body), profile.resonance,
-                                          spins ? BodyForce::device : BodyForce::coil);
+    const BodyChain chain =
+        makeBodyChain(bodyOn(wearer, *profile.body), profile.resonance, spins ? BodyForce::device : BodyForce::coil);
     std::vector<Point> points;
     for (const double f : frequencies)
     {
