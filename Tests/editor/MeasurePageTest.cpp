@@ -230,8 +230,10 @@ TEST_CASE("The menu opens one measure page", "[measure]")
 {
     EditorBench bench;
     REQUIRE(bench.view.doCommand(editor::measureActuator));
-    CHECK(dynamic_cast<editor::MeasurePage*>(bench.view.sheet()) != nullptr);
-    CHECK_FALSE(bench.view.doCommand(editor::measureActuator));
+    auto* page = dynamic_cast<editor::MeasurePage*>(bench.view.sheet());
+    REQUIRE(page != nullptr);
+    REQUIRE(bench.view.doCommand(editor::measureActuator));
+    CHECK(bench.view.sheet() == page);
 }
 
 TEST_CASE("A sweep can be saved and its recording opened", "[measure]")

@@ -18,17 +18,15 @@ Menu toolsMenu(EditorView& view)
          .run =
              [&view, desk = std::make_shared<std::shared_ptr<MeasureDesk>>()]
          {
+             if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)
+                 return; // a desk has one page
+
              // Made when it is first needed, and kept: the page may be closed and opened again.
              const Surroundings& around = view.surroundings();
              if (!*desk)
                  *desk = std::make_shared<MeasureDesk>(
                      view.session(), MeasureDesk::Surroundings{around.measureRig, around.profileFolder});
              view.showSheet(std::make_unique<MeasurePage>(*desk, around.showDevices));
-         },
-         .can =
-             [&view]
-         {
-             return dynamic_cast<MeasurePage*>(view.sheet()) == nullptr;
          }},
     };
     return menu;
