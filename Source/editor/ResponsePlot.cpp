@@ -76,8 +76,12 @@ void ResponsePlot::rescale()
     const double coarse = content.unit == Unit::percent ? 20.0 : 10.0;
     top = coarse * std::ceil((most + 1.0) / coarse);
     bottom = std::max(coarse * std::floor((least - 1.0) / coarse), top - widestSpan);
+    constexpr double leastPercent = -40.0; // 0.01 %
     if (content.unit == Unit::percent)
-        bottom = std::min(bottom, top - 2.0 * coarse);
+    {
+        top = std::max(top, leastPercent + 2.0 * coarse);
+        bottom = std::max(std::min(bottom, top - 2.0 * coarse), leastPercent);
+    }
     // As many lines as keep their numbers apart.
     step = coarse;
     while (plotArea().getHeight() * step / (top - bottom) < 2.5 * grid && step < top - bottom)

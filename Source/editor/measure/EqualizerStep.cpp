@@ -33,7 +33,7 @@ const char* nameOf(EqualizerType type)
 
 juce::String signedText(double value, int decimals)
 {
-    return (value >= 0.0 ? "+" : "") + juce::String(value, decimals);
+    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
 }
 } // namespace
 
@@ -135,21 +135,21 @@ void EqualizerStep::refresh()
 
     FactTable::Facts list;
     for (const EqualizerSection& section : fitted->fit.sections)
-        list.push_back({nameOf(section.type), juce::String(section.frequency, section.frequency < 100.0 ? 1 : 0) +
+        list.push_back({nameOf(section.type), numberText(section.frequency, section.frequency < 100.0 ? 1 : 0) +
                                                   " Hz  " + signedText(section.gain, 1) + " dB  Q " +
-                                                  juce::String(section.q, 2)});
+                                                  numberText(section.q, 2)});
     table.show(std::move(list));
     const Linearity& linearity = fitted->predictedLinearity;
-    FactTable::Facts effects{{"Mean deviation", juce::String(linearity.meanDeviation, 2) + " dB"},
+    FactTable::Facts effects{{"Mean deviation", numberText(linearity.meanDeviation, 2) + " dB"},
                              {"Worst", signedText(linearity.worstDeviation, 2) + " dB at " +
-                                           juce::String(linearity.worstFrequency, 0) + " Hz"},
+                                           numberText(linearity.worstFrequency, 0) + " Hz"},
                              {"Power in the coil", signedText(fitted->cost.powerChange, 1) + " dB"}};
     if (fitted->cost.power)
-        effects.push_back({"At full drive", juce::String(*fitted->cost.power, 2) + " W"});
+        effects.push_back({"At full drive", numberText(*fitted->cost.power, 2) + " W"});
     effects.push_back({"Largest travel", signedText(fitted->cost.excursionChange, 1) + " dB at " +
-                                             juce::String(fitted->cost.excursionFrequency, 0) + " Hz"});
+                                             numberText(fitted->cost.excursionFrequency, 0) + " Hz"});
     if (fitted->cost.excursion)
-        effects.push_back({"Of its limit", juce::String(100.0 * *fitted->cost.excursion, 0) + " %"});
+        effects.push_back({"Of its limit", numberText(100.0 * *fitted->cost.excursion, 0) + " %"});
     facts.show(std::move(effects));
     if (std::abs(linearity.worstDeviation) > 1.0)
         lines.push_back({"Not flat within 1 dB: allow more sections or more boost, or flatten a smaller range.",

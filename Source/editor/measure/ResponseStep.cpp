@@ -53,7 +53,7 @@ void ResponseStep::refresh()
 
         const auto number = [](double value, int decimals)
         {
-            return juce::String(value, decimals);
+            return numberText(value, decimals);
         };
         FactTable::Facts list{
             {"Fittings",

@@ -109,16 +109,15 @@ void SaveStep::refresh()
         const Profile profile = work.profile(name.control.getText().toStdString());
         const VerifiedResponse* verified = work.verified();
         facts.show(
-            {{"Resonance",
-              juce::String(profile.resonance.frequency, 1) + " Hz, Q " + juce::String(profile.resonance.q, 2)},
-             {"Range", juce::String(profile.range.lowFrequency, 0) + " to " +
-                           juce::String(profile.range.highFrequency, 0) + " Hz"},
+            {{"Resonance", numberText(profile.resonance.frequency, 1) + " Hz, Q " + numberText(profile.resonance.q, 2)},
+             {"Range",
+              numberText(profile.range.lowFrequency, 0) + " to " + numberText(profile.range.highFrequency, 0) + " Hz"},
              {"Equaliser", juce::String(static_cast<int>(profile.equalizer.size())) + " sections"},
              {"Fittings", juce::String(profile.measurement->fittings)},
              {"Proof", verified == nullptr ? juce::String("not verified")
                                            : juce::String(verified->linearity.passed() ? "passed, " : "not passed, ") +
                                                  "worst " + (verified->linearity.worstDeviation >= 0.0 ? "+" : "") +
-                                                 juce::String(verified->linearity.worstDeviation, 2) + " dB"},
+                                                 numberText(verified->linearity.worstDeviation, 2) + " dB"},
              {"Limits from", desk.base() ? toText(work.base().name) : juce::String("nothing is known")}});
         if (!work.saved().empty())
             lines.push_back({"Saved to " + work.saved() + ". It is in the list of actuators now."});

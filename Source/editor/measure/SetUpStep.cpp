@@ -59,7 +59,7 @@ SetUpStep::SetUpStep(MeasureDesk& wanted, StepServices& around)
     prepareSlider(fullScale, 0.01, 2000.0, 0.01, toText("m/s²"), 2);
     low.control.setSkewFactorFromMidPoint(30.0);
     duration.control.setSkewFactorFromMidPoint(12.0);
-    fullScale.setSliderStyle(juce::Slider::LinearBar);
+    fullScale.setTextBoxStyle(juce::Slider::TextBoxRight, false, 12 * grid, 3 * grid);
     fullScale.setSkewFactorFromMidPoint(50.0);
     fullScale.setTitle("Calibration");
     fullScale.setTooltip(
@@ -224,8 +224,8 @@ void SetUpStep::refresh()
     devices.setVisible(services.showDevices != nullptr);
     openRecording.setEnabled(desk.activity() == MeasureDesk::Activity::none);
 
-    facts.show({{"All that is played", juce::String(desk.sweepSeconds(), 1) + " s"},
-                {"Sample rate", juce::String(ports.sampleRate, 0) + " Hz"}});
+    facts.show({{"All that is played", numberText(desk.sweepSeconds(), 1) + " s"},
+                {"Sample rate", numberText(ports.sampleRate, 0) + " Hz"}});
 
     std::vector<Note> lines;
     if (const auto obstacle = desk.obstacle(); !obstacle.empty())
@@ -289,6 +289,7 @@ void SetUpStep::resized()
     left.removeFromTop(grid / 2);
     line = row(left);
     tone.setBounds(line.removeFromLeft(line.getWidth() / 2 + grid));
+    line.removeFromLeft(grid);
     devices.setBounds(line);
 
     auto right = insideOfCard(sweepCard());

@@ -3,6 +3,8 @@
 
 #include "editor/Text.h"
 
+#include <cmath>
+
 namespace pacini::editor
 {
 
@@ -14,6 +16,11 @@ void prepareSlider(juce::Slider& slider, double least, double most, double step,
     slider.setNumDecimalPlacesToDisplay(decimals);
     slider.setTextValueSuffix(unit.isEmpty() ? unit : " " + unit);
     slider.setScrollWheelEnabled(false);
+}
+
+juce::String numberText(double value, int decimals)
+{
+    return decimals > 0 ? juce::String(value, decimals) : juce::String(static_cast<juce::int64>(std::llround(value)));
 }
 
 NoteBox::NoteBox(const juce::String& name)

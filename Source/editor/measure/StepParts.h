@@ -54,6 +54,9 @@ private:
 void prepareSlider(juce::Slider& slider, double least, double most, double step, const juce::String& unit,
                    int decimals);
 
+/// A rounded number; with no decimals JUCE would show all there are.
+[[nodiscard]] juce::String numberText(double value, int decimals);
+
 struct Note
 {
     enum class Kind

@@ -111,11 +111,11 @@ void SweepStep::refresh()
     {
         const Fitting& fitting = *work.fittings()[i];
         auto row = std::make_unique<Row>();
-        juce::String text = toText(fitting.name) + "   " + juce::String(fitting.level, 1) + " dB";
+        juce::String text = toText(fitting.name) + "   " + numberText(fitting.level, 1) + " dB";
         if (response != nullptr && i < response->average.offsets.size() && work.fittings().size() > 1)
         {
             const double offset = response->average.offsets[i];
-            text << ", " << (offset >= 0.0 ? "+" : "") << juce::String(offset, 1) << " dB to the average";
+            text << ", " << (offset >= 0.0 ? "+" : "") << numberText(offset, 1) << " dB to the average";
             if (response->findings.outliers.contains(i))
                 text << ", left out";
         }

@@ -93,19 +93,19 @@ void VerifyStep::refresh()
             curves.band = std::pair(after.level - after.tolerance, after.level + after.tolerance);
             const auto deviation = [](const Linearity& one)
             {
-                return (one.worstDeviation >= 0.0 ? "+" : "") + juce::String(one.worstDeviation, 2) + " dB at " +
-                       juce::String(one.worstFrequency, 0) + " Hz";
+                return (one.worstDeviation >= 0.0 ? "+" : "") + numberText(one.worstDeviation, 2) + " dB at " +
+                       numberText(one.worstFrequency, 0) + " Hz";
             };
-            list = {{"Mean deviation", juce::String(after.meanDeviation, 2) + " dB"},
-                    {"before", juce::String(verified->before.meanDeviation, 2) + " dB"},
+            list = {{"Mean deviation", numberText(after.meanDeviation, 2) + " dB"},
+                    {"before", numberText(verified->before.meanDeviation, 2) + " dB"},
                     {"Worst", deviation(after)},
                     {"before", deviation(verified->before)},
                     {"Sweeps", juce::String(static_cast<int>(work.verifications().size()))},
-                    {"Level", juce::String(work.verifications().back()->level, 1) + " dB"}};
+                    {"Level", numberText(work.verifications().back()->level, 1) + " dB"}};
             for (const LinearityOutlier& outlier : after.outliers)
                 lines.push_back({juce::String(toText("From ") + juce::String(outlier.lowFrequency, 0) + " to " +
-                                              juce::String(outlier.highFrequency, 0) + " Hz it is off by up to " +
-                                              juce::String(outlier.deviation, 1) + " dB.")
+                                              numberText(outlier.highFrequency, 0) + " Hz it is off by up to " +
+                                              numberText(outlier.deviation, 1) + " dB.")
                                      .toStdString(),
                                  Note::Kind::warning});
             for (const std::string& note : verified->notes)
@@ -153,7 +153,7 @@ void VerifyStep::paint(juce::Graphics& g)
         g.setColour(p.text);
         g.setFont(usualFont());
         g.drawText((passed ? "Passed: flat within " : "Not flat within ") + toText("±") +
-                       juce::String(verified->linearity.tolerance, 1) + " dB",
+                       numberText(verified->linearity.tolerance, 1) + " dB",
                    place, juce::Justification::centred, true);
     }
 }
