@@ -41,7 +41,7 @@ RecordedSweep recordedOn(SimulatedMeasureRig& rig, std::vector<float> signal, co
     while (rig.state() == RigState::playing)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     REQUIRE(rig.state() == RigState::finished);
-    RecordedSweep recorded{rig.takeRecording(), {}, sweep.sampleRate, sweep, true};
+    RecordedSweep recorded{rig.takeRecording(), {}, sweep.sampleRate, sweep, true, 0.0};
     for (const std::size_t input : inputs)
         recorded.inputs.push_back(rig.ports().inputs[input]);
     CHECK(rig.state() == RigState::idle);
@@ -246,6 +246,22 @@ TEST_CASE("A sweep through an equaliser that raises it beyond full scale is play
     CHECK(peak <= 1.0f);
     CHECK(peak > 0.7f);
     CHECK(made->sweep.levels.front() < -9.0);
+    // One that lowers it is made up for, by a gain that the analysis knows.
+    EqualizerSections lowering;
+    lowering.pushBack({EqualizerType::highShelf, 2.0, -40.0, 0.7, 2});
+    const auto soft = verifyingSweep(settings, lowering, 8000.0);
+    const auto loud = verifyingSweep(settings, lowering, 8000.0, true);
+    CHECK(soft->gain == 0.0);
+    CHECK(std::abs(*std::max_element(soft->signal.begin(), soft->signal.end())) < 0.1f);
+    CHECK(loud->gain > 17.0);
+    CHECK(std::abs(*std::max_element(loud->signal.begin(), loud->signal.end()) - 0.708f) < 0.02f);
+    SimulatedMeasureRig rig(usualRig(), 0.0);
+    auto recorded = recordedOn(rig, loud->signal, loud->sweep, {0, 1, 2});
+    recorded.gain = loud->gain;
+    const auto heard = analyseFitting("x", recorded, settings);
+    REQUIRE(heard.ok());
+    const double expected = rigLevel(usualRig(), 100.0) + equalizerLevel(lowering, 100.0, 8000.0);
+    CHECK(std::abs(levelAt(heard->measurement.response(), 100.0) - expected) < 0.3);
     CHECK(verifyingSweep(settings, {}, 8000.0)->sweep.levels.front() == -3.0);
 }
 

@@ -74,6 +74,10 @@ Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& rec
     if (!measured)
         return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
     Fitting fitting{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
+    for (LevelMeasurement& level : fitting.measurement.levels)
+        for (FrequencyResponse* one : {&level.response, &level.noise})
+            for (double& value : one->level)
+                value -= recorded.gain;
     std::set<std::string> useless;
     for (const MeasurementWarning& warning : fitting.measurement.warnings)
     {
@@ -157,9 +161,9 @@ Result<VerifiedResponse> verifyResponse(const Fittings& swept, const MeasuredRes
 }
 
 Result<VerifyingSweep> verifyingSweep(const MeasureSettings& settings, const EqualizerSections& sections,
-                                      double sampleRate)
+                                      double sampleRate, bool raised)
 {
-    VerifyingSweep verifying{{}, sweepOf(settings, sampleRate)};
+    VerifyingSweep verifying{{}, sweepOf(settings, sampleRate), 0.0};
     auto made = makeEqualizedSweep(verifying.sweep, sections);
     if (made && made->peak > 1.0)
     {
@@ -170,6 +174,14 @@ Result<VerifyingSweep> verifyingSweep(const MeasureSettings& settings, const Equ
     if (!made)
         return plain(made.error());
     verifying.signal = std::move(made->signal);
+    const double wanted = Decibels(settings.level).gain();
+    if (raised && made->peak > 0.0 && made->peak < wanted)
+    {
+        const double gain = wanted / made->peak;
+        verifying.gain = Decibels::fromGain(gain).value;
+        for (float& v : verifying.signal)
+            v = static_cast<float>(gain * static_cast<double>(v));
+    }
     return verifying;
 }
 

@@ -29,6 +29,7 @@ struct RecordedSweep
     double sampleRate = 48000.0;     ///< Hz of the recording
     SweepParams sweep;               ///< as it was played
     bool oneClock = false;           ///< one device has played and recorded
+    double gain = 0.0;               ///< dB by which it was played louder than `sweep` says
 };
 
 /// One recording of the actuator: on one wearer, attached once.
@@ -93,13 +94,15 @@ struct VerifiedResponse
                                                       const FittedEqualizer& equalizer, double tolerance);
 
 /// The sweep through an equaliser, at the level asked for or as much below it as the equaliser raises it over full
-/// scale.
+/// scale. `raised`: it is scaled to the peak that was asked for, since an equaliser that lowers nearly everything would
+/// let it drown in the noise.
 struct VerifyingSweep
 {
     std::vector<float> signal;
     SweepParams sweep;
+    double gain = 0.0; ///< dB by which the signal is louder than the sweep says
 };
 [[nodiscard]] Result<VerifyingSweep> verifyingSweep(const MeasureSettings& settings, const EqualizerSections& sections,
-                                                    double sampleRate);
+                                                    double sampleRate, bool raised = false);
 
 } // namespace pacini

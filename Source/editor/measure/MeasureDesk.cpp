@@ -251,6 +251,7 @@ void MeasureDesk::sweep()
     session.stop();
     setTone(false);
     playedSweep = sweepOf(work.settings(), portsNow.sampleRate);
+    playedGain = 0.0;
     auto signal = makeSweepSignal(playedSweep);
     if (!signal)
         return fail(false, signal.error().text());
@@ -272,10 +273,11 @@ void MeasureDesk::verify()
         return fail(true, std::move(reason));
     session.stop();
     setTone(false);
-    auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, portsNow.sampleRate);
+    auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, portsNow.sampleRate, true);
     if (!made)
         return fail(true, made.error().text());
     playedSweep = made->sweep;
+    playedGain = made->gain;
     playingSeconds = static_cast<double>(made->signal.size()) / portsNow.sampleRate;
     rig->setFitting(work.verifications().size());
     if (const auto begun = rig->start(std::move(made->signal)); !begun)
@@ -320,7 +322,7 @@ void MeasureDesk::poll()
     case RigState::finished:
         break;
     }
-    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep, true};
+    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep, true, playedGain};
     analyse(std::move(recorded), {verifying, nextName});
 }
 
@@ -407,7 +409,8 @@ void MeasureDesk::readRecording(const std::filesystem::path& file, bool throughE
         return fail(throughEqualizer,
                     file.filename().string() + " has " + std::to_string(width) +
                         " channels. Keep those of the microphone or of the axes of the sensor, three at most.");
-    RecordedSweep recorded{{}, {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate), false};
+    RecordedSweep recorded{{},    {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate),
+                           false, 0.0};
     if (throughEqualizer)
         if (const auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, soundRate))
             recorded.sweep = made->sweep;

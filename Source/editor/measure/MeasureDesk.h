@@ -137,6 +137,7 @@ private:
     bool tone = false;
     Activity doing = Activity::none;
     SweepParams playedSweep;
+    double playedGain = 0.0; ///< dB, see VerifyingSweep
     double playingSeconds = 0.0;
     std::string nextName = "Fitting 1";
     int fittingNumber = 1;

@@ -163,7 +163,7 @@ void SaveStep::resized()
     browse.setBounds(line.removeFromRight(11 * grid));
     line.removeFromRight(grid);
     file.setBounds(line);
-    use.setBounds(row().withTrimmedLeft(name.labelWidth));
+    use.setBounds(row().withTrimmedLeft(name.labelWidth).withWidth(34 * grid));
     saveButton.setBounds(row().withTrimmedLeft(name.labelWidth).withWidth(16 * grid));
     area.removeFromTop(grid);
     auto inside = insideOfCard(area);
