@@ -1,8 +1,9 @@
 #include "cli/Felt.h"
 
-#include "cli/Wearer.h"
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
+
+#include <pacini/actuator/Wearer.h>
 
 #include <string>
 

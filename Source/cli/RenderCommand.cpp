@@ -8,7 +8,8 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
-#include "cli/Wearer.h"
+
+#include <pacini/actuator/Wearer.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "cli/Wearer.h"
 #include "support/Catch.h"
 
+#include <pacini/actuator/Wearer.h>
 #include <pacini/linearize/ResponseFeatures.h>
 #include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
@@ -31,10 +31,10 @@ TEST_CASE("The average over fourteen measured wearers is right though two wear t
     sweep.levels = {-12.0};
     std::vector<FrequencyResponse> measured;
     std::vector<RigParams> rigs;
-    for (unsigned wearer = 1; wearer <= cli::simulatedWearers; ++wearer)
+    for (unsigned wearer = 1; wearer <= simulatedWearers; ++wearer)
     {
         RigParams rig;
-        rig.body = cli::bodyOn(wearer, *rig.body);
+        rig.body = bodyOn(wearer, *rig.body);
         rig.seed = wearer;
         rig.contact = wearer <= 2 ? -6.0 : 0.0;
         rigs.push_back(rig);

@@ -39,15 +39,22 @@ public:
     /// at `tail`.
     [[nodiscard]] Result<void> prepare(const SweepParams& params, std::size_t channels, double tail = 0.5)
     {
+        auto made = makeSweepSignal(params);
+        if (!made)
+            return made.error();
+        return prepare(std::move(made).value(), params.sampleRate, channels, tail);
+    }
+
+    /// The same for the samples of a measurement at `sampleRate` Hz, such as sweeps that go through an equalizer.
+    [[nodiscard]] Result<void> prepare(std::vector<float> samples, double sampleRate, std::size_t channels,
+                                       double tail = 0.5)
+    {
         if (channels < 1 || channels > mostChannels)
             return Error{ErrorCode::invalidArgument, "channels", "must be 1 to 3"};
         if (!(tail >= 0.0 && tail <= 60.0))
             return Error{ErrorCode::invalidArgument, "tail", "must be 0 to 60 s"};
-        auto made = makeSweepSignal(params);
-        if (!made)
-            return made.error();
-        signal = std::move(made).value();
-        const std::size_t frames = signal.size() + static_cast<std::size_t>(std::lround(tail * params.sampleRate));
+        signal = std::move(samples);
+        const std::size_t frames = signal.size() + static_cast<std::size_t>(std::lround(tail * sampleRate));
         recorded.assign(channels, std::vector<float>(frames, 0.0f));
         position = 0;
         progressFrames.store(0, std::memory_order_relaxed);

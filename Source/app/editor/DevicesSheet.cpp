@@ -20,7 +20,7 @@ DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControlle
     : Sheet("Sound devices", 760, 560),
       rig(wanted),
       controllerOutput(wantedControllers),
-      selector(wanted.devices(), 0, 0, 0, 256, false, false, false, false)
+      selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
 {
     prepare(sound, "Sound out", "The two channels where the sound is heard", rig.soundTrim(), 6.0);
     prepare(haptic, "Haptic out", "The channel that the actuator's amplifier hangs on", rig.hapticTrim(), 0.0);

@@ -5,6 +5,7 @@
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
 #include "editor/Text.h"
+#include "io/ProfileFile.h"
 #include "plugin/ProfileShelf.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -18,6 +19,17 @@ namespace pacini::app
 namespace
 {
 using editor::pathOf;
+
+/// Adds the profiles that were measured before; a file that is none is left out.
+void addOwnProfiles(std::vector<editor::NamedProfile>& profiles, const juce::File& folder)
+{
+    auto files = folder.findChildFiles(juce::File::findFiles, false, "*.json");
+    files.sort();
+    for (const auto& file : files)
+        if (auto profile = readProfile(pathOf(file)))
+            profiles.push_back({file.getFileNameWithoutExtension().toStdString(),
+                                std::make_shared<const Profile>(std::move(profile).value()), true});
+}
 
 /// The sounds in Resources/demo or share/pacini/demo in the program's folder or one of those above it.
 std::vector<std::filesystem::path> demoSounds()
@@ -70,7 +82,11 @@ public:
         editor::Session::Folders folders;
         if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
-        session = std::make_unique<editor::Session>(folders, plugin::shelfProfiles());
+        auto profiles = plugin::shelfProfiles();
+        const auto ownProfiles = home.getChildFile("profiles");
+        if (!fresh)
+            addOwnProfiles(profiles, ownProfiles);
+        session = std::make_unique<editor::Session>(folders, std::move(profiles));
         rig = std::make_unique<PreviewRig>(session->player);
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
@@ -85,7 +101,8 @@ public:
         }
         if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        window = std::make_unique<EditorWindow>(*session, *rig, demoSounds());
+        window = std::make_unique<EditorWindow>(*session, *rig, demoSounds(),
+                                                fresh ? std::filesystem::path() : pathOf(ownProfiles));
         auto& view = window->view();
         if (settings)
         {

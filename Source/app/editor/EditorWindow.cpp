@@ -2,19 +2,19 @@
 #include "app/editor/EditorWindow.h"
 
 #include "app/editor/DevicesSheet.h"
+#include "app/editor/MeasureDevice.h"
 
 namespace pacini::app
 {
 
-EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos)
+EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos,
+                           std::filesystem::path profileFolder)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
       controllers(session),
-      content(session, {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
-                        [this]
-                        {
-                            showDevices();
-                        }})
+      content(session,
+              {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
+               [this] { showDevices(); }, std::make_shared<MeasureDevice>(wanted.devices()), std::move(profileFolder)})
 {
     setUsingNativeTitleBar(true);
     setContentNonOwned(&content, false);

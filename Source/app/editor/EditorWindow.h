@@ -18,7 +18,8 @@ namespace pacini::app
 class EditorWindow final : public juce::DocumentWindow
 {
 public:
-    EditorWindow(editor::Session& session, PreviewRig& rig, std::vector<std::filesystem::path> demos);
+    EditorWindow(editor::Session& session, PreviewRig& rig, std::vector<std::filesystem::path> demos,
+                 std::filesystem::path profileFolder);
     ~EditorWindow() override;
 
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }

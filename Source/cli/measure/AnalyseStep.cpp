@@ -8,7 +8,8 @@
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 
-#include <pacini/linearize/ResponseFeatures.h>
+#include <pacini/linearize/MeasuredProfile.h>
+#include <pacini/linearize/MeasurementFindings.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,112 +28,13 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr double profileLimit = 10.0; // %, see ProfileMeasurement
-
 /// What all recordings together say of the actuator.
-struct Findings
+Result<MeasurementFindings> findingsOf(const AnalysedRecordings& analysed, double smoothing, double distortionLimit)
 {
-    ResponseFeatures features;
-    std::optional<ActuatorResponse> times;
-    double distortion = 0.0;               ///< %, the largest at the loudest sweep within the felt range
-    std::optional<double> distortionDrive; ///< dB re full scale, at which it passes the limit asked for
-    std::optional<double> profileDrive;    ///< the same for the limit of a profile
-    std::set<std::size_t> outliers;        ///< indices of recordings that were left out
-};
-
-Result<Findings> findingsOf(const AnalysedRecordings& analysed, double smoothing, double distortionLimit)
-{
-    ResponseFeatureParams params;
-    params.smoothing = smoothing;
-    auto features = responseFeatures(analysed.average.response, params);
-    if (!features)
-        return features.error();
-    Findings findings;
-    findings.features = *features;
-    for (const FittingOutlier& outlier : analysed.average.outliers)
-        findings.outliers.insert(outlier.index);
-    std::vector<double> rises, falls, drives, profileDrives;
-    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
-    {
-        if (findings.outliers.contains(i))
-            continue;
-        const SweepMeasurement& measured = analysed.recordings[i].measurement;
-        if (const auto times = burstTimes(measured.impulseResponse, features->resonance.frequency))
-        {
-            rises.push_back(times->riseTime);
-            falls.push_back(times->fallTime);
-        }
-        const FrequencyRange& felt = features->felt;
-        findings.distortion =
-            std::max(findings.distortion, largestDistortion(measured.levels[measured.main], felt.low, felt.high));
-        if (const auto drive = driveAtDistortion(measured, distortionLimit, felt.low, felt.high))
-            drives.push_back(*drive);
-        if (const auto drive = driveAtDistortion(measured, profileLimit, felt.low, felt.high))
-            profileDrives.push_back(*drive);
-    }
-    const auto middle = [](std::vector<double>& values)
-    {
-        const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), at, values.end());
-        return *at;
-    };
-    if (!rises.empty())
-        findings.times = ActuatorResponse{middle(rises), middle(falls)};
-    if (!drives.empty())
-        findings.distortionDrive = middle(drives);
-    if (!profileDrives.empty())
-        findings.profileDrive = middle(profileDrives);
-    return findings;
-}
-
-/// Frequencies outside what a profile may hold are moved to its ends.
-double profileFrequency(double f)
-{
-    return std::clamp(f, 1.0, 20000.0);
-}
-
-/// `base` with what was measured in the place of what it said.
-Profile measuredProfile(Profile base, const AnalysedRecordings& analysed, const Findings& findings)
-{
-    const double drive = *std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end());
-    base.resonance = {profileFrequency(findings.features.resonance.frequency),
-                      std::clamp(findings.features.resonance.q, 0.01, 100.0)};
-    if (findings.features.felt.high > findings.features.felt.low)
-    {
-        base.range.lowFrequency = profileFrequency(findings.features.felt.low);
-        base.range.highFrequency = profileFrequency(findings.features.felt.high);
-    }
-    if (findings.times)
-        base.response = {std::min(findings.times->riseTime, 2.0), std::min(findings.times->fallTime, 2.0)};
-    base.equalizer = {};
-    base.body.reset(); // belongs to the resonance that it was found with
-    ProfileMeasurement measurement;
-    measurement.fittings = static_cast<int>(analysed.recordings.size() - findings.outliers.size());
-    measurement.drive = drive;
-    measurement.distortionDrive = findings.profileDrive;
-    const FrequencyResponse& response = analysed.average.response;
-    for (std::size_t i = 0; i < response.size(); ++i)
-        measurement.points.push_back({response.frequency[i], response.level[i], std::nullopt});
-    base.measurement = std::move(measurement);
-
-    const auto measuredNow = [](const ProfileSource& source)
-    {
-        return source.path.starts_with("resonance") || source.path == "range" ||
-               source.path.starts_with("range.lowFrequency") || source.path.starts_with("range.highFrequency") ||
-               source.path.starts_with("response") || source.path.starts_with("equalizer") ||
-               source.path.starts_with("body");
-    };
-    std::erase_if(base.sources, measuredNow);
-    const std::string how = fmt::format("measured with swept sines at {:.3g} dB, {} fitting{}", drive,
-                                        base.measurement->fittings, base.measurement->fittings == 1 ? "" : "s");
-    base.sources.push_back({"resonance", how + ", as it is worn"});
-    base.sources.push_back({"range.lowFrequency", how + ", 20 dB below the strongest frequency"});
-    base.sources.push_back({"range.highFrequency", how + ", 20 dB below the strongest frequency or the sweep's end"});
-    if (findings.times)
-        base.sources.push_back({"response", how});
-    std::sort(base.sources.begin(), base.sources.end(),
-              [](const ProfileSource& a, const ProfileSource& b) { return a.path < b.path; });
-    return base;
+    std::vector<const SweepMeasurement*> fittings;
+    for (const AnalysedRecording& recording : analysed.recordings)
+        fittings.push_back(&recording.measurement);
+    return pacini::findingsOf(fittings, analysed.average, smoothing, distortionLimit);
 }
 
 std::string table(const AnalysedRecordings& analysed)
@@ -159,7 +61,7 @@ std::string table(const AnalysedRecordings& analysed)
     return tableText(columns);
 }
 
-Json report(const AnalysedRecordings& analysed, const Findings& findings, const std::string& output)
+Json report(const AnalysedRecordings& analysed, const MeasurementFindings& findings, const std::string& output)
 {
     Json recordings = Json::array();
     Json outliers = Json::array();
@@ -195,7 +97,7 @@ Json report(const AnalysedRecordings& analysed, const Findings& findings, const 
     return json;
 }
 
-std::string text(const AnalysedRecordings& analysed, const Findings& findings, double distortionLimit)
+std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& findings, double distortionLimit)
 {
     const ResponseFeatures& features = findings.features;
     std::string lines =
@@ -281,7 +183,10 @@ Exit AnalyseStep::run(Console& console)
 
     if (extension == ".json")
     {
-        if (const auto written = writeProfile(output, measuredProfile(profile, *analysed, *findings)); !written)
+        const auto& levels = analysed->sweep.sweep.levels;
+        setMeasurement(profile, analysed->average.response, *findings, analysed->recordings.size(),
+                       *std::max_element(levels.begin(), levels.end()));
+        if (const auto written = writeProfile(output, profile); !written)
             return fail(output, written.error());
     }
     else if (extension == ".csv")

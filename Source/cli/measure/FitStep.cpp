@@ -10,6 +10,7 @@
 
 #include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
+#include <pacini/linearize/MeasuredProfile.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -223,23 +224,8 @@ Exit FitStep::run(Console& console)
     const double milliseconds = medianMilliseconds(response, params);
 
     if (profile)
-    {
-        profile->equalizer = fit->sections;
-        if (profile->measurement)
-        {
-            profile->measurement->linearity.reset(); // what was verified was another equaliser
-            for (MeasuredPoint& point : profile->measurement->points)
-                point.linearised.reset();
-        }
-        std::erase_if(profile->sources,
-                      [](const ProfileSource& source) { return source.path.starts_with("equalizer"); });
-        profile->sources.push_back(
-            {"equalizer", fmt::format("fitted to {} at {:.0f} Hz: {:.2f} dB RMS, {:.2f} dB at most from its mean",
-                                      measured ? "the measurement" : std::filesystem::path(input).filename().string(),
-                                      rate, fit->rms, fit->max)});
-        std::sort(profile->sources.begin(), profile->sources.end(),
-                  [](const ProfileSource& a, const ProfileSource& b) { return a.path < b.path; });
-    }
+        setEqualizer(*profile, *fit, measured ? "the measurement" : std::filesystem::path(input).filename().string(),
+                     rate);
     if (!output.empty())
         if (const auto written = writeProfile(output, *profile); !written)
             return fail(console, output, written.error());

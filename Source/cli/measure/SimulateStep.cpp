@@ -3,9 +3,9 @@
 #include "cli/Checks.h"
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
-#include "cli/Wearer.h"
 #include "io/AudioFile.h"
 
+#include <pacini/actuator/Wearer.h>
 #include <pacini/linearize/SimulatedRig.h>
 
 #include <fmt/format.h>

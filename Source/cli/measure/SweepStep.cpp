@@ -7,44 +7,17 @@
 #include "io/AudioWriter.h"
 #include "io/SweepFile.h"
 
-#include <pacini/actuator/Equalizer.h>
-#include <pacini/linearize/SweepSchedule.h>
+#include <pacini/linearize/EqualizedSweep.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <vector>
 
 namespace pacini::cli
 {
-
-namespace
-{
-/// Plays `signal` through the equaliser of a profile.
-void equalize(std::vector<float>& signal, const EqualizerSections& sections, double fs)
-{
-    constexpr std::size_t blockFrames = 4096;
-    Equalizer equalizer;
-    equalizer.prepare({fs, blockFrames});
-    equalizer.setParams(sections);
-    equalizer.reset();
-    for (std::size_t i = 0; i < signal.size(); i += blockFrames)
-    {
-        const auto part = std::span(signal).subspan(i, std::min(blockFrames, signal.size() - i));
-        equalizer.process(part, part);
-    }
-}
-
-double peakOf(const std::vector<float>& signal)
-{
-    float peak = 0.0f;
-    for (const float v : signal)
-        peak = std::max(peak, std::abs(v));
-    return static_cast<double>(peak);
-}
-} // namespace
 
 CLI::App* SweepStep::declare(CLI::App& app)
 {
@@ -95,16 +68,16 @@ Exit SweepStep::run(Console& console)
     params.repeats = repeats;
     params.levels = levels;
     params.sampleRate = rate;
-    auto signal = makeSweepSignal(params);
-    if (!signal)
+    if (auto valid = validate(params); !valid)
     {
-        Error error = signal.error();
+        Error error = valid.error();
         error.where = optionFor(error.where);
         return fail("", error, Exit::usage);
     }
     const std::string description = sweepFileBeside(output).string();
     if (sameFileKey(description) == sameFileKey(output))
         return fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
+    EqualizerSections sections;
     if (!profile.empty())
     {
         const auto actuator = openProfile(console, profile);
@@ -113,28 +86,32 @@ Exit SweepStep::run(Console& console)
         if (actuator->equalizer.empty())
             return fail(profile, {ErrorCode::invalidData, "equalizer",
                                   "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
-        equalize(*signal, actuator->equalizer, params.sampleRate);
+        sections = actuator->equalizer;
         file.equalizedFor = actuator->name;
     }
-    if (const double peak = peakOf(*signal); peak > 1.0)
+    const auto played = makeEqualizedSweep(params, sections);
+    if (!played)
+        return fail("", played.error());
+    const std::vector<float>& signal = played->signal;
+    if (played->peak > 1.0)
         return fail(profile, {ErrorCode::invalidArgument, "--levels",
                               fmt::format("are too high: the equaliser raises the sweep {:.1f} dB beyond full scale; "
                                           "take {:.0f} dB or less",
-                                          20.0 * std::log10(peak),
+                                          20.0 * std::log10(played->peak),
                                           std::floor(*std::max_element(levels.begin(), levels.end()) -
-                                                     20.0 * std::log10(peak)))});
+                                                     20.0 * std::log10(played->peak)))});
 
     AudioWriteParams writing;
     writing.sampleRate = rate;
     writing.encoding = SampleEncoding::pcm24;
-    writing.expectedFrames = signal->size();
-    const auto written = writeAudio(output, *signal, writing);
+    writing.expectedFrames = signal.size();
+    const auto written = writeAudio(output, signal, writing);
     if (!written)
         return fail(output, written.error());
     if (const auto described = writeSweepFile(description, file); !described)
         return fail(description, described.error());
 
-    const double seconds = static_cast<double>(signal->size()) / params.sampleRate;
+    const double seconds = static_cast<double>(signal.size()) / params.sampleRate;
     if (json)
         console.print(nlohmann::ordered_json{{"output", output},
                                              {"sweep", description},

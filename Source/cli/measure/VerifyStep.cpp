@@ -4,7 +4,7 @@
 #include "cli/plot/ResponseFigure.h"
 #include "io/ProfileFile.h"
 
-#include <pacini/linearize/Verification.h>
+#include <pacini/linearize/MeasuredProfile.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,16 +53,6 @@ std::string linearityText(const Linearity& linearity)
         text += fmt::format("\n  {:.0f} to {:.0f} Hz: {:+.2f} dB", outlier.lowFrequency, outlier.highFrequency,
                             outlier.deviation);
     return text;
-}
-
-/// The measurement with what comes through the equaliser at each of its points.
-void addVerified(ProfileMeasurement& measurement, const FrequencyResponse& after, const Linearity& linearity)
-{
-    measurement.linearity = linearity;
-    for (MeasuredPoint& point : measurement.points)
-        point.linearised = point.frequency >= after.frequency.front() && point.frequency <= after.frequency.back()
-                               ? std::optional(levelAt(after, point.frequency))
-                               : std::nullopt;
 }
 
 FrequencyResponse responseBefore(const ProfileMeasurement& measurement)
@@ -137,9 +127,7 @@ Exit VerifyStep::run(Console& console)
     const auto linearity = judgeLinearity(after, params);
     if (!linearity)
         return fail(profile, linearity.error());
-    if (!actuator->measurement)
-        actuator->measurement.emplace();
-    addVerified(*actuator->measurement, after, *linearity);
+    setVerification(*actuator, after, *linearity);
     const std::string target = output.empty() ? profile : output;
     if (const auto written = writeProfile(target, *actuator); !written)
         return fail(target, written.error());

@@ -1,11 +1,11 @@
 #include "cli/plot/ProfileFigure.h"
 
 #include "cli/ProfileReport.h"
-#include "cli/Wearer.h"
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
+#include <pacini/actuator/Wearer.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 
 #include <fmt/format.h>
@@ -62,8 +62,8 @@ std::vector<Point> feltResponse(const Profile& profile, unsigned wearer, const s
     const bool spins = isMotor(profile);
     const double rated = profile.resonance.frequency;
     const MotorDriveParams motor = motorDriveParams(profile);
-    const BodyChain chain = makeBodyChain(cli::bodyOn(wearer, *profile.body), profile.resonance,
-                                          spins ? BodyForce::device : BodyForce::coil);
+    const BodyChain chain =
+        makeBodyChain(bodyOn(wearer, *profile.body), profile.resonance, spins ? BodyForce::device : BodyForce::coil);
     std::vector<Point> points;
     for (const double f : frequencies)
     {
@@ -133,8 +133,8 @@ Panel feltPanel(const Profile& profile, const ShownFilter& filter, const std::ve
     panel.x = frequencyAxis();
     panel.share = 2.0;
     std::vector<Line> lines;
-    for (unsigned wearer = 1; wearer <= cli::simulatedWearers; ++wearer)
-        lines.push_back({fmt::format("{} other wearers", cli::simulatedWearers),
+    for (unsigned wearer = 1; wearer <= simulatedWearers; ++wearer)
+        lines.push_back({fmt::format("{} other wearers", simulatedWearers),
                          feltResponse(profile, wearer, frequencies),
                          thin,
                          {},

@@ -3,6 +3,7 @@
 
 // The whole clip editor as one component: for a window of its own, or for that of a plugin.
 
+#include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
 #include "editor/clip/EmptyState.h"
 #include "editor/clip/ProjectFiles.h"
@@ -31,8 +32,10 @@ namespace pacini::editor
 struct Surroundings
 {
     std::vector<std::filesystem::path> demoSounds;
-    std::function<void()> quit;        ///< null: the host closes the window
-    std::function<void()> showDevices; ///< null: the host has the devices
+    std::function<void()> quit;                  ///< null: the host closes the window
+    std::function<void()> showDevices;           ///< null: the host has the devices
+    std::shared_ptr<MeasureRig> measureRig = {}; ///< null: only simulated actuators can be measured
+    std::filesystem::path profileFolder = {};    ///< where measured profiles are written at first
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.

@@ -75,12 +75,7 @@ Toolbar::Toolbar(Session& shared)
     {
         session.setHeard(static_cast<Heard>(heard.getSelectedId() - 1));
     };
-    profile.addItem("None (plain drive)", plainDrive);
-    for (std::size_t i = 0; i < session.profiles().size(); ++i)
-    {
-        const NamedProfile& entry = session.profiles()[i];
-        profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
-    }
+    fillProfiles();
     profile.onChange = [this]
     {
         const int chosen = profile.getSelectedId() - plainDrive - 1;
@@ -106,7 +101,10 @@ void Toolbar::sessionChanged(unsigned changes)
 {
     if ((changes & (Session::project | Session::content)) != 0)
         fillClips();
-    if ((changes & (Session::project | Session::playback | Session::range | Session::content)) != 0)
+    if ((changes & Session::profileList) != 0)
+        fillProfiles();
+    if ((changes & (Session::project | Session::playback | Session::range | Session::content | Session::profileList)) !=
+        0)
         showState();
 }
 
@@ -127,6 +125,17 @@ void Toolbar::fillClips()
     clips.setSelectedId(session.activeId(), juce::dontSendNotification);
     clips.setTextWhenNothingSelected(session.isShowingUnanalysed() ? "Being analysed" : "No clip");
     clips.setEnabled(!items.empty());
+}
+
+void Toolbar::fillProfiles()
+{
+    profile.clear(juce::dontSendNotification);
+    profile.addItem("None (plain drive)", plainDrive);
+    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+    {
+        const NamedProfile& entry = session.profiles()[i];
+        profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
+    }
 }
 
 void Toolbar::showState()

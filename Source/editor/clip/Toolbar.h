@@ -29,6 +29,7 @@ private:
     void timerCallback() override { showTime(); }
     void showTime();
     void fillClips();
+    void fillProfiles();
     void showState();
 
     Session& session;

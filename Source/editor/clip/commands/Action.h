@@ -43,6 +43,7 @@ struct Menu
 [[nodiscard]] Menu markerMenu(EditorView& view);
 [[nodiscard]] Menu playMenu(EditorView& view);
 [[nodiscard]] Menu viewMenu(EditorView& view);
+[[nodiscard]] Menu toolsMenu(EditorView& view);
 [[nodiscard]] Menu helpMenu(EditorView& view);
 
 /// A key with Ctrl (Cmd on a Mac), Shift.

@@ -95,6 +95,8 @@ enum Command : int
     smallerInterface,
     soundDevices,
 
+    measureActuator,
+
     manual,
     shortcuts
 };

@@ -22,7 +22,8 @@ bool canDo(const Action& action)
 
 Menus::Menus(EditorView& view) : owner(view)
 {
-    for (const auto make : {fileMenu, editMenu, shapeMenu, clipMenu, markerMenu, playMenu, viewMenu, helpMenu})
+    for (const auto make :
+         {fileMenu, editMenu, shapeMenu, clipMenu, markerMenu, playMenu, viewMenu, toolsMenu, helpMenu})
         menus.push_back(make(view));
     manager.registerAllCommandsForTarget(this);
     manager.setFirstCommandTarget(this);

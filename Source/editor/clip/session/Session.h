@@ -36,6 +36,7 @@ struct NamedProfile
 {
     std::string name; ///< such as l5-wristband
     std::shared_ptr<const Profile> profile;
+    bool own = false; ///< not one of those that come with Pacini: projects carry it with them
 };
 
 enum class Heard
@@ -61,7 +62,8 @@ public:
         sound = 32,    ///< the sound of the clip has been read
         playback = 64, ///< what is heard, the actuator, playing or not, the playhead when it jumps
         work = 128,    ///< reading and analysing has begun or ended
-        look = 256     ///< how lanes are shown
+        look = 256,    ///< how lanes are shown
+        profileList = 512
     };
 
     class Listener
@@ -246,6 +248,8 @@ public:
     [[nodiscard]] const Audition& audition() const noexcept { return auditionNow; }
     void setAudition(Audition wanted);
     [[nodiscard]] const std::vector<NamedProfile>& profiles() const noexcept { return shelf; }
+    /// In the place of one of its name that is not Pacini's, or behind the others; `use` chooses it at once.
+    void addProfile(NamedProfile added, bool use);
     /// Of the project; empty: the plain drive signal.
     [[nodiscard]] const std::string& profileName() const noexcept { return open->project().profile.name; }
     void setProfile(const std::string& name);
@@ -283,6 +287,7 @@ private:
     [[nodiscard]] bool showsAll() const;
     void keepView(bool showedAll);
     [[nodiscard]] bool mayEdit(Gesture gesture);
+    void chooseProfile(const std::string& name);
     void loadSound();
     void checkSounds();
     void analyseAgain(Again wanted, const std::function<Result<Imported>()>& read);

@@ -55,12 +55,36 @@ void Session::setAudition(Audition wanted)
     changed(playback);
 }
 
+void Session::addProfile(NamedProfile added, bool use)
+{
+    const auto same = std::find_if(shelf.begin(), shelf.end(),
+                                   [&](const NamedProfile& entry) { return entry.own && entry.name == added.name; });
+    const std::string name = added.name;
+    const bool changesCurrent = name == profileName();
+    if (same != shelf.end())
+        *same = std::move(added);
+    else
+        shelf.push_back(std::move(added));
+    changed(profileList);
+    if (use && changesCurrent)
+        chooseProfile(name); // another content under its name
+    else if (use)
+        setProfile(name);
+}
+
 void Session::setProfile(const std::string& name)
 {
-    if (name == profileName())
-        return;
+    if (name != profileName())
+        chooseProfile(name);
+}
+
+void Session::chooseProfile(const std::string& name)
+{
     ProjectProfile wanted;
     wanted.name = name;
+    for (const NamedProfile& entry : shelf)
+        if (entry.name == name && entry.own)
+            wanted.embedded = *entry.profile;
     if (!take(open->setProfile(std::move(wanted), "Choose actuator")))
         return;
     player.setProfile(profile());

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pacini::cli
+namespace pacini
 {
 
 /// Simulated wearers beside the one that a profile describes, which is wearer 0.
@@ -33,4 +33,4 @@ inline constexpr unsigned simulatedWearers = 14;
     return body;
 }
 
-} // namespace pacini::cli
+} // namespace pacini

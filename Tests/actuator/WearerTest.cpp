@@ -1,15 +1,13 @@
 // Simulated wearers.
 
-#include "cli/Wearer.h"
-
 #include "support/Catch.h"
+
+#include <pacini/actuator/Wearer.h>
 
 #include <algorithm>
 #include <set>
 
 using namespace pacini;
-using pacini::cli::bodyOn;
-using pacini::cli::simulatedWearers;
 
 TEST_CASE("wearer 0 is the profile's own", "[wearer]")
 {

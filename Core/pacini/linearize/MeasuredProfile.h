@@ -1,0 +1,120 @@
+#pragma once
+
+// How a measurement, its equalizer and its proof go into a profile, each with where it comes from.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/linearize/EqualizerFit.h>
+#include <pacini/linearize/MeasurementFindings.h>
+#include <pacini/linearize/Verification.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pacini
+{
+
+namespace detail
+{
+/// printf's %.*g (general) or %.*f (fixed), whatever the locale.
+[[nodiscard]] inline std::string numberText(double value, std::chars_format format, int digits)
+{
+    std::array<char, 400> text; // 309 digits and the decimals
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
+    return {text.data(), end};
+}
+
+inline void sortSources(Profile& profile)
+{
+    std::sort(profile.sources.begin(), profile.sources.end(),
+              [](const ProfileSource& a, const ProfileSource& b) { return a.path < b.path; });
+}
+} // namespace detail
+
+/// Puts what was measured in the place of what the profile said. `response` is the average of all fittings, `fittings`
+/// their number and `drive` the level of the loudest sweep, dB re full drive. Equalizer and body go: they belong to
+/// another resonance. Frequencies outside what a profile may hold are moved to its ends.
+inline void setMeasurement(Profile& profile, const FrequencyResponse& response, const MeasurementFindings& findings,
+                           std::size_t fittings, double drive)
+{
+    const auto frequency = [](double f)
+    {
+        return std::clamp(f, 1.0, 20000.0);
+    };
+    const ResponseFeatures& features = findings.features;
+    profile.resonance = {frequency(features.resonance.frequency), std::clamp(features.resonance.q, 0.01, 100.0)};
+    if (features.felt.high > features.felt.low)
+    {
+        profile.range.lowFrequency = frequency(features.felt.low);
+        profile.range.highFrequency = frequency(features.felt.high);
+    }
+    if (findings.times)
+        profile.response = {std::min(findings.times->riseTime, 2.0), std::min(findings.times->fallTime, 2.0)};
+    profile.equalizer = {};
+    profile.body.reset();
+    ProfileMeasurement measurement;
+    measurement.fittings = static_cast<int>(fittings - findings.outliers.size());
+    measurement.drive = drive;
+    measurement.distortionDrive = findings.profileDrive;
+    for (std::size_t i = 0; i < response.size(); ++i)
+        measurement.points.push_back({response.frequency[i], response.level[i], std::nullopt});
+    profile.measurement = std::move(measurement);
+
+    const auto measuredNow = [](const ProfileSource& source)
+    {
+        const std::string_view path = source.path;
+        return path.starts_with("resonance") || path == "range" || path.starts_with("range.lowFrequency") ||
+               path.starts_with("range.highFrequency") || path.starts_with("response") ||
+               path.starts_with("equalizer") || path.starts_with("body");
+    };
+    std::erase_if(profile.sources, measuredNow);
+    const std::string how = "measured with swept sines at " + detail::numberText(drive, std::chars_format::general, 3) +
+                            " dB, " + std::to_string(profile.measurement->fittings) + " fitting" +
+                            (profile.measurement->fittings == 1 ? "" : "s");
+    profile.sources.push_back({"resonance", how + ", as it is worn"});
+    profile.sources.push_back({"range.lowFrequency", how + ", 20 dB below the strongest frequency"});
+    profile.sources.push_back(
+        {"range.highFrequency", how + ", 20 dB below the strongest frequency or the sweep's end"});
+    if (findings.times)
+        profile.sources.push_back({"response", how});
+    detail::sortSources(profile);
+}
+
+/// Puts the sections of a fit into the profile, and takes out what was verified with others. `fittedTo` says what they
+/// flatten, such as `the measurement`, `rate` is that of the fit, Hz.
+inline void setEqualizer(Profile& profile, const EqualizerFit& fit, const std::string& fittedTo, double rate)
+{
+    profile.equalizer = fit.sections;
+    if (profile.measurement)
+    {
+        profile.measurement->linearity.reset();
+        for (MeasuredPoint& point : profile.measurement->points)
+            point.linearised.reset();
+    }
+    std::erase_if(profile.sources, [](const ProfileSource& source) { return source.path.starts_with("equalizer"); });
+    const auto fixed = [](double value, int digits)
+    {
+        return detail::numberText(value, std::chars_format::fixed, digits);
+    };
+    profile.sources.push_back({"equalizer", "fitted to " + fittedTo + " at " + fixed(rate, 0) +
+                                                " Hz: " + fixed(fit.rms, 2) + " dB RMS, " + fixed(fit.max, 2) +
+                                                " dB at most from its mean"});
+    detail::sortSources(profile);
+}
+
+/// Puts the proof into the profile: how flat it is, and what came through the equalizer at each measured point.
+inline void setVerification(Profile& profile, const FrequencyResponse& after, const Linearity& linearity)
+{
+    if (!profile.measurement)
+        profile.measurement.emplace();
+    profile.measurement->linearity = linearity;
+    for (MeasuredPoint& point : profile.measurement->points)
+        point.linearised = point.frequency >= after.frequency.front() && point.frequency <= after.frequency.back()
+                               ? std::optional(levelAt(after, point.frequency))
+                               : std::nullopt;
+}
+
+} // namespace pacini

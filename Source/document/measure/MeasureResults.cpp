@@ -1,0 +1,188 @@
+#include "document/measure/MeasureResults.h"
+
+#include "document/measure/MeasureWords.h"
+
+#include <pacini/linearize/EqualizedSweep.h>
+#include <pacini/linearize/MeasuredProfile.h>
+#include <pacini/linearize/SweepAnalysis.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+std::vector<FrequencyResponse> responsesOf(const Fittings& fittings)
+{
+    std::vector<FrequencyResponse> responses;
+    for (const auto& fitting : fittings)
+        responses.push_back(fitting->measurement.response());
+    return responses;
+}
+
+/// Outliers by name, and each note once.
+std::vector<std::string> notesOf(const Fittings& fittings, const FittingAverage& average)
+{
+    std::vector<std::string> notes;
+    for (const FittingOutlier& outlier : average.outliers)
+        notes.push_back(fmt::format("'{}' is unlike the others and was left out: {:+.1f} dB, its shape {:.1f} dB off.",
+                                    fittings[outlier.index]->name, outlier.offset, outlier.shape));
+    for (const auto& fitting : fittings)
+        for (const std::string& note : fitting->notes)
+            if (std::find(notes.begin(), notes.end(), note) == notes.end())
+                notes.push_back(note);
+    return notes;
+}
+
+Error plain(const Error& error)
+{
+    return {error.code, {}, explain(error, {})};
+}
+
+/// Why there is no result. Noise that was taken for a sweep shows itself by a drift that one clock cannot have, and an
+/// overload can hide a sweep.
+std::string whyNothing(Error error, const RecordedSweep& recorded)
+{
+    if (recorded.oneClock && error.where == "clock")
+        error.where = "channels";
+    std::vector<MeasurementWarning> seen;
+    if (checkRecording(recorded.channels))
+        warnOfChannels(recorded.channels, recorded.sampleRate, seen);
+    for (const MeasurementWarning& warning : seen)
+        if (warning.code == MeasurementDefect::clipping)
+            return explain(warning, recorded.inputs);
+    return explain(error, recorded.inputs);
+}
+
+/// Whether the warning says that the channel shows no movement.
+bool showsNothing(const MeasurementWarning& warning)
+{
+    return warning.code == MeasurementDefect::loopback || warning.code == MeasurementDefect::noiseChannel ||
+           warning.code == MeasurementDefect::silentChannel;
+}
+} // namespace
+
+Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& recorded, const MeasureSettings& settings)
+{
+    auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, analysisOf(settings));
+    if (!measured)
+        return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
+    Fitting fitting{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
+    for (LevelMeasurement& level : fitting.measurement.levels)
+        for (FrequencyResponse* one : {&level.response, &level.noise})
+            for (double& value : one->level)
+                value -= recorded.gain;
+    std::set<std::string> useless;
+    for (const MeasurementWarning& warning : fitting.measurement.warnings)
+    {
+        fitting.notes.push_back(explain(warning, recorded.inputs));
+        if (showsNothing(warning))
+            useless.insert(warning.where);
+    }
+    if (useless.size() >= recorded.channels.size())
+        return Error{ErrorCode::invalidData, {}, fitting.notes.front()};
+    return fitting;
+}
+
+Result<MeasuredResponse> summariseFittings(const Fittings& fittings)
+{
+    const auto responses = responsesOf(fittings);
+    auto average = averageFittings(responses);
+    if (!average)
+        return plain(average.error());
+    std::vector<const SweepMeasurement*> measured;
+    for (const auto& fitting : fittings)
+        measured.push_back(&fitting->measurement);
+    constexpr double distortionLimit = 10.0; // %
+    auto findings = findingsOf(measured, *average, MeasurementParams{}.smoothing, distortionLimit);
+    if (!findings)
+        return plain(findings.error());
+    auto notes = notesOf(fittings, *average);
+    return MeasuredResponse{std::move(average).value(), std::move(findings).value(), std::move(notes)};
+}
+
+Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const EqualizerWish& wish, const Profile& base,
+                               double rate)
+{
+    const FrequencyResponse& measured = response.average.response;
+    const FrequencyRange& felt = response.findings.features.felt;
+    FittedEqualizer fitted;
+    fitted.lowFrequency = wish.lowFrequency > 0.0 ? wish.lowFrequency : felt.low;
+    fitted.highFrequency = wish.highFrequency > 0.0 ? wish.highFrequency : felt.high;
+    EqualizerFitParams params;
+    params.sampleRate = rate;
+    params.sections = wish.sections;
+    params.maxBoost = wish.maxBoost;
+    params.lowFrequency = fitted.lowFrequency;
+    params.highFrequency = fitted.highFrequency;
+    params.goalMax = 0.75; // dB: with what a second measurement adds it stays within 1
+    params.goalRms = 0.25;
+    auto fit = fitEqualizer(measured, params);
+    if (!fit)
+        return plain(fit.error());
+    fitted.fit = std::move(fit).value();
+    fitted.predicted = measured;
+    const auto filter = designEqualizer(fitted.fit.sections, rate);
+    for (std::size_t i = 0; i < measured.size(); ++i)
+        fitted.predicted.level[i] +=
+            Decibels::fromGain(std::abs(filter.response(Hertz(measured.frequency[i]), rate))).value;
+    const auto linearity = judgeLinearity(fitted.predicted, {fitted.lowFrequency, fitted.highFrequency, 1.0});
+    if (!linearity)
+        return plain(linearity.error());
+    fitted.predictedLinearity = *linearity;
+    Profile actuator = base;
+    setMeasurement(actuator, measured, response.findings, 1, 0.0);
+    fitted.cost = equalizerCost(actuator, fitted.fit.sections, rate);
+    return fitted;
+}
+
+Result<VerifiedResponse> verifyResponse(const Fittings& swept, const MeasuredResponse& response,
+                                        const FittedEqualizer& equalizer, double tolerance)
+{
+    const auto responses = responsesOf(swept);
+    auto average = averageFittings(responses);
+    if (!average)
+        return plain(average.error());
+    const LinearityParams params{equalizer.lowFrequency, equalizer.highFrequency, tolerance};
+    const auto after = judgeLinearity(average->response, params);
+    if (!after)
+        return plain(after.error());
+    const auto before = judgeLinearity(response.average.response, params);
+    if (!before)
+        return plain(before.error());
+    auto notes = notesOf(swept, *average);
+    return VerifiedResponse{std::move(average->response), *after, *before, std::move(notes)};
+}
+
+Result<VerifyingSweep> verifyingSweep(const MeasureSettings& settings, const EqualizerSections& sections,
+                                      double sampleRate, bool raised)
+{
+    VerifyingSweep verifying{{}, sweepOf(settings, sampleRate), 0.0};
+    auto made = makeEqualizedSweep(verifying.sweep, sections);
+    if (made && made->peak > 1.0)
+    {
+        double& level = verifying.sweep.levels.front();
+        level = std::max(-80.0, std::floor(level - Decibels::fromGain(made->peak).value));
+        made = makeEqualizedSweep(verifying.sweep, sections);
+    }
+    if (!made)
+        return plain(made.error());
+    verifying.signal = std::move(made->signal);
+    const double wanted = Decibels(settings.level).gain();
+    if (raised && made->peak > 0.0 && made->peak < wanted)
+    {
+        const double gain = wanted / made->peak;
+        verifying.gain = Decibels::fromGain(gain).value;
+        for (float& v : verifying.signal)
+            v = static_cast<float>(gain * static_cast<double>(v));
+    }
+    return verifying;
+}
+
+} // namespace pacini

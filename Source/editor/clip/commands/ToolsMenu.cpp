@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/EditorView.h"
+#include "editor/clip/commands/Action.h"
+#include "editor/measure/MeasurePage.h"
+
+#include <memory>
+
+namespace pacini::editor
+{
+
+Menu toolsMenu(EditorView& view)
+{
+    Menu menu{"Tools", {}};
+    menu.actions = {
+        {.id = measureActuator,
+         .name = "Measure an actuator...",
+         .help = "Finds the response of an actuator with a sensor, flattens it and saves it as a profile",
+         .run =
+             [&view, desk = std::make_shared<std::shared_ptr<MeasureDesk>>()]
+         {
+             if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)
+                 return; // a desk has one page
+
+             // Made when it is first needed, and kept: the page may be closed and opened again.
+             const Surroundings& around = view.surroundings();
+             if (!*desk)
+                 *desk = std::make_shared<MeasureDesk>(
+                     view.session(), MeasureDesk::Surroundings{around.measureRig, around.profileFolder});
+             view.showSheet(std::make_unique<MeasurePage>(*desk, around.showDevices));
+         }},
+    };
+    return menu;
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/EqualizerStep.h"
+
+#include "editor/Text.h"
+#include "editor/measure/ResponseStep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int automatic = 100; // of the menu; the others are numbers of sections
+constexpr int mostSections = 8;
+
+const char* nameOf(EqualizerType type)
+{
+    switch (type)
+    {
+    case EqualizerType::peak:
+        return "Peak";
+    case EqualizerType::lowShelf:
+        return "Low shelf";
+    case EqualizerType::highShelf:
+        return "High shelf";
+    case EqualizerType::highpass:
+        break;
+    }
+    return "High-pass";
+}
+
+juce::String signedText(double value, int decimals)
+{
+    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
+}
+} // namespace
+
+EqualizerStep::EqualizerStep(MeasureDesk& wanted)
+    : sections("Sections", "How many sections the equaliser has at most; automatic: as few as make it flat within "
+                           "1 dB"),
+      boost("Most boost",
+            "How much any frequency may be raised, dB; what is weaker stays weak and the rest is lowered"),
+      low("Flat from", "Start of the range that is flattened, Hz"),
+      high("Flat to", "End of the range that is flattened, Hz"),
+      desk(wanted)
+{
+    sections.control.addItem("Automatic", automatic);
+    for (int i = 1; i <= mostSections; ++i)
+        sections.control.addItem(juce::String(i), i);
+    prepareSlider(boost.control, 0.0, 24.0, 0.5, "dB", 1);
+    prepareSlider(low.control, 5.0, 400.0, 1.0, "Hz", 0);
+    prepareSlider(high.control, 100.0, 2000.0, 1.0, "Hz", 0);
+    low.control.setSkewFactorFromMidPoint(50.0);
+    high.control.setSkewFactorFromMidPoint(500.0);
+    sections.control.onChange = [this]
+    {
+        takeWish();
+    };
+    for (auto* one : {&boost, &low, &high})
+        one->control.onValueChange = [this]
+        {
+            takeWish();
+        };
+    scroll.setViewedComponent(&table, false);
+    scroll.setScrollBarsShown(true, false);
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&sections, &boost, &low, &high, &facts, &scroll, &notes, &plot})
+        addAndMakeVisible(child);
+    refresh();
+}
+
+void EqualizerStep::takeWish()
+{
+    EqualizerWish wish = desk.measurement().wish();
+    const int chosen = sections.control.getSelectedId();
+    wish.sections = chosen == automatic ? std::nullopt : std::optional(chosen);
+    wish.maxBoost = boost.control.getValue();
+    // The ends follow what is measured until they are moved.
+    if (const MeasuredResponse* response = desk.measurement().response())
+    {
+        const FrequencyRange& felt = response->findings.features.felt;
+        if (wish.lowFrequency > 0.0 || std::abs(low.control.getValue() - std::round(felt.low)) > 0.5)
+            wish.lowFrequency = low.control.getValue();
+        if (wish.highFrequency > 0.0 || std::abs(high.control.getValue() - std::round(felt.high)) > 0.5)
+            wish.highFrequency = high.control.getValue();
+    }
+    desk.setWish(wish);
+}
+
+void EqualizerStep::refresh()
+{
+    const ActuatorMeasurement& work = desk.measurement();
+    const EqualizerWish& wish = work.wish();
+    const auto quietly = juce::dontSendNotification;
+    sections.control.setSelectedId(wish.sections.value_or(automatic), quietly);
+    boost.control.setValue(wish.maxBoost, quietly);
+    const bool free = !desk.isPlaying();
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&sections, &boost, &low, &high})
+        one->setEnabled(free && work.response() != nullptr);
+    const MeasuredResponse* response = work.response();
+    if (response == nullptr)
+    {
+        ResponsePlot::Content nothing;
+        nothing.empty = "There is no response yet";
+        plot.show(std::move(nothing));
+        return;
+    }
+    const FrequencyRange& felt = response->findings.features.felt;
+    low.control.setValue(wish.lowFrequency > 0.0 ? wish.lowFrequency : std::round(felt.low), quietly);
+    high.control.setValue(wish.highFrequency > 0.0 ? wish.highFrequency : std::round(felt.high), quietly);
+
+    std::vector<Note> lines;
+    const FittedEqualizer* fitted = work.equalizer();
+    if (fitted == nullptr)
+    {
+        const std::string problem = work.problem(MeasureStep::equalizer);
+        if (!problem.empty())
+        {
+            lines.push_back({problem, Note::Kind::warning});
+            facts.show({});
+            table.show({});
+        }
+        notes.show(std::move(lines));
+        return; // what was shown stays until the next one is there
+    }
+    ResponsePlot::Content curves;
+    curves.axisName = levelUnit(work);
+    curves.curves = {{"measured", response->average.response, ResponsePlot::Role::before},
+                     {"with the equaliser", fitted->predicted, ResponsePlot::Role::result}};
+    curves.range = std::pair(fitted->lowFrequency, fitted->highFrequency);
+    curves.band = std::pair(fitted->predictedLinearity.level - 1.0, fitted->predictedLinearity.level + 1.0);
+    plot.show(std::move(curves));
+
+    FactTable::Facts list;
+    for (const EqualizerSection& section : fitted->fit.sections)
+        list.push_back({nameOf(section.type), numberText(section.frequency, section.frequency < 100.0 ? 1 : 0) +
+                                                  " Hz  " + signedText(section.gain, 1) + " dB  Q " +
+                                                  numberText(section.q, 2)});
+    table.show(std::move(list));
+    const Linearity& linearity = fitted->predictedLinearity;
+    FactTable::Facts effects{{"Mean deviation", numberText(linearity.meanDeviation, 2) + " dB"},
+                             {"Worst", signedText(linearity.worstDeviation, 2) + " dB at " +
+                                           numberText(linearity.worstFrequency, 0) + " Hz"},
+                             {"Power in the coil", signedText(fitted->cost.powerChange, 1) + " dB"}};
+    if (fitted->cost.power)
+        effects.push_back({"At full drive", numberText(*fitted->cost.power, 2) + " W"});
+    effects.push_back({"Largest travel", signedText(fitted->cost.excursionChange, 1) + " dB at " +
+                                             numberText(fitted->cost.excursionFrequency, 0) + " Hz"});
+    if (fitted->cost.excursion)
+        effects.push_back({"Of its limit", numberText(100.0 * *fitted->cost.excursion, 0) + " %"});
+    facts.show(std::move(effects));
+    if (std::abs(linearity.worstDeviation) > 1.0)
+        lines.push_back({"Not flat within 1 dB: allow more sections or more boost, or flatten a smaller range.",
+                         Note::Kind::warning});
+    const auto& drive = work.base().drive;
+    if (fitted->cost.power && drive.maxPower && *fitted->cost.power > *drive.maxPower)
+        lines.push_back({"At full drive the coil gets more than the " + std::to_string(*drive.maxPower).substr(0, 4) +
+                             " W that it bears for ever; the protection will turn it down. Less boost costs less.",
+                         Note::Kind::warning});
+    notes.show(std::move(lines));
+    resized();
+}
+
+void EqualizerStep::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    auto area = getLocalBounds();
+    drawCard(g, area.removeFromLeft(stepSide), "Equaliser", p);
+    area.removeFromLeft(grid);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+}
+
+void EqualizerStep::resized()
+{
+    auto area = getLocalBounds();
+    auto side = insideOfCard(area.removeFromLeft(stepSide));
+    for (juce::Component* one : std::initializer_list<juce::Component*>{&sections, &boost, &low, &high})
+    {
+        one->setBounds(side.removeFromTop(stepRow));
+        side.removeFromTop(stepGap);
+    }
+    side.removeFromTop(grid / 2);
+    facts.setBounds(side.removeFromTop(facts.wantedHeight()));
+    side.removeFromTop(grid / 2);
+    if (!notes.shown().empty())
+        notes.setBounds(side.removeFromBottom(8 * grid).expanded(grid, 0));
+    else
+        notes.setBounds({});
+    scroll.setBounds(side);
+    const bool scrolls = table.wantedHeight() > side.getHeight();
+    table.setSize(side.getWidth() - (scrolls ? scroll.getScrollBarThickness() : 0), table.wantedHeight());
+    area.removeFromLeft(grid);
+    plot.setBounds(area.reduced(grid, grid));
+}
+
+} // namespace pacini::editor

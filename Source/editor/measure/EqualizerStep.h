@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The equaliser that flattens the response.
+
+#include "editor/ResponsePlot.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+
+namespace pacini::editor
+{
+
+class EqualizerStep final : public StepPanel
+{
+public:
+    explicit EqualizerStep(MeasureDesk& wanted);
+    void refresh() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    Named<juce::ComboBox> sections;
+    Named<juce::Slider> boost, low, high;
+    [[nodiscard]] const ResponsePlot& responsePlot() const noexcept { return plot; }
+
+private:
+    void takeWish();
+    MeasureDesk& desk;
+    FactTable table{"Sections"};
+    FactTable facts{"What the equaliser does"};
+    NoteBox notes{"Notes on the equaliser"};
+    juce::Viewport scroll;
+    ResponsePlot plot{"Response before and after", "Level over frequency, measured and as the equaliser will make it"};
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/MeasurePage.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int headHeight = 6 * grid;
+constexpr int footHeight = 6 * grid;
+constexpr int stepsWidth = 18 * grid;
+
+juce::String whatToDo(MeasureStep step)
+{
+    static const std::array<const char*, measureSteps> words{
+        "Connect actuator and sensor, choose where they are, and set levels",
+        "Play the sweep through the actuator and record how it moves, once for each wearer",
+        "What the actuator does at each frequency",
+        "Make it even: the equaliser of the profile",
+        "Measure again through the equaliser, as proof",
+        "Keep it as an actuator profile"};
+    return words[static_cast<std::size_t>(step)];
+}
+} // namespace
+
+MeasurePage::MeasurePage(std::shared_ptr<MeasureDesk> wanted, std::function<void()> showDevices)
+    : Sheet("Measure an actuator", 10000, 10000),
+      shared(std::move(wanted)),
+      services{[this](const auto&... asked) { askForFile(asked...); },
+               [this](const juce::String& title, const juce::String& text) { tell(title, text); },
+               std::move(showDevices)},
+      setUp(*shared, services),
+      sweep(*shared),
+      response(*shared),
+      equalizer(*shared),
+      verify(*shared, services),
+      save(*shared, services),
+      backButton("Back"),
+      nextButton("Next"),
+      closeButton("Close")
+{
+    setOpaque(true);
+    backButton.setTooltip("To the step before");
+    nextButton.setTooltip("To the next step");
+    closeButton.setTooltip("Back to the editor; what was measured stays until the program ends");
+    backButton.onClick = [this]
+    {
+        show(static_cast<MeasureStep>(static_cast<int>(stepNow) - 1));
+    };
+    nextButton.onClick = [this]
+    {
+        show(static_cast<MeasureStep>(static_cast<int>(stepNow) + 1));
+    };
+    closeButton.onClick = [this]
+    {
+        close();
+    };
+    steps.onChoose = [this](MeasureStep chosen)
+    {
+        show(chosen);
+    };
+    scroll.setScrollBarsShown(true, true);
+    scroll.setWantsKeyboardFocus(false);
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&steps, &scroll, &backButton, &nextButton, &closeButton})
+        addAndMakeVisible(child);
+    int order = 1;
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&scroll, &nextButton, &backButton, &closeButton, &steps})
+        child->setExplicitFocusOrder(order++);
+    shared->onChange = [this]
+    {
+        refresh();
+    };
+    shared->setOpen(true);
+    scroll.setViewedComponent(&panel(), false);
+    refresh();
+    startTimerHz(30);
+}
+
+MeasurePage::~MeasurePage()
+{
+    shared->onChange = nullptr;
+    shared->setOpen(false);
+}
+
+StepPanel& MeasurePage::panel() noexcept
+{
+    switch (stepNow)
+    {
+    case MeasureStep::setUp:
+        break;
+    case MeasureStep::sweep:
+        return sweep;
+    case MeasureStep::response:
+        return response;
+    case MeasureStep::equalizer:
+        return equalizer;
+    case MeasureStep::verify:
+        return verify;
+    case MeasureStep::save:
+        return save;
+    }
+    return setUp;
+}
+
+bool MeasurePage::show(MeasureStep wanted)
+{
+    const int index = static_cast<int>(wanted);
+    if (index < 0 || index >= static_cast<int>(measureSteps) ||
+        shared->measurement().state(wanted) == MeasureStepState::locked)
+        return false;
+    shared->setTone(false);
+    stepNow = wanted;
+    scroll.setViewedComponent(&panel(), false);
+    refresh();
+    resized();
+    repaint();
+    return true;
+}
+
+void MeasurePage::refresh()
+{
+    const ActuatorMeasurement& work = shared->measurement();
+    // A step can lose what it stands on.
+    while (stepNow > MeasureStep::sweep && work.state(stepNow) == MeasureStepState::locked &&
+           (stepNow != MeasureStep::verify || work.fittings().empty()))
+    {
+        stepNow = static_cast<MeasureStep>(static_cast<int>(stepNow) - 1);
+        scroll.setViewedComponent(&panel(), false);
+        resized();
+        repaint();
+    }
+    steps.show(stepNow, work);
+    panel().refresh();
+    backButton.setEnabled(stepNow != MeasureStep::setUp && !shared->isPlaying());
+    const auto next = static_cast<MeasureStep>(static_cast<int>(stepNow) + 1);
+    nextButton.setEnabled(stepNow != MeasureStep::save && work.state(next) != MeasureStepState::locked &&
+                          !shared->isPlaying());
+}
+
+void MeasurePage::timerCallback()
+{
+    shared->poll();
+    panel().tick();
+}
+
+bool MeasurePage::keyPressed(const juce::KeyPress& key)
+{
+    if (key == juce::KeyPress::escapeKey && shared->isPlaying())
+    {
+        shared->stop();
+        return true;
+    }
+    return Sheet::keyPressed(key);
+}
+
+void MeasurePage::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.background);
+    auto head = getLocalBounds().removeFromTop(headHeight).reduced(2 * grid, 0);
+    g.setColour(p.text);
+    g.setFont(titleFont());
+    g.drawText(getTitle(), head, juce::Justification::centredLeft, true);
+    const int used = titleFont().getStringWidth(getTitle()) + 3 * grid;
+    g.setColour(p.dim);
+    g.setFont(usualFont());
+    g.drawText(whatToDo(stepNow), head.withTrimmedLeft(used).withTrimmedRight(12 * grid),
+               juce::Justification::centredLeft, true);
+}
+
+void MeasurePage::resized()
+{
+    auto area = getLocalBounds();
+    auto head = area.removeFromTop(headHeight);
+    closeButton.setBounds(head.removeFromRight(13 * grid).reduced(2 * grid, grid));
+    auto foot = area.removeFromBottom(footHeight).reduced(2 * grid, grid);
+    nextButton.setBounds(foot.removeFromRight(12 * grid));
+    foot.removeFromRight(grid);
+    backButton.setBounds(foot.removeFromRight(12 * grid));
+    steps.setBounds(area.removeFromLeft(stepsWidth).withTrimmedLeft(grid));
+    area.removeFromLeft(grid);
+    area.removeFromRight(2 * grid);
+    scroll.setBounds(area);
+    StepPanel& shown = panel();
+    const bool tall = shown.leastHeight() > area.getHeight();
+    const bool wide = StepPanel::leastWidth > area.getWidth();
+    const int bar = scroll.getScrollBarThickness();
+    shown.setSize(std::max(StepPanel::leastWidth, area.getWidth() - (tall ? bar : 0)),
+                  std::max(shown.leastHeight(), area.getHeight() - (wide ? bar : 0)));
+    if (message)
+        message->setBounds(getLocalBounds());
+}
+
+void MeasurePage::askForFile(const juce::String& title, const juce::String& pattern, bool saving,
+                             const juce::String& name, std::function<void(const juce::File&)> chosen)
+{
+    const auto folder = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
+    chooser = std::make_unique<juce::FileChooser>(title, folder.getChildFile(name), pattern);
+    using Browser = juce::FileBrowserComponent;
+    chooser->launchAsync(Browser::canSelectFiles |
+                             (saving ? Browser::saveMode | Browser::warnAboutOverwriting : Browser::openMode),
+                         [chosen](const juce::FileChooser& done)
+                         {
+                             if (done.getResult() != juce::File())
+                                 chosen(done.getResult());
+                         });
+}
+
+void MeasurePage::tell(const juce::String& title, const juce::String& text)
+{
+    message = std::make_unique<MessageSheet>(title, text, std::vector<Answer>{{"Close", {}}});
+    message->onClose = [this]
+    {
+        juce::MessageManager::callAsync(
+            [self = juce::Component::SafePointer<MeasurePage>(this)]
+            {
+                if (self)
+                {
+                    self->message.reset();
+                    self->takeFocus();
+                }
+            });
+    };
+    addAndMakeVisible(*message);
+    message->setBounds(getLocalBounds());
+    message->takeFocus();
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The measurement of an actuator over the whole window.
+
+#include "editor/clip/sheets/Sheet.h"
+#include "editor/measure/EqualizerStep.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/ResponseStep.h"
+#include "editor/measure/SaveStep.h"
+#include "editor/measure/SetUpStep.h"
+#include "editor/measure/StepList.h"
+#include "editor/measure/SweepStep.h"
+#include "editor/measure/VerifyStep.h"
+
+#include <functional>
+#include <memory>
+
+namespace pacini::editor
+{
+
+/// Steps at the left, the chosen one beside them. Escape stops a sweep, or closes the page; what was measured stays on
+/// the desk. One page at a time for a desk.
+class MeasurePage final : public Sheet, private juce::Timer
+{
+public:
+    /// `showDevices`: empty where devices cannot be chosen.
+    MeasurePage(std::shared_ptr<MeasureDesk> wanted, std::function<void()> showDevices);
+    ~MeasurePage() override;
+
+    [[nodiscard]] MeasureDesk& desk() noexcept { return *shared; }
+    [[nodiscard]] MeasureStep step() const noexcept { return stepNow; }
+    /// False for a step that is locked.
+    bool show(MeasureStep wanted);
+    [[nodiscard]] StepPanel& panel() noexcept;
+
+    SetUpStep& setUpStep() noexcept { return setUp; }
+    SweepStep& sweepStep() noexcept { return sweep; }
+    ResponseStep& responseStep() noexcept { return response; }
+    EqualizerStep& equalizerStep() noexcept { return equalizer; }
+    VerifyStep& verifyStep() noexcept { return verify; }
+    SaveStep& saveStep() noexcept { return save; }
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    bool keyPressed(const juce::KeyPress& key) override;
+
+private:
+    juce::Component* firstFocus() override { return &nextButton; }
+    void timerCallback() override;
+    void refresh();
+    void askForFile(const juce::String& title, const juce::String& pattern, bool saving, const juce::String& name,
+                    std::function<void(const juce::File&)> chosen);
+    void tell(const juce::String& title, const juce::String& text);
+
+    std::shared_ptr<MeasureDesk> shared;
+    StepServices services;
+    MeasureStep stepNow = MeasureStep::setUp;
+    StepList steps;
+    juce::Viewport scroll;
+    SetUpStep setUp;
+    SweepStep sweep;
+    ResponseStep response;
+    EqualizerStep equalizer;
+    VerifyStep verify;
+    SaveStep save;
+    juce::TextButton backButton, nextButton, closeButton;
+    std::unique_ptr<juce::FileChooser> chooser;
+    std::unique_ptr<MessageSheet> message;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/ResponseStep.h"
+
+#include "editor/Text.h"
+
+#include <cmath>
+
+namespace pacini::editor
+{
+
+juce::String levelUnit(const ActuatorMeasurement& work)
+{
+    return work.settings().calibrated ? toText("dB re 1 m/s² at full drive") : juce::String("dB, relative");
+}
+
+ResponseStep::ResponseStep(MeasureDesk& wanted) : desk(wanted)
+{
+    for (juce::Component* child : std::initializer_list<juce::Component*>{&facts, &notes, &plot, &distortion})
+        addAndMakeVisible(child);
+    refresh();
+}
+
+void ResponseStep::refresh()
+{
+    const ActuatorMeasurement& work = desk.measurement();
+    ResponsePlot::Content curves, harmonics;
+    harmonics.unit = ResponsePlot::Unit::percent;
+    harmonics.axisName = "distortion";
+    curves.axisName = levelUnit(work);
+    curves.empty = toText(work.problem(MeasureStep::response));
+    if (curves.empty.isEmpty())
+        curves.empty = "The response is being computed" + toText("…");
+    std::vector<Note> lines;
+    if (const MeasuredResponse* response = work.response())
+    {
+        const auto& fittings = work.fittings();
+        const ResponseFeatures& features = response->findings.features;
+        const bool several = fittings.size() > 1;
+        const SweepMeasurement& measured = fittings.front()->measurement;
+        const LevelMeasurement& level = measured.levels[measured.main];
+        curves.curves.push_back({"noise", level.noise, ResponsePlot::Role::noise});
+        for (std::size_t i = 0; several && i < fittings.size(); ++i)
+        {
+            const bool out = response->findings.outliers.contains(i);
+            curves.curves.push_back({out ? "left out" : "fittings", fittings[i]->measurement.response(),
+                                     out ? ResponsePlot::Role::leftOut : ResponsePlot::Role::single});
+        }
+        curves.curves.push_back({several ? "average" : "response", response->average.response});
+        curves.range = std::pair(features.felt.low, features.felt.high);
+        curves.marker = features.resonance.frequency;
+        harmonics.curves.push_back({"all harmonics", {level.response.frequency, level.distortion}});
+        harmonics.range = curves.range;
+
+        const auto number = [](double value, int decimals)
+        {
+            return numberText(value, decimals);
+        };
+        FactTable::Facts list{
+            {"Fittings",
+             juce::String(static_cast<int>(fittings.size() - response->findings.outliers.size())) +
+                 (response->findings.outliers.empty() ? juce::String()
+                                                      : " of " + juce::String(static_cast<int>(fittings.size())))},
+            {"Resonance", number(features.resonance.frequency, 1) + " Hz"},
+            {"Q", number(features.resonance.q, 2)},
+            {"Usable range", number(features.felt.low, 0) + " to " + number(features.felt.high, 0) + " Hz"},
+            {"Even within 3 dB", features.even.high > features.even.low
+                                     ? number(features.even.low, 0) + " to " + number(features.even.high, 0) + " Hz"
+                                     : juce::String("nowhere")},
+            {"Plateau", number(features.plateau, 1) + " dB"}};
+        if (response->findings.times)
+            list.push_back({"Rise and fall", number(1e3 * response->findings.times->riseTime, 0) + " and " +
+                                                 number(1e3 * response->findings.times->fallTime, 0) + " ms"});
+        list.push_back({"Distortion", "at most " + number(response->findings.distortion, 1) + " %"});
+        if (const auto& drift = measured.driftPpm)
+            list.push_back({"Clocks", (*drift > 0.0 ? "+" : "") + number(*drift, 1) + " ppm"});
+        list.push_back({"Latency", number(1e3 * measured.latency, 1) + " ms"});
+        facts.show(std::move(list));
+        for (const std::string& note : response->notes)
+            lines.push_back({note, Note::Kind::warning});
+        if (lines.empty())
+            lines.push_back({"Nothing stands out. The usable range reaches from 20 dB below the strongest frequency "
+                             "up to there again."});
+    }
+    else
+    {
+        facts.show({});
+        if (!work.problem(MeasureStep::response).empty())
+            lines.push_back({work.problem(MeasureStep::response), Note::Kind::warning});
+    }
+    notes.show(std::move(lines));
+    plot.show(std::move(curves));
+    distortion.show(std::move(harmonics));
+    resized();
+}
+
+void ResponseStep::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    auto area = getLocalBounds();
+    drawCard(g, area.removeFromLeft(stepSide), "Actuator", p);
+    area.removeFromLeft(grid);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+}
+
+void ResponseStep::resized()
+{
+    auto area = getLocalBounds();
+    auto side = insideOfCard(area.removeFromLeft(stepSide));
+    facts.setBounds(side.removeFromTop(facts.wantedHeight()));
+    side.removeFromTop(grid);
+    notes.setBounds(side.expanded(grid, 0));
+    area.removeFromLeft(grid);
+    area.reduce(grid, grid);
+    distortion.setBounds(area.removeFromBottom(std::max(15 * grid, area.getHeight() / 4)));
+    area.removeFromBottom(grid / 2);
+    plot.setBounds(area);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the fittings say of the actuator.
+
+#include "editor/ResponsePlot.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+
+namespace pacini::editor
+{
+
+class ResponseStep final : public StepPanel
+{
+public:
+    explicit ResponseStep(MeasureDesk& wanted);
+    void refresh() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    [[nodiscard]] const ResponsePlot& responsePlot() const noexcept { return plot; }
+    [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
+
+private:
+    MeasureDesk& desk;
+    FactTable facts{"The actuator"};
+    NoteBox notes{"Notes on the measurement"};
+    ResponsePlot plot{"Response", "Level over frequency of each fitting, their average and the noise"};
+    ResponsePlot distortion{"Distortion", "Harmonic distortion in percent over frequency"};
+};
+
+/// "dB re 1 m/s²", or relative without a calibration.
+[[nodiscard]] juce::String levelUnit(const ActuatorMeasurement& work);
+
+} // namespace pacini::editor

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The profile that comes of it.
+
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+
+namespace pacini::editor
+{
+
+class SaveStep final : public StepPanel
+{
+public:
+    SaveStep(MeasureDesk& wanted, StepServices& around);
+    void refresh() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    Named<juce::TextEditor> name, file;
+    juce::TextButton saveButton;
+    [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
+
+private:
+    void follow();
+    void save();
+
+    MeasureDesk& desk;
+    StepServices& services;
+    juce::TextButton browse;
+    juce::ToggleButton use;
+    FactTable facts{"What is saved"};
+    NoteBox notes{"Result"};
+    bool ownFile = false; ///< the file has been chosen and no longer follows the name
+    std::string problem;
+};
+
+} // namespace pacini::editor

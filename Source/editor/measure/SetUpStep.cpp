@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/SetUpStep.h"
+
+#include "editor/Text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int first = 1; // menus know no item 0
+constexpr int noteHeight = 8 * grid;
+const juce::String recordings = "*.wav;*.flac;*.aif;*.aiff;*.w64;*.caf";
+
+void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char* noneText = nullptr)
+{
+    juce::StringArray wanted;
+    if (noneText != nullptr)
+        wanted.add(noneText);
+    for (const std::string& name : names)
+        wanted.add(toText(name));
+    bool same = box.getNumItems() == wanted.size();
+    for (int i = 0; same && i < wanted.size(); ++i)
+        same = box.getItemText(i) == wanted[i];
+    if (same)
+        return;
+    box.clear(juce::dontSendNotification);
+    for (int i = 0; i < wanted.size(); ++i)
+        box.addItem(wanted[i], first + i);
+}
+} // namespace
+
+SetUpStep::SetUpStep(MeasureDesk& wanted, StepServices& around)
+    : desk(wanted),
+      services(around),
+      rig("Rig", "The sound device with actuator and sensor on it, or a simulation to try the page with"),
+      output("Output", "The output that the amplifier of the actuator is connected to"),
+      base("Limits from", "A profile to take what is not measured from: impedance, voltage, power and travel"),
+      input{Named<juce::ComboBox>{"Sensor", "The input of the microphone, or of the first axis of the accelerometer"},
+            Named<juce::ComboBox>{"2nd axis", "The input of the second axis of the accelerometer"},
+            Named<juce::ComboBox>{"3rd axis", "The input of the third axis of the accelerometer"}},
+      devices("Sound devices" + toText("…")),
+      level("Level", "Peak of the sweep, dB re full scale"),
+      low("From", "Frequency at which the sweep starts, Hz"),
+      high("To", "Frequency at which the sweep ends, Hz"),
+      duration("Length", "Length of one sweep, s; twice as long gives 3 dB more distance from noise"),
+      repeats("Sweeps", "How many sweeps are played and averaged, 1 to 10"),
+      saveSweep("Save the sweep" + toText("…")),
+      openRecording("Open a recording" + toText("…"))
+{
+    prepareSlider(level.control, -40.0, 0.0, 0.5, "dB", 1);
+    prepareSlider(low.control, 5.0, 200.0, 1.0, "Hz", 0);
+    prepareSlider(high.control, 400.0, 2000.0, 10.0, "Hz", 0);
+    prepareSlider(duration.control, 1.0, 60.0, 1.0, "s", 0);
+    prepareSlider(repeats.control, 1.0, 10.0, 1.0, "", 0);
+    prepareSlider(fullScale, 0.01, 2000.0, 0.01, toText("m/s²"), 2);
+    low.control.setSkewFactorFromMidPoint(30.0);
+    duration.control.setSkewFactorFromMidPoint(12.0);
+    fullScale.setTextBoxStyle(juce::Slider::TextBoxRight, false, 12 * grid, 3 * grid);
+    fullScale.setSkewFactorFromMidPoint(50.0);
+    fullScale.setTitle("Calibration");
+    fullScale.setTooltip(
+        toText("Acceleration of a full-scale sample, m/s². An accelerometer of 5 g on a matched input: "
+               "49.03"));
+    calibrated.setButtonText("Calibrated");
+    calibrated.setTitle("Calibrated");
+    calibrated.setTooltip(toText("On: levels are in m/s² by the number beside. Off: levels are relative; shape and "
+                                 "equaliser are right nevertheless"));
+    tone.setButtonText("Test tone of 100 Hz");
+    tone.setTitle("Test tone");
+    tone.setTooltip("Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves");
+    devices.setTooltip("Chooses the sound device, its inputs and its sample rate");
+    saveSweep.setTooltip("Writes the sweep as a sound for another player, with a description beside it");
+    openRecording.setTooltip("Takes a recording of the sweep that was made elsewhere, one to three channels");
+
+    rig.control.onChange = [this]
+    {
+        desk.chooseRig(static_cast<std::size_t>(std::max(0, rig.control.getSelectedId() - first)));
+    };
+    base.control.onChange = [this]
+    {
+        const int chosen = base.control.getSelectedId() - first - 1;
+        desk.setBase(chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen)));
+    };
+    output.control.onChange = [this]
+    {
+        takeWiring();
+    };
+    for (auto& one : input)
+        one.control.onChange = [this]
+        {
+            takeWiring();
+        };
+    for (auto* one : {&level, &low, &high, &duration, &repeats})
+        one->control.onValueChange = [this]
+        {
+            takeSettings();
+        };
+    fullScale.onValueChange = [this]
+    {
+        takeSettings();
+    };
+    calibrated.onClick = [this]
+    {
+        takeSettings();
+    };
+    tone.onClick = [this]
+    {
+        desk.setTone(tone.getToggleState());
+    };
+    devices.onClick = [this]
+    {
+        services.showDevices();
+    };
+    saveSweep.onClick = [this]
+    {
+        services.askForFile("Save the sweep", "*.wav", true, "sweep.wav",
+                            [this](const juce::File& file)
+                            {
+                                const auto saved = desk.saveSweep(pathOf(file.withFileExtension("wav")), false);
+                                services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
+                                              saved ? "Play it to the actuator and record the sensor from before its "
+                                                      "beginning until after its end. Then open the recording here. "
+                                                      "Keep the .json beside it: it says what was played."
+                                                    : toText(saved.error().text()));
+                            });
+    };
+    openRecording.onClick = [this]
+    {
+        services.askForFile("Open a recording of the sweep", recordings, false, {},
+                            [this](const juce::File& file) { desk.readRecording(pathOf(file), false); });
+    };
+    for (juce::Component* child : std::initializer_list<juce::Component*>{
+             &rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
+             &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
+             &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes})
+        addAndMakeVisible(child);
+    std::vector<std::string> profiles;
+    profiles.emplace_back("Nothing is known");
+    for (const auto& name : desk.profileNames())
+        profiles.push_back(name);
+    fill(base.control, profiles);
+    refresh();
+}
+
+void SetUpStep::takeWiring()
+{
+    RigWiring wiring;
+    wiring.output = static_cast<std::size_t>(std::max(0, output.control.getSelectedId() - first));
+    wiring.inputs.clear();
+    for (std::size_t i = 0; i < inputs; ++i)
+    {
+        const int chosen = input[i].control.getSelectedId() - first - (i == 0 ? 0 : 1);
+        if (chosen >= 0)
+            wiring.inputs.push_back(static_cast<std::size_t>(chosen));
+    }
+    desk.setWiring(wiring);
+    refresh();
+}
+
+void SetUpStep::takeSettings()
+{
+    MeasureSettings settings = desk.measurement().settings();
+    settings.level = level.control.getValue();
+    settings.lowFrequency = low.control.getValue();
+    settings.highFrequency = high.control.getValue();
+    settings.duration = duration.control.getValue();
+    settings.repeats = static_cast<int>(std::lround(repeats.control.getValue()));
+    settings.calibrated = calibrated.getToggleState();
+    settings.fullScale = fullScale.getValue();
+    desk.setSettings(settings);
+    refresh();
+}
+
+void SetUpStep::refresh()
+{
+    const MeasureSettings& settings = desk.measurement().settings();
+    const RigPorts& ports = desk.ports();
+    const RigWiring& wiring = desk.wiring();
+    const bool locked = desk.measurement().rangeLocked();
+    const bool busy = desk.isPlaying();
+    const auto quietly = juce::dontSendNotification;
+
+    fill(rig.control, desk.rigNames());
+    rig.control.setSelectedId(first + static_cast<int>(desk.rigIndex()), quietly);
+    fill(output.control, ports.outputs);
+    output.control.setSelectedId(first + static_cast<int>(wiring.output), quietly);
+    output.control.setTextWhenNoChoicesAvailable("No output");
+    for (std::size_t i = 0; i < inputs; ++i)
+    {
+        auto& box = input[i].control;
+        fill(box, ports.inputs, i == 0 ? nullptr : "None");
+        box.setTextWhenNothingSelected(ports.inputs.empty() ? "No input" : "None");
+        const bool used = i < wiring.inputs.size();
+        box.setSelectedId(used ? first + static_cast<int>(wiring.inputs[i]) + (i == 0 ? 0 : 1) : (i == 0 ? 0 : first),
+                          quietly);
+        meters[i].setVisible(used);
+        if (used)
+            meters[i].setName(toText(ports.inputs[wiring.inputs[i]]));
+        input[i].setEnabled(!busy && !ports.inputs.empty());
+    }
+    rig.setEnabled(!busy);
+    output.setEnabled(!busy && !ports.outputs.empty());
+    base.control.setSelectedId(first + (desk.base() ? 1 + static_cast<int>(*desk.base()) : 0), quietly);
+
+    level.control.setValue(settings.level, quietly);
+    low.control.setValue(settings.lowFrequency, quietly);
+    high.control.setValue(settings.highFrequency, quietly);
+    duration.control.setValue(settings.duration, quietly);
+    repeats.control.setValue(settings.repeats, quietly);
+    calibrated.setToggleState(settings.calibrated, quietly);
+    fullScale.setValue(settings.fullScale, quietly);
+    low.setEnabled(!locked && !busy);
+    high.setEnabled(!locked && !busy);
+    for (auto* one : {&level, &duration, &repeats})
+        one->setEnabled(!busy);
+    calibrated.setEnabled(!locked && !busy);
+    fullScale.setEnabled(!locked && !busy && settings.calibrated);
+    tone.setToggleState(desk.isToneOn(), quietly);
+    tone.setEnabled(!busy && ports.problem.empty());
+    devices.setVisible(services.showDevices != nullptr);
+    openRecording.setEnabled(desk.activity() == MeasureDesk::Activity::none);
+
+    facts.show({{"All that is played", numberText(desk.sweepSeconds(), 1) + " s"},
+                {"Sample rate", numberText(ports.sampleRate, 0) + " Hz"}});
+
+    std::vector<Note> lines;
+    if (const auto obstacle = desk.obstacle(); !obstacle.empty())
+        lines.push_back({obstacle, Note::Kind::warning});
+    if (locked)
+        lines.push_back({"Range and calibration stay as they are while there are fittings: drop them in step 2 to "
+                         "change these."});
+    if (lines.empty())
+        lines.push_back({"Turn on the test tone and set the gain of the input so that the meter stays below -6 dB. "
+                         "The actuator must be worn or mounted as it will be used."});
+    notes.show(std::move(lines));
+    resized();
+}
+
+void SetUpStep::tick()
+{
+    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
+        meters[i].show(desk.takePeak(i));
+}
+
+juce::Rectangle<int> SetUpStep::rigCard() const
+{
+    auto area = getLocalBounds().withTrimmedBottom(noteHeight + grid);
+    return area.removeFromLeft((area.getWidth() - grid) / 2);
+}
+
+juce::Rectangle<int> SetUpStep::sweepCard() const
+{
+    auto area = getLocalBounds().withTrimmedBottom(noteHeight + grid);
+    return area.removeFromRight((area.getWidth() - grid) / 2);
+}
+
+void SetUpStep::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    drawCard(g, rigCard(), "Rig", p);
+    drawCard(g, sweepCard(), "Sweep", p);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(getLocalBounds().removeFromBottom(noteHeight).toFloat(), 6.0f);
+}
+
+void SetUpStep::resized()
+{
+    const auto row = [](juce::Rectangle<int>& area)
+    {
+        const auto line = area.removeFromTop(stepRow);
+        area.removeFromTop(stepGap);
+        return line;
+    };
+    auto left = insideOfCard(rigCard());
+    rig.setBounds(row(left));
+    output.setBounds(row(left));
+    for (auto& one : input)
+        one.setBounds(row(left));
+    auto line = row(left);
+    calibrated.setBounds(line.removeFromLeft(13 * grid));
+    fullScale.setBounds(line.reduced(0, grid / 2));
+    left.removeFromTop(grid / 2);
+    for (auto& meter : meters)
+        meter.setBounds(left.removeFromTop(20));
+    left.removeFromTop(grid / 2);
+    line = row(left);
+    tone.setBounds(line.removeFromLeft(line.getWidth() / 2 + grid));
+    line.removeFromLeft(grid);
+    devices.setBounds(line);
+
+    auto right = insideOfCard(sweepCard());
+    for (juce::Component* one :
+         std::initializer_list<juce::Component*>{&level, &low, &high, &duration, &repeats, &base})
+        one->setBounds(row(right));
+    right.removeFromTop(grid / 2);
+    facts.setBounds(right.removeFromTop(facts.wantedHeight()));
+    right.removeFromTop(grid);
+    line = row(right);
+    saveSweep.setBounds(line.removeFromLeft((line.getWidth() - grid) / 2));
+    line.removeFromLeft(grid);
+    openRecording.setBounds(line);
+    notes.setBounds(getLocalBounds().removeFromBottom(noteHeight).reduced(grid / 2, 2));
+}
+
+} // namespace pacini::editor

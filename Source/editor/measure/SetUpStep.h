@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What is measured with, where it is connected, and with which sweep.
+
+#include "editor/measure/InputMeter.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+
+#include <array>
+
+namespace pacini::editor
+{
+
+class SetUpStep final : public StepPanel
+{
+public:
+    SetUpStep(MeasureDesk& wanted, StepServices& around);
+    void refresh() override;
+    void tick() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    [[nodiscard]] int leastHeight() const override { return 440; }
+    [[nodiscard]] const InputMeter& meter(std::size_t index) const { return meters[index]; }
+
+private:
+    static constexpr std::size_t inputs = 3;
+    void takeWiring();
+    void takeSettings();
+    [[nodiscard]] juce::Rectangle<int> rigCard() const;
+    [[nodiscard]] juce::Rectangle<int> sweepCard() const;
+
+    MeasureDesk& desk;
+    StepServices& services;
+    Named<juce::ComboBox> rig, output, base;
+    std::array<Named<juce::ComboBox>, inputs> input;
+    std::array<InputMeter, inputs> meters;
+    juce::ToggleButton calibrated;
+    juce::Slider fullScale;
+    juce::ToggleButton tone;
+    juce::TextButton devices;
+    Named<juce::Slider> level, low, high, duration, repeats;
+    FactTable facts{"The sweep"};
+    juce::TextButton saveSweep, openRecording;
+    NoteBox notes{"Notes"};
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/SweepStep.h"
+
+#include "editor/Text.h"
+
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int playHeight = 25 * grid;
+} // namespace
+
+SweepControl::SweepControl(MeasureDesk& wanted, bool throughEqualizer) : desk(wanted), verifying(throughEqualizer)
+{
+    button.onClick = [this]
+    {
+        if (desk.isPlaying())
+            desk.stop();
+        else if (verifying)
+            desk.verify();
+        else
+            desk.sweep();
+    };
+    bar.setTitle("Progress of the sweep");
+    addAndMakeVisible(button);
+    addAndMakeVisible(bar);
+    refresh();
+}
+
+bool SweepControl::isMine() const
+{
+    return desk.activity() == (verifying ? MeasureDesk::Activity::verifying : MeasureDesk::Activity::sweeping);
+}
+
+void SweepControl::refresh()
+{
+    const bool analysing = desk.activity() == MeasureDesk::Activity::analysing;
+    button.setButtonText(isMine() ? "Stop" : verifying ? "Sweep through the equaliser" : "Sweep");
+    button.setTitle(button.getButtonText());
+    button.setTooltip(isMine() ? "Ends the sweep; nothing of it is kept"
+                               : "Plays the sweep through the actuator and records the sensor in step with it");
+    button.setEnabled(isMine() || (desk.activity() == MeasureDesk::Activity::none && desk.obstacle().empty()));
+    if (analysing)
+    {
+        progress = -1.0;
+        bar.setTextToDisplay("Analysing" + toText("…"));
+    }
+    bar.setVisible(isMine() || analysing);
+    tick();
+}
+
+void SweepControl::tick()
+{
+    if (!isMine())
+        return;
+    progress = desk.progress();
+    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(desk.secondsLeft()))) + " s left");
+}
+
+void SweepControl::resized()
+{
+    auto area = getLocalBounds();
+    button.setBounds(area.removeFromLeft(verifying ? area.getWidth() : 14 * grid).removeFromTop(stepRow));
+    if (verifying)
+        bar.setBounds(getLocalBounds().withTrimmedTop(stepRow + stepGap).withHeight(3 * grid));
+    else
+        bar.setBounds(area.withTrimmedLeft(grid).withHeight(stepRow).reduced(0, grid / 2));
+}
+
+SweepStep::SweepStep(MeasureDesk& wanted)
+    : control(wanted, false),
+      desk(wanted),
+      name("Name", "What the next fitting is called: who wears it, or how it is attached")
+{
+    name.control.setFont(usualFont());
+    name.control.setIndents(grid, 7);
+    name.control.onTextChange = [this]
+    {
+        desk.setNextFittingName(name.control.getText().toStdString());
+    };
+    scroll.setViewedComponent(&list, false);
+    scroll.setScrollBarsShown(true, false);
+    list.setTitle("Fittings");
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes})
+        addAndMakeVisible(child);
+    refresh();
+}
+
+void SweepStep::refresh()
+{
+    const auto& wired = desk.wiring().inputs;
+    for (std::size_t i = 0; i < meters.size(); ++i)
+    {
+        meters[i].setVisible(i < wired.size());
+        if (i < wired.size())
+            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
+    }
+    if (!name.control.hasKeyboardFocus(true) || name.control.getText().isEmpty())
+        name.control.setText(toText(desk.nextFittingName()), false);
+    name.setEnabled(!desk.isPlaying());
+    control.refresh();
+
+    const ActuatorMeasurement& work = desk.measurement();
+    rows.clear();
+    const MeasuredResponse* response = work.response();
+    for (std::size_t i = 0; i < work.fittings().size(); ++i)
+    {
+        const Fitting& fitting = *work.fittings()[i];
+        auto row = std::make_unique<Row>();
+        juce::String text = toText(fitting.name) + "   " + numberText(fitting.level, 1) + " dB";
+        if (response != nullptr && i < response->average.offsets.size() && work.fittings().size() > 1)
+        {
+            const double offset = response->average.offsets[i];
+            text << ", " << (offset >= 0.0 ? "+" : "") << numberText(offset, 1) << " dB to the average";
+            if (response->findings.outliers.contains(i))
+                text << ", left out";
+        }
+        if (!fitting.notes.empty())
+            text << ", " << static_cast<int>(fitting.notes.size()) << (fitting.notes.size() == 1 ? " note" : " notes");
+        row->name.setText(text, juce::dontSendNotification);
+        row->name.setFont(usualFont());
+        row->name.setTooltip(toText(fitting.notes.empty() ? std::string() : fitting.notes.front()));
+        row->name.setMinimumHorizontalScale(0.8f);
+        row->drop.setButtonText("Drop");
+        row->drop.setTitle("Drop " + toText(fitting.name));
+        row->drop.setTooltip("Takes this fitting out; the response is computed anew");
+        row->drop.setEnabled(desk.activity() == MeasureDesk::Activity::none);
+        row->drop.onClick = [safe = juce::Component::SafePointer<SweepStep>(this), i]
+        {
+            // Dropping removes this very button.
+            juce::MessageManager::callAsync(
+                [safe, i]
+                {
+                    if (safe)
+                        safe->desk.dropFitting(i);
+                });
+        };
+        list.addAndMakeVisible(row->name);
+        list.addAndMakeVisible(row->drop);
+        rows.push_back(std::move(row));
+    }
+
+    std::vector<Note> lines;
+    if (!desk.sweepProblem().empty())
+        lines.push_back({desk.sweepProblem(), Note::Kind::warning});
+    else if (const auto obstacle = desk.obstacle(); !obstacle.empty())
+        lines.push_back({obstacle, Note::Kind::warning});
+    else if (!work.fittings().empty())
+    {
+        for (const std::string& note : work.fittings().back()->notes)
+            lines.push_back({note, Note::Kind::warning});
+        lines.push_back({"Put the actuator on another wearer, or attach it anew, and sweep again: what is right for "
+                         "several holds for more. Or go on to the response."});
+    }
+    else
+        lines.push_back({"Keep still while the sweep plays. It begins low and soft to the ear and gets higher."});
+    notes.show(std::move(lines));
+    resized();
+    repaint();
+}
+
+void SweepStep::tick()
+{
+    control.tick();
+    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
+        meters[i].show(desk.takePeak(i));
+}
+
+juce::Rectangle<int> SweepStep::playCard() const
+{
+    return getLocalBounds().withHeight(playHeight);
+}
+
+juce::Rectangle<int> SweepStep::listCard() const
+{
+    return getLocalBounds().withTrimmedTop(playHeight + grid);
+}
+
+void SweepStep::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    drawCard(g, playCard(), "Next fitting", p);
+    const auto inside = drawCard(g, listCard(), "Fittings", p);
+    if (!rows.empty())
+        return;
+    g.setColour(p.dim);
+    g.setFont(usualFont());
+    g.drawText("None yet", inside.withHeight(stepRow), juce::Justification::centredLeft, true);
+}
+
+void SweepStep::resized()
+{
+    auto area = insideOfCard(playCard());
+    auto left = area.removeFromLeft(area.getWidth() / 2 - grid);
+    area.removeFromLeft(2 * grid);
+    name.setBounds(left.removeFromTop(stepRow));
+    left.removeFromTop(grid);
+    control.setBounds(left.removeFromTop(stepRow));
+    left.removeFromTop(grid);
+    for (auto& meter : meters)
+        meter.setBounds(left.removeFromTop(20));
+    notes.setBounds(area);
+    auto inside = insideOfCard(listCard());
+    scroll.setBounds(inside);
+    list.setSize(inside.getWidth() - scroll.getScrollBarThickness(), static_cast<int>(rows.size()) * (stepRow + 2));
+    auto lines = list.getLocalBounds();
+    for (auto& row : rows)
+    {
+        auto line = lines.removeFromTop(stepRow);
+        lines.removeFromTop(2);
+        row->drop.setBounds(line.removeFromRight(9 * grid));
+        row->name.setBounds(line);
+    }
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Sweeps, and the fittings that were taken.
+
+#include "editor/measure/InputMeter.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// A button that begins and stops a sweep, with its progress.
+class SweepControl final : public juce::Component
+{
+public:
+    SweepControl(MeasureDesk& wanted, bool throughEqualizer);
+    void refresh();
+    void tick();
+    void resized() override;
+    juce::TextButton button;
+
+private:
+    [[nodiscard]] bool isMine() const;
+    MeasureDesk& desk;
+    const bool verifying;
+    double progress = 0.0;
+    juce::ProgressBar bar{progress};
+};
+
+class SweepStep final : public StepPanel
+{
+public:
+    explicit SweepStep(MeasureDesk& wanted);
+    void refresh() override;
+    void tick() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    SweepControl control;
+    [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
+
+private:
+    struct Row
+    {
+        juce::Label name;
+        juce::TextButton drop;
+    };
+    [[nodiscard]] juce::Rectangle<int> playCard() const;
+    [[nodiscard]] juce::Rectangle<int> listCard() const;
+
+    MeasureDesk& desk;
+    Named<juce::TextEditor> name;
+    std::array<InputMeter, 3> meters;
+    NoteBox notes{"What the last sweep told"};
+    juce::Viewport scroll;
+    juce::Component list;
+    std::vector<std::unique_ptr<Row>> rows;
+};
+
+} // namespace pacini::editor

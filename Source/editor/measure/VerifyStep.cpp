@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/measure/VerifyStep.h"
+
+#include "editor/Text.h"
+#include "editor/measure/ResponseStep.h"
+
+#include <algorithm>
+
+namespace pacini::editor
+{
+
+VerifyStep::VerifyStep(MeasureDesk& wanted, StepServices& around)
+    : control(wanted, true),
+      desk(wanted),
+      services(around),
+      tolerance("Tolerance", "How far any frequency may be off the mean to pass, dB to both sides"),
+      saveSweep("Save sweep" + toText("…")),
+      openRecording("Open rec." + toText("…")),
+      again("Anew")
+{
+    prepareSlider(tolerance.control, 0.5, 6.0, 0.1, "dB", 1);
+    tolerance.control.onValueChange = [this]
+    {
+        desk.setTolerance(tolerance.control.getValue());
+    };
+    saveSweep.setTitle("Save the sweep through the equaliser");
+    saveSweep.setTooltip("Writes the sweep through the equaliser as a sound for another player");
+    saveSweep.onClick = [this]
+    {
+        services.askForFile("Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
+                            [this](const juce::File& file)
+                            {
+                                if (const auto saved = desk.saveSweep(pathOf(file.withFileExtension("wav")), true);
+                                    !saved)
+                                    services.tell("The sweep was not saved", toText(saved.error().text()));
+                            });
+    };
+    openRecording.setTitle("Open a recording of the sweep through the equaliser");
+    openRecording.setTooltip("Takes a recording of the sweep through the equaliser that was made elsewhere");
+    openRecording.onClick = [this]
+    {
+        services.askForFile("Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
+                            [this](const juce::File& file) { desk.readRecording(pathOf(file), true); });
+    };
+    again.setTitle("Start the proof anew");
+    again.setTooltip("Drops the sweeps through the equaliser");
+    again.onClick = [this]
+    {
+        desk.dropVerifications();
+    };
+    for (juce::Component* child : std::initializer_list<juce::Component*>{
+             &control, &meter, &tolerance, &saveSweep, &openRecording, &again, &facts, &notes, &plot})
+        addAndMakeVisible(child);
+    refresh();
+}
+
+void VerifyStep::refresh()
+{
+    const ActuatorMeasurement& work = desk.measurement();
+    control.refresh();
+    const auto& wired = desk.wiring().inputs;
+    meter.setVisible(!wired.empty());
+    if (!wired.empty())
+        meter.setName(toText(desk.ports().inputs[wired.front()]));
+    tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
+    const bool free = desk.activity() == MeasureDesk::Activity::none && work.equalizer() != nullptr;
+    saveSweep.setEnabled(free);
+    openRecording.setEnabled(free);
+    again.setEnabled(free && !work.verifications().empty());
+
+    ResponsePlot::Content curves;
+    curves.axisName = levelUnit(work);
+    curves.empty = "There is no equaliser yet";
+    std::vector<Note> lines;
+    FactTable::Facts list;
+    if (!desk.verifyProblem().empty())
+        lines.push_back({desk.verifyProblem(), Note::Kind::warning});
+    else if (!work.problem(MeasureStep::verify).empty())
+        lines.push_back({work.problem(MeasureStep::verify), Note::Kind::warning});
+    const MeasuredResponse* response = work.response();
+    const FittedEqualizer* fitted = work.equalizer();
+    if (response != nullptr && fitted != nullptr)
+    {
+        curves.curves.push_back({"before", response->average.response, ResponsePlot::Role::before});
+        curves.range = std::pair(fitted->lowFrequency, fitted->highFrequency);
+        if (const VerifiedResponse* verified = work.verified())
+        {
+            const Linearity& after = verified->linearity;
+            if (work.verifications().size() > 1)
+                for (const auto& one : work.verifications())
+                    curves.curves.push_back({"sweeps", one->measurement.response(), ResponsePlot::Role::single});
+            curves.curves.push_back({"with the equaliser", verified->after, ResponsePlot::Role::result});
+            curves.band = std::pair(after.level - after.tolerance, after.level + after.tolerance);
+            const auto deviation = [](const Linearity& one)
+            {
+                return (one.worstDeviation >= 0.0 ? "+" : "") + numberText(one.worstDeviation, 2) + " dB at " +
+                       numberText(one.worstFrequency, 0) + " Hz";
+            };
+            list = {{"Mean deviation", numberText(after.meanDeviation, 2) + " dB"},
+                    {"before", numberText(verified->before.meanDeviation, 2) + " dB"},
+                    {"Worst", deviation(after)},
+                    {"before", deviation(verified->before)},
+                    {"Sweeps", juce::String(static_cast<int>(work.verifications().size()))},
+                    {"Level", numberText(work.verifications().back()->level, 1) + " dB"}};
+            for (const LinearityOutlier& outlier : after.outliers)
+                lines.push_back({juce::String(toText("From ") + juce::String(outlier.lowFrequency, 0) + " to " +
+                                              numberText(outlier.highFrequency, 0) + " Hz it is off by up to " +
+                                              numberText(outlier.deviation, 1) + " dB.")
+                                     .toStdString(),
+                                 Note::Kind::warning});
+            for (const std::string& note : verified->notes)
+                lines.push_back({note, Note::Kind::warning});
+        }
+        else if (lines.empty())
+            lines.push_back(
+                {"Sweep once more, now through the equaliser: the measurement shows what it really does. "
+                 "If the equaliser raises the sweep beyond full scale, the sweep is played as much softer."});
+    }
+    facts.show(std::move(list));
+    notes.show(std::move(lines));
+    plot.show(std::move(curves));
+    resized();
+    repaint();
+}
+
+void VerifyStep::tick()
+{
+    control.tick();
+    meter.show(desk.takePeak(0));
+}
+
+juce::Rectangle<int> VerifyStep::verdictArea() const
+{
+    return insideOfCard(getLocalBounds().removeFromLeft(stepSide)).withTrimmedTop(19 * grid).withHeight(4 * grid);
+}
+
+void VerifyStep::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    auto area = getLocalBounds();
+    drawCard(g, area.removeFromLeft(stepSide), "Proof", p);
+    area.removeFromLeft(grid);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    if (const VerifiedResponse* verified = desk.measurement().verified())
+    {
+        const bool passed = verified->linearity.passed();
+        const auto place = verdictArea().toFloat();
+        g.setColour((passed ? p.accent : p.warning).withAlpha(0.2f));
+        g.fillRoundedRectangle(place, 4.0f);
+        g.setColour(passed ? p.accent : p.warning);
+        g.drawRoundedRectangle(place.reduced(0.5f), 4.0f, 1.0f);
+        g.setColour(p.text);
+        g.setFont(usualFont());
+        g.drawText((passed ? "Passed: flat within " : "Not flat within ") + toText("±") +
+                       numberText(verified->linearity.tolerance, 1) + " dB",
+                   place, juce::Justification::centred, true);
+    }
+}
+
+void VerifyStep::resized()
+{
+    auto area = getLocalBounds();
+    auto side = insideOfCard(area.removeFromLeft(stepSide));
+    control.setBounds(side.removeFromTop(stepRow + stepGap + 3 * grid));
+    side.removeFromTop(stepGap);
+    meter.setBounds(side.removeFromTop(20));
+    side.removeFromTop(stepGap);
+    tolerance.setBounds(side.removeFromTop(stepRow));
+    side.setTop(verdictArea().getBottom() + grid);
+    facts.setBounds(side.removeFromTop(facts.wantedHeight()));
+    auto row = side.removeFromBottom(stepRow);
+    again.setBounds(row.removeFromRight(7 * grid));
+    row.removeFromRight(grid);
+    saveSweep.setBounds(row.removeFromLeft((row.getWidth() - grid) / 2));
+    row.removeFromLeft(grid);
+    openRecording.setBounds(row);
+    side.removeFromBottom(grid / 2);
+    notes.setBounds(side.expanded(grid, 0));
+    area.removeFromLeft(grid);
+    plot.setBounds(area.reduced(grid, grid));
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The proof: a sweep through the equaliser.
+
+#include "editor/ResponsePlot.h"
+#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/StepParts.h"
+#include "editor/measure/SweepStep.h"
+
+namespace pacini::editor
+{
+
+class VerifyStep final : public StepPanel
+{
+public:
+    VerifyStep(MeasureDesk& wanted, StepServices& around);
+    void refresh() override;
+    void tick() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    SweepControl control;
+    [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
+    [[nodiscard]] const ResponsePlot& responsePlot() const noexcept { return plot; }
+
+private:
+    [[nodiscard]] juce::Rectangle<int> verdictArea() const;
+
+    MeasureDesk& desk;
+    StepServices& services;
+    InputMeter meter;
+    Named<juce::Slider> tolerance;
+    juce::TextButton saveSweep, openRecording, again;
+    FactTable facts{"How flat it is"};
+    NoteBox notes{"Notes on the proof"};
+    ResponsePlot plot{"Response without and with the equaliser", "Level over frequency, both measured"};
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,343 @@
+#include "editor/measure/MeasurePage.h"
+
+#include "Bench.h"
+#include "document/measure/SimulatedMeasureRig.h"
+#include "editor/Text.h"
+#include "io/AudioFile.h"
+#include "io/ProfileFile.h"
+#include "io/SweepFile.h"
+
+#include <pacini/linearize/SimulatedRig.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+using namespace pacini;
+using namespace pacini::test;
+using editor::MeasureDesk;
+
+namespace
+{
+/// The page on a simulated rig that takes no time.
+struct MeasureBench
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    juce::TemporaryFile temporary{".d"};
+    std::filesystem::path folder = editor::pathOf(temporary.getFile());
+    editor::Session session{{}, {}};
+    editor::EditorView view{session, {}};
+    std::shared_ptr<MeasureDesk> desk;
+    editor::MeasurePage* page = nullptr;
+
+    explicit MeasureBench(RigParams params = {})
+    {
+        std::filesystem::create_directories(folder);
+        const auto wristband = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles/l5-wristband.json");
+        REQUIRE(wristband.ok());
+        session.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
+        desk = std::make_shared<MeasureDesk>(session, MeasureDesk::Surroundings{nullptr, folder, 0.0, true});
+        params.sampleRate = 8000.0;
+        desk->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
+        MeasureSettings settings = desk->measurement().settings();
+        settings.level = -12.0;
+        settings.duration = 4.0;
+        desk->setSettings(settings);
+        auto made = std::make_unique<editor::MeasurePage>(desk, nullptr);
+        page = made.get();
+        view.setBounds(0, 0, 1280, 800);
+        view.showSheet(std::move(made));
+    }
+
+    ~MeasureBench()
+    {
+        view.showSheet(nullptr);
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+
+    void waitForSweep()
+    {
+        REQUIRE(desk->isPlaying());
+        while (desk->isPlaying())
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            desk->poll();
+        }
+    }
+
+    void sweep()
+    {
+        REQUIRE(page->show(MeasureStep::sweep));
+        page->sweepStep().control.button.onClick();
+        waitForSweep();
+    }
+};
+
+/// All visible children of a component, and theirs.
+void visit(juce::Component& component, const std::function<void(juce::Component&)>& look)
+{
+    for (auto* child : component.getChildren())
+        if (child->isVisible())
+        {
+            look(*child);
+            visit(*child, look);
+        }
+}
+
+std::string where(const juce::Component& component)
+{
+    return (component.getTitle() + " '" + component.getName() + "' " + component.getBounds().toString()).toStdString();
+}
+} // namespace
+
+TEST_CASE("The measure page leads from set-up to a saved profile that is proved flat within 1 dB", "[measure]")
+{
+    MeasureBench bench;
+    auto& page = *bench.page;
+    CHECK(page.step() == MeasureStep::setUp);
+    CHECK_FALSE(page.show(MeasureStep::response)); // nothing has been swept
+    bench.sweep();
+    INFO(bench.desk->sweepProblem());
+    REQUIRE(bench.desk->measurement().fittings().size() == 1);
+
+    REQUIRE(page.show(MeasureStep::response));
+    const auto& curves = page.responseStep().responsePlot().shown();
+    REQUIRE(curves.curves.size() == 2);
+    CHECK(curves.curves.front().role == editor::ResponsePlot::Role::noise);
+    REQUIRE(curves.range.has_value());
+
+    REQUIRE(page.show(MeasureStep::equalizer));
+    const std::size_t automatic = bench.desk->measurement().equalizer()->fit.sections.size();
+    page.equalizerStep().sections.control.setSelectedId(1, juce::sendNotificationSync);
+    REQUIRE(bench.desk->measurement().equalizer() != nullptr);
+    CHECK(bench.desk->measurement().equalizer()->fit.sections.size() == 1);
+    page.equalizerStep().boost.control.setValue(3.0, juce::sendNotificationSync);
+    CHECK(bench.desk->measurement().equalizer()->fit.boost < 3.2);
+    page.equalizerStep().boost.control.setValue(12.0, juce::sendNotificationSync);
+    page.equalizerStep().sections.control.setSelectedItemIndex(0, juce::sendNotificationSync);
+    CHECK(bench.desk->measurement().equalizer()->fit.sections.size() == automatic);
+
+    REQUIRE(page.show(MeasureStep::verify));
+    bench.desk->setTolerance(1.0);
+    page.verifyStep().control.button.onClick();
+    bench.waitForSweep();
+    REQUIRE(bench.desk->measurement().verified() != nullptr);
+    CHECK(bench.desk->measurement().state(MeasureStep::verify) == MeasureStepState::done);
+    CHECK(page.verifyStep().responsePlot().shown().band.has_value());
+
+    REQUIRE(page.show(MeasureStep::save));
+    page.saveStep().name.control.setText("My wristband", juce::dontSendNotification);
+    page.saveStep().name.control.onTextChange();
+    page.saveStep().saveButton.onClick();
+    CAPTURE(page.saveStep().noteBox().getText());
+    const auto file = bench.folder / "my-wristband.json";
+    const auto saved = readProfile(file);
+    REQUIRE(saved.ok());
+    CHECK(saved->name == "My wristband");
+    REQUIRE(saved->measurement.has_value());
+    REQUIRE(saved->measurement->linearity.has_value());
+    CHECK(std::abs(saved->measurement->linearity->worstDeviation) <= 1.0);
+    CHECK(bench.desk->measurement().state(MeasureStep::save) == MeasureStepState::done);
+
+    // It can be chosen, has been, and goes with the project.
+    REQUIRE(bench.session.profiles().size() == 2);
+    CHECK(bench.session.profiles().back().profile->name == "My wristband");
+    CHECK(bench.session.profileName() == "my-wristband");
+    REQUIRE(bench.session.document().project().profile.embedded.has_value());
+    CHECK(bench.session.document().project().profile.embedded->equalizer == saved->equalizer);
+    // Again, with another name and the same file: no second entry.
+    page.saveStep().name.control.setText("My Wristband", juce::dontSendNotification);
+    page.saveStep().name.control.onTextChange();
+    page.saveStep().saveButton.onClick();
+    CHECK(bench.session.profiles().size() == 2);
+    CHECK(bench.session.profile()->name == "My Wristband");
+}
+
+TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[measure]")
+{
+    const auto notes = [](MeasureBench& bench)
+    {
+        return bench.page->sweepStep().noteBox().getText().toStdString();
+    };
+    SECTION("nothing is connected to the input")
+    {
+        MeasureBench bench;
+        bench.desk->setWiring({0, {4}});
+        bench.sweep();
+        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(notes(bench).find("No sweep was heard on 'Nothing connected'") == 0);
+        CHECK_FALSE(bench.page->show(MeasureStep::response));
+    }
+    SECTION("nothing is connected to the output")
+    {
+        MeasureBench bench;
+        bench.desk->setWiring({1, {0, 1, 2}});
+        bench.sweep();
+        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(notes(bench).find("No sweep was heard") == 0);
+    }
+    SECTION("the input carries the drive")
+    {
+        MeasureBench bench;
+        bench.desk->setWiring({0, {3}});
+        bench.sweep();
+        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(notes(bench).find("'Drive signal' carries the drive signal itself, not a movement.") == 0);
+    }
+    SECTION("the sensor is overloaded")
+    {
+        RigParams narrow;
+        narrow.range = 2.0 * standardGravity;
+        MeasureBench bench(narrow);
+        bench.sweep();
+        REQUIRE(bench.desk->measurement().fittings().size() == 1);
+        CHECK(notes(bench).find("' clips: ") != std::string::npos);
+    }
+    SECTION("a second try takes the words away, and fittings can be dropped")
+    {
+        MeasureBench bench;
+        bench.desk->setWiring({0, {4}});
+        bench.sweep();
+        bench.desk->setWiring({0, {0, 1, 2}});
+        bench.sweep();
+        CHECK(bench.desk->sweepProblem().empty());
+        bench.sweep();
+        REQUIRE(bench.desk->measurement().fittings().size() == 2);
+        CHECK(bench.desk->measurement().fittings()[1]->name == "Fitting 2");
+        bench.desk->dropFitting(0);
+        REQUIRE(bench.desk->measurement().fittings().size() == 1);
+        CHECK(bench.desk->measurement().response() != nullptr);
+    }
+}
+
+TEST_CASE("Escape stops a sweep, and what was measured outlives the page", "[measure]")
+{
+    MeasureBench bench;
+    bench.sweep();
+    bench.page->sweepStep().control.button.onClick();
+    REQUIRE(bench.desk->isPlaying());
+    CHECK(bench.page->keyPressed(juce::KeyPress(juce::KeyPress::escapeKey)));
+    CHECK_FALSE(bench.desk->isPlaying());
+    CHECK(bench.view.sheet() == bench.page);
+    bench.view.showSheet(nullptr);
+    CHECK(bench.desk->measurement().fittings().size() == 1);
+    auto again = std::make_unique<editor::MeasurePage>(bench.desk, nullptr);
+    CHECK(again->show(MeasureStep::response));
+}
+
+TEST_CASE("The menu opens one measure page", "[measure]")
+{
+    EditorBench bench;
+    REQUIRE(bench.view.doCommand(editor::measureActuator));
+    auto* page = dynamic_cast<editor::MeasurePage*>(bench.view.sheet());
+    REQUIRE(page != nullptr);
+    REQUIRE(bench.view.doCommand(editor::measureActuator));
+    CHECK(bench.view.sheet() == page);
+}
+
+TEST_CASE("A sweep can be saved and its recording opened", "[measure]")
+{
+    MeasureBench bench;
+    const auto sound = bench.folder / "sweep.wav";
+    REQUIRE(bench.desk->saveSweep(sound, false).ok());
+    const auto described = readSweepFile(bench.folder / "sweep.json");
+    REQUIRE(described.ok());
+    CHECK(described->sweep.duration == 4.0);
+    const auto played = readAudio(sound);
+    REQUIRE(played.ok());
+    RigParams rig;
+    const auto channels = recordOnRig(played->samples, rig);
+    std::vector<float> interleaved(3 * channels.front().size());
+    for (std::size_t i = 0; i < interleaved.size(); ++i)
+        interleaved[i] = channels[i % 3][i / 3];
+    AudioWriteParams writing;
+    writing.channels = 3;
+    const auto recording = bench.folder / "anna.wav";
+    REQUIRE(writeAudio(recording, interleaved, writing).ok());
+    bench.desk->readRecording(recording, false);
+    INFO(bench.desk->sweepProblem());
+    REQUIRE(bench.desk->measurement().fittings().size() == 1);
+    CHECK(bench.desk->measurement().fittings()[0]->name == "anna");
+    bench.desk->readRecording(bench.folder / "nobody.wav", false);
+    CHECK(bench.desk->sweepProblem().find("nobody.wav was not read") == 0);
+}
+
+TEST_CASE("Nothing on the measure page is cut off or overlaps, everything has a name and a hint", "[measure]")
+{
+    MeasureBench bench;
+    bench.sweep();
+    bench.desk->verify();
+    bench.waitForSweep();
+    for (const auto size : {juce::Point(880, 560), juce::Point(1280, 800)})
+    {
+        bench.view.setBounds(0, 0, size.x, size.y);
+        for (std::size_t i = 0; i < measureSteps; ++i)
+        {
+            REQUIRE(bench.page->show(static_cast<MeasureStep>(i)));
+            auto& panel = bench.page->panel();
+            CAPTURE(size.x, i);
+            CHECK(panel.getWidth() <= size.x);
+            for (auto* one : panel.getChildren())
+            {
+                if (!one->isVisible() || one->getBounds().isEmpty())
+                    continue;
+                CAPTURE(where(*one));
+                CHECK(panel.getLocalBounds().contains(one->getBounds()));
+                CHECK(one->getHeight() >= 16);
+                for (auto* other : panel.getChildren())
+                    if (other != one && other->isVisible())
+                    {
+                        CAPTURE(where(*other));
+                        CHECK_FALSE(one->getBounds().intersects(other->getBounds()));
+                    }
+            }
+            visit(panel,
+                  [](juce::Component& component)
+                  {
+                      const bool control = dynamic_cast<juce::Slider*>(&component) != nullptr ||
+                                           dynamic_cast<juce::ComboBox*>(&component) != nullptr ||
+                                           dynamic_cast<juce::Button*>(&component) != nullptr;
+                      auto* tips = dynamic_cast<juce::SettableTooltipClient*>(&component);
+                      if (!control || tips == nullptr || dynamic_cast<juce::Slider*>(component.getParentComponent()))
+                          return;
+                      CAPTURE(where(component));
+                      CHECK((component.getTitle() + component.getName()).isNotEmpty());
+                      CHECK(tips->getTooltip().isNotEmpty());
+                  });
+        }
+    }
+}
+
+TEST_CASE("A plot draws its curve where its scales say", "[measure]")
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    editor::ResponsePlot plot("Plot", "Help");
+    plot.setBounds(0, 0, 600, 300);
+    FrequencyResponse line;
+    for (int i = 0; i <= 40; ++i)
+    {
+        line.frequency.push_back(10.0 * std::pow(10.0, i / 20.0));
+        line.level.push_back(-20.0 + i);
+    }
+    editor::ResponsePlot::Content content;
+    content.curves = {{"line", line}};
+    plot.show(content);
+    CHECK(plot.placeOf(100.0, 0.0).x - plot.placeOf(10.0, 0.0).x ==
+          Approx(plot.placeOf(1000.0, 0.0).x - plot.placeOf(100.0, 0.0).x).margin(0.01));
+    const auto picture = plot.createComponentSnapshot(plot.getLocalBounds(), true, 1.0f);
+    const auto accent = editor::paletteFor(plot).accent;
+    for (const double f : {20.0, 90.0, 700.0})
+    {
+        const auto place = plot.placeOf(f, levelAt(line, f)).roundToInt();
+        int nearest = 1000;
+        for (int dy = -2; dy <= 2; ++dy)
+        {
+            const auto colour = picture.getPixelAt(place.x, place.y + dy);
+            nearest = std::min(nearest, std::abs(colour.getRed() - accent.getRed()) +
+                                            std::abs(colour.getGreen() - accent.getGreen()));
+        }
+        CHECK(nearest < 60);
+        CHECK(picture.getPixelAt(place.x, place.y - 20) != accent);
+    }
+}
