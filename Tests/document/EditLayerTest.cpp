@@ -1,5 +1,7 @@
 #include "document/Analysis.h"
 #include "document/Document.h"
+#include "document/EditLayer.h"
+#include "document/EditsBetween.h"
 #include "support/Catch.h"
 
 #include <pacini/clip/edits/PointEdits.h>

@@ -3,6 +3,7 @@
 // A clip as the formats with one voice write it: levels and frequencies of 0 to 1, and events.
 
 #include "io/formats/ForeignFormat.h"
+#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 
 #include <pacini/clip/Clip.h>
@@ -38,7 +39,7 @@ struct ExportVoice
     Curve level;           ///< has a point at the time of each event
     Curve frequency;
     std::vector<Transient> events; ///< amplitude is a level
-    std::vector<FormatLoss> losses;
+    LossList losses;
 };
 
 /// The one voice of a valid clip (see singleVoiceOf), fitted to the range of the format (see adaptClip for what a
