@@ -18,39 +18,6 @@ constexpr std::int64_t shortestStep = 10; // ms beside bursts
 constexpr std::int64_t motorStop = 50;    // ms: in less a motor does not stop and start again
 constexpr double burst = 0.020;           // s
 
-/// The integral of a curve from 0 to each of its points and on.
-class CurveIntegral
-{
-public:
-    explicit CurveIntegral(const Curve& curveToRead) : curve(curveToRead)
-    {
-        double sum = 0.0, before = 0.0;
-        for (std::size_t i = 0; i < curve.size(); ++i)
-        {
-            const double left = i == 0 ? curve[i].value : curve[i - 1].value;
-            sum += 0.5 * (left + curve[i].value) * (curve[i].time - before);
-            before = curve[i].time;
-            sums.push_back(sum);
-        }
-    }
-
-    [[nodiscard]] double mean(double from, double to) const { return (until(to) - until(from)) / (to - from); }
-
-private:
-    [[nodiscard]] double until(double time) const
-    {
-        const auto next = std::upper_bound(curve.begin(), curve.end(), time,
-                                           [](double t, const Breakpoint& point) { return t < point.time; });
-        if (next == curve.begin())
-            return curve.empty() ? 0.0 : curve.front().value * time;
-        const auto i = static_cast<std::size_t>(next - curve.begin()) - 1;
-        return sums[i] + 0.5 * (curve[i].value + valueAt(curve, time)) * (time - curve[i].time);
-    }
-
-    const Curve& curve;
-    std::vector<double> sums;
-};
-
 /// Where the steps of a waveform meet, in ms.
 std::set<std::int64_t> stepTimes(const SingleVoice& voice, std::int64_t end, std::int64_t step, bool keepsPoints)
 {
@@ -116,13 +83,14 @@ std::vector<AndroidStep> androidWaveformOf(const SingleVoice& voice, std::option
 {
     const auto end = std::max<std::int64_t>(1, androidTick(voice.duration));
     const auto step = std::max<std::int64_t>(shortestStep, androidTick(1.0 / stepsPerSecond.value_or(usualSteps)));
-    const CurveIntegral amplitude(voice.amplitude);
+    CurveReader amplitude(voice.amplitude);
     const auto times = stepTimes(voice, end, step, keepsPoints);
     std::vector<AndroidStep> steps;
     std::size_t event = 0;
     for (auto from = times.begin(), to = std::next(from); to != times.end(); ++from, ++to)
     {
-        double level = amplitude.mean(androidTime(*from), androidTime(*to));
+        // The value in the middle: a mean would smear the rise of an onset over two steps (up to 7 points of HTS).
+        double level = amplitude.at(0.5 * (androidTime(*from) + androidTime(*to)));
         while (event < voice.events.size() && androidTick(voice.events[event].time) < *from)
             ++event;
         for (std::size_t i = event; i < voice.events.size() && androidTick(voice.events[i].time) == *from; ++i)
