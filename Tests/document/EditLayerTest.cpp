@@ -1,6 +1,7 @@
+#include "document/EditLayer.h"
+
 #include "document/Analysis.h"
 #include "document/Document.h"
-#include "document/EditLayer.h"
 #include "document/EditsBetween.h"
 #include "support/Catch.h"
 
