@@ -35,6 +35,12 @@ std::vector<std::string> kindNames()
     return names;
 }
 
+/// Whether errors of this kind are seconds.
+bool isTime(LossKind kind)
+{
+    return kind == LossKind::timeStep || kind == LossKind::length;
+}
+
 /// "0.25 octaves"
 std::string errorText(const FormatLoss& loss)
 {
@@ -42,7 +48,7 @@ std::string errorText(const FormatLoss& loss)
         return "";
     if (loss.kind == LossKind::frequency)
         return fmt::format("{:.2f} octaves", loss.error);
-    if (loss.kind == LossKind::timeStep)
+    if (isTime(loss.kind))
         return fmt::format("{:.2g} ms", 1000.0 * loss.error);
     return fmt::format("{:.3f}", loss.error);
 }
@@ -77,9 +83,7 @@ CLI::App* LintCommand::declare(CLI::App& app)
 
 bool LintCommand::isTooMuch(const FormatLoss& loss) const
 {
-    const double limit = loss.kind == LossKind::frequency  ? maxOctaves
-                         : loss.kind == LossKind::timeStep ? maxTime
-                                                           : maxError;
+    const double limit = loss.kind == LossKind::frequency ? maxOctaves : isTime(loss.kind) ? maxTime : maxError;
     return (limit >= 0.0 && loss.error > limit) ||
            std::find(forbidden.begin(), forbidden.end(), lossName(loss.kind)) != forbidden.end();
 }

@@ -71,6 +71,7 @@ std::string editTitle(const Edit& edit)
             [](const ReverseEdit&) { return std::string("Reversed"); },
             [](const StretchEdit& stretch) { return fmt::format("Stretched to {:.0f} %", 100.0 * stretch.ratio); },
             [](const ReplaceEdit&) { return std::string("Whole clip replaced"); },
+            [](const ThinEdit&) { return std::string("Transients thinned"); },
         },
         edit.operation);
 }
@@ -97,6 +98,7 @@ std::optional<TimeRange> editTime(const Edit& edit)
             [&](const HumaniseEdit& humanise) { return ofScope(humanise); },
             [](const TrimEdit& trim) { return Time(trim.range); },
             [](const CutEdit& cut) { return Time(cut.range); },
+            [](const ThinEdit& thin) { return Time(thin.range); },
             [](const InsertEdit& insert) {
                 return Time(TimeRange{insert.time, insert.time});
             },

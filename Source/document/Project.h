@@ -4,7 +4,7 @@
 // any thread.
 
 #include "document/AudioReference.h"
-#include "document/EditLayer.h"
+#include "document/Reapply.h"
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/analysis/Encoder.h>

@@ -35,6 +35,53 @@ class Lint(CommandTest):
         self.assertAlmostEqual(losses["frequency"]["time"], 1.0, places=3)
         self.assertAlmostEqual(losses["crowding"]["time"], 0.504, places=3)
 
+    def only(self, kind, target, *arguments):
+        """The one loss of a kind that the clip has in a format."""
+        found = [loss for loss in self.losses("clip.json", "--target", target, *arguments) if loss["kind"] == kind]
+        self.assertEqual(len(found), 1, found)
+        return found[0]
+
+    def test_too_dense_parts_are_said_where_they_are(self):
+        dense = [{"time": 1 + i / 500, "amplitude": 0.2 + 0.6 * (i % 2)} for i in range(501)]
+        self.clip(seconds=4.0, transients=[], envelope=[{"time": 0, "amplitude": 0.2}] + dense
+                  + [{"time": 4, "amplitude": 0.2}])
+        for target in ("haptic", "ahap", "haps", "android"):
+            with self.subTest(target):
+                losses = [loss for loss in self.losses("clip.json", "--target", target) if loss["kind"] == "points"
+                          and not loss["message"].startswith(("waveform", "envelopes"))]
+                self.assertTrue(losses)
+                self.assertGreaterEqual(min(loss["time"] for loss in losses), 0.9)
+                self.assertLessEqual(max(loss["time"] + loss["duration"] for loss in losses), 2.3)
+                self.assertGreater(max(loss["error"] for loss in losses), 0.2)
+
+    def test_parts_too_weak_to_be_felt_are_said_where_they_are(self):
+        levels = [(0, 0.5), (1, 0.5), (1, 0.002), (2.5, 0.002), (2.5, 0.5), (3, 0.5)]
+        self.clip(seconds=3.0, transients=[],
+                  envelope=[{"time": time, "amplitude": level} for time, level in levels])
+        for target in ("haptic", "ahap", "haps", "android", "tact"):
+            with self.subTest(target):
+                empty = self.only("empty", target)
+                self.assertAlmostEqual(empty["time"], 1.0, places=3)
+                self.assertAlmostEqual(empty["duration"], 1.5, places=3)
+                self.assertAlmostEqual(empty["error"], 0.002, places=4)
+        self.clip(bands=[], transients=[], envelope=[])
+        self.assertEqual(self.only("empty", "haptic")["duration"], 1.0)
+
+    def test_lengths_times_and_amplitudes_that_cannot_be_said_have_their_size(self):
+        self.clip(seconds=0.004, transients=[],
+                  envelope=[{"time": 0, "amplitude": 0.5}, {"time": 0.004, "amplitude": 0.5}])
+        self.assertAlmostEqual(self.only("length", "haptic")["error"], 0.006)
+        self.fails(1, ["lint", "clip.json", "--target", "haptic", "--max-time", "0.001"], "more than is allowed")
+        self.clip()
+        self.assertAlmostEqual(self.only("timeStep", "tact")["error"], 0.010)
+        self.clip(transients=[], envelope=[{"time": 0, "amplitude": 0.5}, {"time": 0.5, "amplitude": 1.5},
+                                                     {"time": 1, "amplitude": 0.5}])
+        for target in ("haptic", "ahap", "haps", "android", "tact"):
+            with self.subTest(target):
+                above = self.only("amplitude", target)
+                self.assertAlmostEqual(above["time"], 0.5, places=3)
+                self.assertAlmostEqual(above["error"], 0.5, places=3)
+
     def test_a_limit_gates(self):
         points = [{"time": i / 1000, "amplitude": i % 2} for i in range(1001)]
         self.clip(envelope=points)

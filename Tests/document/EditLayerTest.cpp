@@ -1,5 +1,8 @@
+#include "document/EditLayer.h"
+
 #include "document/Analysis.h"
 #include "document/Document.h"
+#include "document/EditsBetween.h"
 #include "support/Catch.h"
 
 #include <pacini/clip/edits/PointEdits.h>

@@ -3,6 +3,7 @@
 // A clip of many bands as one voice: one amplitude, one frequency, events.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/synthesis/PulseLevel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,16 +103,6 @@ inline void closeSteps(Curve& curve)
             curve[i].time = curve[i + 1].time;
 }
 
-/// What of an event its voice does not reach by itself. An envelope is a mean over 10 ms: the signal peaks at up to
-/// twice its value, soon after the event begins.
-inline double beyondEnvelope(const Transient& event, const Curve& envelope)
-{
-    double reached = 0.0;
-    for (const double after : {0.0, 0.005, 0.010}) // s
-        reached = std::max(reached, 2.0 * valueAt(envelope, event.time + after));
-    return std::sqrt(std::max(event.amplitude * event.amplitude - reached * reached, 0.0));
-}
-
 /// Reads a band's amplitude and frequency at times that only move forward.
 class BandReader
 {
@@ -172,7 +163,7 @@ private:
 
     if (!clip.envelope.empty())
         for (Transient& event : voice.events)
-            event.amplitude = detail::beyondEnvelope(event, clip.envelope);
+            event.amplitude = pulseLevel(clip.envelope, event);
     std::vector<detail::BandReader> bands(clip.bands.begin(), clip.bands.end());
     std::vector<CurveReader> noise;
     for (const NoiseBand& band : clip.noise)

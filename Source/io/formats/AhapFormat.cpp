@@ -103,7 +103,7 @@ void addRaised(Pattern& pattern, const Curve& level, double from, double to, dou
 }
 
 /// The curves of a voice and, unless they have a file of their own, its events compensated for them.
-Pattern patternOf(const ExportVoice& voice, bool split, std::vector<FormatLoss>& losses)
+Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
 {
     Pattern pattern;
     const auto [lowest, highest] =
@@ -156,8 +156,8 @@ Pattern patternOf(const ExportVoice& voice, bool split, std::vector<FormatLoss>&
         event.sharpness = std::clamp(wanted, 0.0, 1.0);
         shifted.add(event.time, std::abs(wanted - event.sharpness) > leastAmplitude ? event.amplitude : 0.0);
     }
-    raised.appendTo(losses);
-    shifted.appendTo(losses);
+    losses.append(raised);
+    losses.append(shifted);
     return pattern;
 }
 
@@ -258,16 +258,6 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
     }
 }
 
-/// Taps nearer than this are one for the skin.
-void addCrowding(const std::vector<Transient>& events, std::vector<FormatLoss>& losses)
-{
-    constexpr double resolved = 0.01; // s
-    LossTrack track(LossKind::crowding, "events less than 10 ms apart are felt as one");
-    for (std::size_t i = 1; i < events.size(); ++i)
-        track.add(events[i].time, events[i].time - events[i - 1].time < resolved ? events[i].amplitude : 0.0);
-    track.appendTo(losses);
-}
-
 bool isAhap(std::string_view bytes)
 {
     return bytes.find("\"Pattern\"") != std::string_view::npos &&
@@ -283,9 +273,9 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
         return valid.error();
     ExportVoice voice =
         exportVoice(clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = sharpnessRange});
-    addCrowding(voice.events, voice.losses);
+    constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
+    voice.losses.addCrowding(voice.events, resolved);
     const Pattern pattern = patternOf(voice, params.split, voice.losses);
-    sortLosses(voice.losses);
     ExportedClip result;
     Writer main(voice.name);
     writeContinuous(main, pattern);
@@ -302,7 +292,7 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
     result.files.push_back({"", main.finish()});
     if (params.split)
         result.files.push_back({std::string(ahapTransients), second.finish()});
-    result.losses = std::move(voice.losses);
+    result.losses = std::move(voice.losses).sorted();
     return result;
 }
 

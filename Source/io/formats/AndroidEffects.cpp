@@ -1,7 +1,7 @@
 #include "io/formats/AndroidEffects.h"
 
+#include "io/formats/AndroidWaveform.h"
 #include "io/formats/ForeignText.h"
-#include "io/formats/FormatLosses.h"
 #include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/PlayedClip.h"
@@ -13,135 +13,18 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace pacini
 {
 
 namespace
 {
-constexpr double ticksPerSecond = 1000.0;
 constexpr double steepest = 0.020;   // s: a segment that every device plays
 constexpr double usualPoints = 60.0; // per second
-constexpr double usualSteps = 100.0; // per second
 // An event is a peak around the pulse that it stands for. Peaks of the 20 ms that every device plays to each side lost
 // up to 16 points of HTS in fast trains, these none.
 constexpr double peakLead = 0.002, peakTop = 0.008, peakEnd = 0.016; // s from the event
 constexpr std::int64_t longest = 1000;                               // ms: likewise
-constexpr std::int64_t shortestStep = 10;                            // ms beside bursts
-constexpr std::int64_t motorStop = 50; // ms: in less a motor does not stop and start again
-constexpr double burst = 0.020;        // s
-
-std::int64_t tickOf(double time)
-{
-    return std::llround(time * ticksPerSecond);
-}
-
-double timeOf(std::int64_t tick)
-{
-    return static_cast<double>(tick) / ticksPerSecond;
-}
-
-/// The integral of a curve from 0 to each of its points and on.
-class CurveIntegral
-{
-public:
-    explicit CurveIntegral(const Curve& curveToRead) : curve(curveToRead)
-    {
-        double sum = 0.0, before = 0.0;
-        for (std::size_t i = 0; i < curve.size(); ++i)
-        {
-            const double left = i == 0 ? curve[i].value : curve[i - 1].value;
-            sum += 0.5 * (left + curve[i].value) * (curve[i].time - before);
-            before = curve[i].time;
-            sums.push_back(sum);
-        }
-    }
-
-    [[nodiscard]] double mean(double from, double to) const { return (until(to) - until(from)) / (to - from); }
-
-private:
-    [[nodiscard]] double until(double time) const
-    {
-        const auto next = std::upper_bound(curve.begin(), curve.end(), time,
-                                           [](double t, const Breakpoint& point) { return t < point.time; });
-        if (next == curve.begin())
-            return curve.empty() ? 0.0 : curve.front().value * time;
-        const auto i = static_cast<std::size_t>(next - curve.begin()) - 1;
-        return sums[i] + 0.5 * (curve[i].value + valueAt(curve, time)) * (time - curve[i].time);
-    }
-
-    const Curve& curve;
-    std::vector<double> sums;
-};
-
-/// Where the steps of a waveform meet, in ms.
-std::set<std::int64_t> stepTimes(const SingleVoice& voice, std::int64_t end, std::int64_t step, bool keepsPoints)
-{
-    std::set<std::int64_t> times{0, end};
-    if (keepsPoints)
-        for (std::size_t i = 0; i < voice.amplitude.size(); ++i)
-        {
-            const Breakpoint& point = voice.amplitude[i];
-            times.insert(std::clamp<std::int64_t>(tickOf(point.time), 0, end));
-            if (i > 0 && voice.amplitude[i - 1].value != point.value)
-                for (std::int64_t t = tickOf(voice.amplitude[i - 1].time) + step;
-                     t + shortestStep <= tickOf(point.time); t += step)
-                    times.insert(t);
-        }
-    else
-        for (std::int64_t t = step; t + shortestStep <= end; t += step)
-            times.insert(t);
-    for (std::size_t i = 0; i < voice.events.size(); ++i)
-    {
-        const std::int64_t from = std::min(tickOf(voice.events[i].time), end);
-        const auto length = std::max<std::int64_t>(1, tickOf(burstLength(voice.events, i, burst)));
-        const std::int64_t to = std::min(from + length, end);
-        times.erase(times.upper_bound(std::max<std::int64_t>(from - shortestStep, 0)),
-                    times.lower_bound(std::min(to + shortestStep, end)));
-        times.insert(from);
-        times.insert(to);
-    }
-    return times;
-}
-
-std::vector<AndroidStep> waveformOf(const SingleVoice& voice, std::int64_t end, std::int64_t step, bool keepsPoints)
-{
-    const CurveIntegral amplitude(voice.amplitude);
-    const auto times = stepTimes(voice, end, step, keepsPoints);
-    std::vector<AndroidStep> steps;
-    std::size_t event = 0;
-    for (auto from = times.begin(), to = std::next(from); to != times.end(); ++from, ++to)
-    {
-        double level = amplitude.mean(timeOf(*from), timeOf(*to));
-        while (event < voice.events.size() && tickOf(voice.events[event].time) < *from)
-            ++event;
-        for (std::size_t i = event; i < voice.events.size() && tickOf(voice.events[i].time) == *from; ++i)
-            level = std::hypot(level, voice.events[i].amplitude);
-        steps.push_back({*to - *from, static_cast<int>(std::lround(255.0 * std::clamp(level, 0.0, 1.0)))});
-    }
-    // Silence too short to be felt as such only makes the motor stop.
-    for (std::size_t i = 1; i + 1 < steps.size(); ++i)
-    {
-        std::size_t after = i;
-        std::int64_t silence = 0;
-        for (; after < steps.size() && steps[after].amplitude == 0; ++after)
-            silence += steps[after].duration;
-        if (silence > 0 && silence < motorStop && after < steps.size())
-            for (; i < after; ++i)
-                steps[i].amplitude = 1;
-        i = std::max(i, after);
-    }
-    std::vector<AndroidStep> merged;
-    for (const AndroidStep& next : steps)
-    {
-        if (!merged.empty() && merged.back().amplitude == next.amplitude)
-            merged.back().duration += next.duration;
-        else
-            merged.push_back(next);
-    }
-    return merged;
-}
 
 /// The amplitude with events as peaks: up within 10 ms around the event's time and down again. Peaks that meet share
 /// their valley.
@@ -178,14 +61,14 @@ std::map<std::int64_t, Target> targetsOf(const Curve& amplitude, const Curve& fr
     std::int64_t last = -1;
     for (const Breakpoint& point : amplitude)
     {
-        const std::int64_t tick = std::max(tickOf(point.time), last + 1);
+        const std::int64_t tick = std::max(androidTick(point.time), last + 1);
         targets[tick] = {point.value, valueAt(frequency, point.time)};
         last = tick;
     }
-    const std::int64_t room = keepsPoints ? 1 : tickOf(steepest);
+    const std::int64_t room = keepsPoints ? 1 : androidTick(steepest);
     for (const Breakpoint& point : frequency)
     {
-        const std::int64_t tick = tickOf(point.time);
+        const std::int64_t tick = androidTick(point.time);
         const auto next = targets.lower_bound(tick);
         if ((next == targets.end() || next->first >= tick + room) &&
             (next == targets.begin() || std::prev(next)->first + room <= tick))
@@ -224,31 +107,12 @@ AndroidEnvelope envelopeOf(const std::map<std::int64_t, Target>& targets, std::i
     return envelope;
 }
 
-void addStepLoss(LossList& losses, const SingleVoice& voice, const std::vector<AndroidStep>& steps)
-{
-    std::int64_t from = 0;
-    for (const AndroidStep& step : steps)
-    {
-        double worst = 0.0;
-        const double level = step.amplitude / 255.0;
-        for (const double place : {0.0, 0.5, 1.0})
-        {
-            const double time = timeOf(from) + place * timeOf(step.duration) - (place == 1.0 ? 1e-4 : 0.0);
-            worst = std::max(worst, std::abs(std::min(valueAt(voice.amplitude, time), 1.0) - level));
-        }
-        if (worst > leastAmplitude)
-            losses.add(LossKind::points, timeOf(from), timeOf(step.duration), worst,
-                       "waveform: amplitudes and events become steps");
-        from += step.duration;
-    }
-}
-
 double largestRounding(const SingleVoice& voice)
 {
     double worst = 0.0;
     const auto look = [&](double time)
     {
-        worst = std::max(worst, std::abs(timeOf(tickOf(time)) - time));
+        worst = std::max(worst, std::abs(androidTime(androidTick(time)) - time));
     };
     for (const Breakpoint& point : voice.amplitude)
         look(point.time);
@@ -262,16 +126,10 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
 {
     LossList losses;
     SingleVoice voice = oneVoice(clip, params.profile, androidMotorFrequency);
-    losses.addOneVoice(clip, voice, true);
-    losses.addAbove(voice.amplitude, 1.0);
-    for (Breakpoint& point : voice.amplitude)
-        point.value = std::min(point.value, 1.0);
-    for (Transient& event : voice.events)
-    {
-        if (event.amplitude > 1.0)
-            losses.add(LossKind::amplitude, event.time, 0.0, event.amplitude - 1.0, "events above 1 are cut");
-        event.amplitude = std::min(event.amplitude, 1.0);
-    }
+    losses.addOneVoice(clip, voice);
+    losses.addText(clip, true);
+    losses.limit(voice.amplitude, 1.0);
+    losses.limit(voice.events, 1.0);
     losses.addCrowding(voice.events, 2.0 * steepest);
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0,
@@ -280,11 +138,9 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
     AndroidExport result;
     const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
     const double rate = params.amplitudePoints.value_or(usualPoints);
-    const auto end = std::max<std::int64_t>(1, tickOf(voice.duration));
-    const auto step = std::max<std::int64_t>(
-        shortestStep, std::llround(ticksPerSecond / params.amplitudePoints.value_or(usualSteps)));
-    result.effects.waveform = waveformOf(voice, end, step, keepsPoints);
-    addStepLoss(losses, voice, result.effects.waveform);
+    const auto end = std::max<std::int64_t>(1, androidTick(voice.duration));
+    result.effects.waveform = androidWaveformOf(voice, params.amplitudePoints, keepsPoints);
+    addStepLosses(losses, voice, result.effects.waveform);
     if (const double moved = largestRounding(voice); moved > 1e-9)
         losses.add(LossKind::timeStep, 0.0, voice.duration, moved, "times are rounded to milliseconds");
     losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
@@ -294,7 +150,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         const Curve before = voice.amplitude;
         voice.amplitude = thinned(voice.amplitude, rate, voice.duration);
         voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(20.0), voice.duration);
-        losses.addThinned(before, voice.amplitude, voice.duration);
+        losses.addThinned(before, voice.amplitude);
     }
     const Curve amplitude = withPeaks(voice);
     const auto targets = targetsOf(amplitude, voice.frequency, keepsPoints);
@@ -325,8 +181,8 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
     std::int64_t at = 0;
     for (const AndroidPoint& point : points)
     {
-        if (timeOf(point.duration) < steepest - 1e-9)
-            losses.add(LossKind::crowding, timeOf(at), timeOf(point.duration), 0.0,
+        if (androidTime(point.duration) < steepest - 1e-9)
+            losses.add(LossKind::crowding, androidTime(at), androidTime(point.duration), 0.0,
                        "envelopes: segments of less than 20 ms, which some devices do not play");
         at += point.duration;
     }
@@ -341,11 +197,11 @@ Clip clipOfWaveform(const std::vector<AndroidStep>& steps)
     for (const AndroidStep& step : steps)
     {
         const double level = step.amplitude / 255.0;
-        voice.amplitude.push_back({timeOf(at), level});
+        voice.amplitude.push_back({androidTime(at), level});
         at += step.duration;
-        voice.amplitude.push_back({timeOf(at), level});
+        voice.amplitude.push_back({androidTime(at), level});
     }
-    voice.duration = timeOf(at);
+    voice.duration = androidTime(at);
     voice.frequency = {{0.0, androidMotorFrequency}};
     return clipOfVoice(std::move(voice));
 }
@@ -363,10 +219,10 @@ Clip clipOfEnvelope(const AndroidEnvelope& envelope, bool isBasic)
     for (const AndroidPoint& point : envelope.points)
     {
         at += point.duration;
-        voice.amplitude.push_back({timeOf(at), point.amplitude});
-        voice.frequency.push_back({timeOf(at), hertz(point.frequency)});
+        voice.amplitude.push_back({androidTime(at), point.amplitude});
+        voice.frequency.push_back({androidTime(at), hertz(point.frequency)});
     }
-    voice.duration = timeOf(at);
+    voice.duration = androidTime(at);
     return clipOfVoice(std::move(voice));
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/formats/ForeignFormat.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +46,17 @@ struct AndroidEffects
 
 /// Frequency of the sinusoid that stands for an amplitude without frequency, Hz: that of a phone's resonant actuator.
 inline constexpr double androidMotorFrequency = 150.0;
+
+/// `time` in s as whole ms, and back.
+[[nodiscard]] inline std::int64_t androidTick(double time)
+{
+    return std::llround(time * 1000.0);
+}
+
+[[nodiscard]] inline double androidTime(std::int64_t tick)
+{
+    return static_cast<double>(tick) / 1000.0;
+}
 
 struct AndroidExport
 {

@@ -20,19 +20,4 @@ struct DriveSamples
 /// to 48000 Hz), those of driveSignal().
 [[nodiscard]] Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, int usualRate);
 
-/// `list` of numbers, `write(x)` each, in lines of `perLine` after four spaces.
-template <typename List, typename Write>
-[[nodiscard]] std::string numbersInLines(const List& list, std::size_t perLine, Write write)
-{
-    std::string text;
-    std::size_t i = 0;
-    for (const auto& value : list)
-    {
-        text += i == 0 ? "\n    " : i % perLine == 0 ? ",\n    " : ", ";
-        text += write(value);
-        ++i;
-    }
-    return text;
-}
-
 } // namespace pacini

@@ -20,7 +20,7 @@ enum class LossKind
 {
     bands,     ///< bands became fewer
     points,    ///< breakpoints were left out
-    length,    ///< the clip is longer than the format plays
+    length,    ///< the clip is longer or shorter than the format plays
     frequency, ///< a frequency lies outside of what the format can say
     timeStep,  ///< times were moved to the format's grid
     amplitude, ///< an amplitude lies outside of what the format can say
@@ -38,7 +38,7 @@ struct FormatLoss
     double time = 0.0;     ///< s from the start of the clip
     double duration = 0.0; ///< s; 0 for a moment or the whole clip
     double error = 0.0;    ///< largest error of the amplitude there (1 = full drive), of the frequency in octaves for
-                           ///< `frequency`, of the time in s for `timeStep`
+                           ///< `frequency`, of the time in s for `timeStep` and `length`
     std::string message;   ///< what happens, for people
     bool operator==(const FormatLoss&) const = default;
 };

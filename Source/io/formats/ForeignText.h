@@ -38,4 +38,23 @@ inline constexpr std::size_t largestForeignText = std::size_t(64) << 20;
 /// `wanted` when it says something, else the clip's own name, else that of its sound, else `clip`.
 [[nodiscard]] std::string nameOfClip(const Clip& clip, std::string_view wanted);
 
+/// `list` of numbers, `write(x)` each, in lines of `perLine` after `indent`.
+template <typename List, typename Write>
+[[nodiscard]] std::string numbersInLines(const List& list, std::size_t perLine, Write write,
+                                         std::string_view indent = "    ")
+{
+    std::string text;
+    std::size_t i = 0;
+    for (const auto& value : list)
+    {
+        if (i > 0)
+            text += i % perLine == 0 ? "," : ", ";
+        if (i % perLine == 0)
+            text.append("\n").append(indent);
+        text += write(value);
+        ++i;
+    }
+    return text;
+}
+
 } // namespace pacini

@@ -57,11 +57,4 @@ private:
     bool well = true; ///< since the last loss
 };
 
-/// By time; losses at one time keep their order.
-inline void sortLosses(std::vector<FormatLoss>& losses)
-{
-    std::stable_sort(losses.begin(), losses.end(),
-                     [](const FormatLoss& a, const FormatLoss& b) { return a.time < b.time; });
-}
-
 } // namespace pacini

@@ -20,4 +20,10 @@ namespace pacini
 
 [[nodiscard]] const ForeignFormat& hapsFormat();
 
+/// What Interhaptics' own files state as the length of a transient, s.
+inline constexpr double hapsTransientLength = 0.022;
+
+/// Frequency of notes that say none, Hz.
+inline constexpr double hapsMotorFrequency = 150.0;
+
 } // namespace pacini

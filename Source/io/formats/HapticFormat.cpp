@@ -1,11 +1,11 @@
 #include "io/formats/HapticFormat.h"
 
+#include "io/formats/ForeignText.h"
 #include "io/formats/FormatLosses.h"
 #include "io/formats/VoiceExport.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<Point> rounded(const Curve& curve)
 
 /// Puts each event on a point of its time. Events at a step go to its first side that is not above them; where there
 /// are more events than points, points are doubled.
-void attach(std::vector<Point>& points, const std::vector<Transient>& events, std::vector<FormatLoss>& losses)
+void attach(std::vector<Point>& points, const std::vector<Transient>& events, LossList& losses)
 {
     LossTrack raised(LossKind::event, "events below the amplitude around them are raised to it");
     std::vector<Point> result;
@@ -82,13 +82,7 @@ void attach(std::vector<Point>& points, const std::vector<Transient>& events, st
         result.insert(result.end(), here.begin(), here.end());
     }
     points = std::move(result);
-    raised.appendTo(losses);
-}
-
-std::string jsonText(std::string_view text)
-{
-    using nlohmann::json;
-    return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+    losses.append(raised);
 }
 
 std::string textOf(const ExportVoice& voice, const std::string& source, const std::vector<Point>& amplitude,
@@ -100,7 +94,7 @@ std::string textOf(const ExportVoice& voice, const std::string& source, const st
                                    "\"project\": {}, \"tags\": [], \"description\": \"\"}},\n"
                                    "  \"signals\": {{\"continuous\": {{\"envelopes\": {{\n"
                                    "    \"amplitude\": [\n",
-                                   jsonText(source), jsonText(voice.name));
+                                   inQuotes(source), inQuotes(voice.name));
     auto out = std::back_inserter(text);
     for (const Point& point : amplitude)
     {
@@ -121,7 +115,7 @@ std::string textOf(const ExportVoice& voice, const std::string& source, const st
 }
 
 /// Where floats are coarse.
-void addTimeLoss(const ExportVoice& voice, std::vector<FormatLoss>& losses)
+void addTimeLoss(const ExportVoice& voice, LossList& losses)
 {
     constexpr double visible = 1e-4; // s
     LossTrack track(LossKind::timeStep, "times are 32-bit floats, which are coarse here");
@@ -130,17 +124,7 @@ void addTimeLoss(const ExportVoice& voice, std::vector<FormatLoss>& losses)
         const double error = std::abs(static_cast<double>(static_cast<float>(point.time)) - point.time);
         track.add(point.time, error > visible ? error : 0.0);
     }
-    track.appendTo(losses);
-}
-
-/// Players show an emphasis for 36 ms (dull) to 12 ms (crisp).
-void addCrowding(const std::vector<Transient>& events, std::vector<FormatLoss>& losses)
-{
-    constexpr double crisp = 0.0121; // s
-    LossTrack track(LossKind::crowding, "events less than 12 ms apart run into each other");
-    for (std::size_t i = 1; i < events.size(); ++i)
-        track.add(events[i].time, events[i].time - events[i - 1].time < crisp ? events[i].amplitude : 0.0);
-    track.appendTo(losses);
+    losses.append(track);
 }
 
 bool isHaptic(std::string_view bytes)
@@ -156,13 +140,13 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
         return valid.error();
     ExportVoice voice = exportVoice(clip, params, {.range = questRange, .events = questEmphasis});
     addTimeLoss(voice, voice.losses);
-    addCrowding(voice.events, voice.losses);
+    constexpr double crisp = 0.0121; // s: players show an emphasis for 36 ms (dull) to 12 ms (crisp)
+    voice.losses.addCrowding(voice.events, crisp);
     std::vector<Point> amplitude = rounded(voice.level);
     attach(amplitude, voice.events, voice.losses);
-    sortLosses(voice.losses);
     ExportedClip result;
     result.files.push_back({"", textOf(voice, clip.source.file, amplitude, rounded(voice.frequency))});
-    result.losses = std::move(voice.losses);
+    result.losses = std::move(voice.losses).sorted();
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "io/formats/HjifFormat.h"
 #include "io/formats/LossList.h"
 #include "io/formats/PlayedClip.h"
+#include "io/formats/WithinShare.h"
 
 #include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -58,47 +58,6 @@ double putOnTicks(const Curve& curve, Put put)
         last = tick;
     }
     return moved;
-}
-
-/// As few points as a walk along the curve finds that keep every point within `share` of its value, or within
-/// `floor`: a limit that follows the level keeps the rise of an event out of silence. The cone of slopes from the last
-/// kept point to all points since is that of J. O'Rourke, "An on-line algorithm for fitting straight lines between data
-/// ranges" (1981), with the line starting at a point.
-Curve withinShare(const Curve& curve, double share, double floor)
-{
-    if (curve.size() < 3)
-        return curve;
-    constexpr double any = std::numeric_limits<double>::infinity();
-    Curve kept{curve.front()};
-    // The last kept point is asked for anew each time: keeping one moves it.
-    const auto slopeTo = [&kept](double value, const Breakpoint& point)
-    {
-        const Breakpoint& from = kept.back();
-        return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
-    };
-    double least = -any, most = any;
-    for (std::size_t i = 1; i < curve.size(); ++i)
-    {
-        const double slope = slopeTo(curve[i].value, curve[i]);
-        if (curve[i].time <= kept.back().time || slope < least || slope > most)
-        {
-            if (!(kept.back() == curve[i - 1]))
-                kept.push_back(curve[i - 1]);
-            least = -any;
-            most = any;
-            if (curve[i].time <= kept.back().time)
-            {
-                kept.push_back(curve[i]);
-                continue;
-            }
-        }
-        const double tolerance = std::max(floor, share * curve[i].value);
-        least = std::max(least, slopeTo(curve[i].value - tolerance, curve[i]));
-        most = std::min(most, slopeTo(curve[i].value + tolerance, curve[i]));
-    }
-    if (!(kept.back() == curve.back()))
-        kept.push_back(curve.back());
-    return kept;
 }
 
 double highestAmplitude(const Clip& clip)
@@ -210,7 +169,7 @@ private:
         const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
                                 : baked                ? withinShare(band.amplitude, 0.03, 5e-4 * loudest)
                                                        : band.amplitude;
-        losses.addThinned(band.amplitude, amplitude, clip.duration);
+        losses.addThinned(band.amplitude, amplitude);
         Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
         if (pitch.empty())
             pitch = {{0.0, std::max(band.centreFrequency, 1.0)}};

@@ -3,6 +3,8 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/FormatLosses.h"
 
+#include <pacini/simplify/HatBasis.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +14,22 @@
 namespace pacini
 {
 
+namespace
+{
+double largestValue(const Curve& curve)
+{
+    double largest = 0.0;
+    for (const Breakpoint& point : curve)
+        largest = std::max(largest, point.value);
+    return largest;
+}
+
+std::string cutMessage(double most)
+{
+    return fmt::format("amplitudes above {} are cut", decimal(most, 3));
+}
+} // namespace
+
 void LossList::add(LossKind kind, double time, double duration, double error, std::string message)
 {
     losses.push_back({kind, time, duration, error, std::move(message)});
@@ -20,21 +38,21 @@ void LossList::add(LossKind kind, double time, double duration, double error, st
 void LossList::addNoise(const Clip& clip)
 {
     for (const NoiseBand& band : clip.noise)
-    {
-        double peak = 0.0;
-        for (const Breakpoint& point : band.amplitude)
-            peak = std::max(peak, point.value);
-        if (peak > 0.0)
+        if (const double peak = largestValue(band.amplitude); peak > 0.0)
             add(LossKind::noise, 0.0, clip.duration, peak,
                 fmt::format("noise from {} to {} Hz is left out", decimal(band.lowFrequency, 0),
                             decimal(band.highFrequency, 0)));
-    }
+}
+
+void LossList::addMarkers(const Clip& clip)
+{
+    for (const Marker& marker : clip.markers)
+        add(LossKind::text, marker.time, 0.0, 0.0, "markers are left out");
 }
 
 void LossList::addText(const Clip& clip, bool keepsName)
 {
-    for (const Marker& marker : clip.markers)
-        add(LossKind::text, marker.time, 0.0, 0.0, "markers are left out");
+    addMarkers(clip);
     const bool losesName = !keepsName && !clip.name.empty();
     if (losesName || !clip.source.file.empty() || !clip.encoder.empty())
         add(LossKind::text, 0.0, 0.0, 0.0,
@@ -42,71 +60,106 @@ void LossList::addText(const Clip& clip, bool keepsName)
                       : "the source and the encoder's parameters are left out");
 }
 
-void LossList::addVoice(const Clip& clip, const SingleVoice& voice, bool keepsName)
+void LossList::addNoiseInVoice(const Clip& clip)
 {
     double noise = 0.0;
     for (const NoiseBand& band : clip.noise)
-        for (const Breakpoint& point : band.amplitude)
-            noise = std::max(noise, point.value);
-    if (noise > 0.0)
+        noise = std::max(noise, largestValue(band.amplitude));
+    if (noise > leastAmplitude)
         add(LossKind::noise, 0.0, clip.duration, noise, "residual noise becomes part of the voice");
-    addText(clip, keepsName);
-    const auto silent = [](const Breakpoint& point)
-    {
-        return point.value <= 0.0;
-    };
-    if (voice.events.empty() && std::all_of(voice.amplitude.begin(), voice.amplitude.end(), silent))
-        add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
 }
 
-void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice, bool keepsName)
+void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice)
 {
-    LossTrack bands(LossKind::bands, fmt::format("{} bands share one voice", clip.bands.size()));
+    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; what is more than a third of an octave "
+                                                 "from it is played there",
+                                                 clip.bands.size()));
     for (const Breakpoint& point : voice.displaced)
         bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
-    bands.appendTo(losses);
-    addVoice(clip, voice, keepsName);
+    append(bands);
+    addNoiseInVoice(clip);
+    addEmptyParts(voice);
 }
 
-void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool keepsName)
+void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice)
 {
     if (!clip.bands.empty())
         add(LossKind::bands, 0.0, clip.duration, 0.0,
             fmt::format("{} become a strength without frequency",
                         clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
-    for (std::size_t i = 0; i < voice.events.size(); ++i)
-        add(LossKind::event, voice.events[i].time, 0.0, 0.0, "events become bursts without sharpness");
-    addVoice(clip, voice, keepsName);
+    for (const Transient& event : voice.events)
+        add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
+    addNoiseInVoice(clip);
+    addEmptyParts(voice);
 }
 
-void LossList::addThinned(const Curve& before, const Curve& after, double duration)
+void LossList::addThinned(const Curve& before, const Curve& after)
 {
-    double worst = 0.0;
-    CurveReader reader(after);
-    for (const Breakpoint& point : before)
-        worst = std::max(worst, std::abs(reader.at(point.time) - point.value));
-    if (worst > leastAmplitude)
-        add(LossKind::points, 0.0, duration, worst, "amplitudes have fewer points than are played");
+    LossTrack track(LossKind::points, "amplitudes have fewer points here than are played");
+    forEachPlace(before, after,
+                 [&](std::size_t i, const HatPlace& place)
+                 {
+                     const double error = std::abs(place.of(after) - before[i].value);
+                     track.add(before[i].time, error > leastAmplitude ? error : 0.0);
+                 });
+    append(track);
 }
 
-void LossList::addAbove(const Curve& curve, double most)
+void LossList::limit(Curve& curve, double most)
 {
-    for (std::size_t i = 0; i < curve.size(); ++i)
+    LossTrack track(LossKind::amplitude, cutMessage(most));
+    for (Breakpoint& point : curve)
     {
-        if (curve[i].value <= most)
-            continue;
-        const double end = i + 1 < curve.size() ? curve[i + 1].time : curve[i].time;
-        add(LossKind::amplitude, curve[i].time, end - curve[i].time, curve[i].value - most,
-            fmt::format("amplitudes above {} are cut", decimal(most, 3)));
+        track.add(point.time, point.value - most);
+        point.value = std::min(point.value, most);
     }
+    append(track);
+}
+
+void LossList::limit(std::vector<Transient>& events, double most)
+{
+    LossTrack track(LossKind::amplitude, cutMessage(most));
+    for (Transient& event : events)
+    {
+        track.add(event.time, event.amplitude - most);
+        event.amplitude = std::min(event.amplitude, most);
+    }
+    append(track);
 }
 
 void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
+    LossTrack track(LossKind::crowding,
+                    fmt::format("events less than {} ms apart run into each other", decimal(1000.0 * gap, 1)));
     for (std::size_t i = 1; i < events.size(); ++i)
-        if (events[i].time - events[i - 1].time < gap)
-            add(LossKind::crowding, events[i - 1].time, events[i].time - events[i - 1].time, events[i].amplitude,
-                fmt::format("events less than {} ms apart run into each other", decimal(1000.0 * gap, 1)));
+        track.add(events[i].time, events[i].time - events[i - 1].time < gap ? events[i].amplitude : 0.0);
+    append(track);
+}
+
+void LossList::addEmptyParts(const SingleVoice& voice)
+{
+    constexpr double shortest = 0.25; // s: less is the end of a decay
+    const Curve& curve = voice.amplitude;
+    double strongest = 0.0;
+    for (const Transient& event : voice.events)
+        strongest = std::max(strongest, event.amplitude);
+    if (std::max(strongest, largestValue(curve)) < leastAmplitude)
+        return add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
+                   "nothing here is strong enough to be felt");
+    std::size_t event = 0, end = 0;
+    for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
+    {
+        double peak = 0.0;
+        for (end = begin; end < curve.size() && curve[end].value < leastAmplitude; ++end)
+            peak = std::max(peak, curve[end].value);
+        const double from = curve[begin].time;
+        const double to = end == curve.size() ? voice.duration : end > begin ? curve[end - 1].time : from;
+        while (event < voice.events.size() && voice.events[event].time < from)
+            ++event;
+        const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
+        if (peak > 0.0 && to - from >= shortest && !hasEvent)
+            add(LossKind::empty, from, to - from, peak, "nothing here is strong enough to be felt");
+    }
 }
 
 std::vector<FormatLoss> LossList::sorted() &&

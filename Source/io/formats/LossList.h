@@ -26,29 +26,37 @@ public:
     /// Residual noise, which is left out.
     void addNoise(const Clip& clip);
 
-    /// Words that have no place; `keepsName`: the clip's name has one.
+    void addMarkers(const Clip& clip);
+
+    /// Words that have no place, markers too; `keepsName`: the clip's name has one.
     void addText(const Clip& clip, bool keepsName);
 
-    /// What a clip loses on one voice: frequencies of others than the strongest band, noise, words.
-    void addOneVoice(const Clip& clip, const SingleVoice& voice, bool keepsName);
+    /// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are
+    /// too weak to be there.
+    void addOneVoice(const Clip& clip, const SingleVoice& voice);
 
-    /// What a clip loses as a strength without frequency and sharpness.
-    void addStrengthOnly(const Clip& clip, const SingleVoice& voice, bool keepsName);
+    /// What a clip loses as a strength without frequency and sharpness, words not.
+    void addStrengthOnly(const Clip& clip, const SingleVoice& voice);
 
-    /// That a curve was left with fewer points, if it shows.
-    void addThinned(const Curve& before, const Curve& after, double duration);
+    /// Where a curve (not empty) was left with too few points to show.
+    void addThinned(const Curve& before, const Curve& after);
 
-    /// Amplitudes of `curve` above `most`, where they are cut.
-    void addAbove(const Curve& curve, double most);
+    /// Cuts amplitudes at `most` and says where.
+    void limit(Curve& curve, double most);
+    void limit(std::vector<Transient>& events, double most);
 
     /// Events that follow one another faster than `gap` s.
     void addCrowding(const std::vector<Transient>& events, double gap);
+
+    /// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are
+    /// silent.
+    void addEmptyParts(const SingleVoice& voice);
 
     /// All of them by time; those of one kind and message that touch are one.
     [[nodiscard]] std::vector<FormatLoss> sorted() &&;
 
 private:
-    void addVoice(const Clip& clip, const SingleVoice& voice, bool keepsName);
+    void addNoiseInVoice(const Clip& clip);
 
     std::vector<FormatLoss> losses;
 };

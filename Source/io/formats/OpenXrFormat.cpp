@@ -45,7 +45,7 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     if (!drive)
         return drive.error();
     OpenXrClip result{nameOfClip(clip, params.name), std::move(drive).value(), {}, 0};
-    const SingleVoice voice = oneVoice(clip, params.profile);
+    SingleVoice voice = oneVoice(clip, params.profile);
     const double rate = params.amplitudePoints.value_or(100.0);
     const double wanted = std::ceil(clip.duration * rate);
     const double count = std::clamp(wanted, 1.0, static_cast<double>(mostSamples));
@@ -59,7 +59,8 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "amplitude envelope: events become bursts");
     losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * step, "amplitude envelope: times are those of its steps");
-    losses.addAbove(voice.amplitude, 1.0);
+    losses.limit(voice.amplitude, 1.0);
+    losses.limit(voice.events, 1.0);
     result.duration = std::llround(1e9 * step * count);
     constexpr double burst = 0.020;
     result.amplitudes = strengthOf(voice, step, burst);

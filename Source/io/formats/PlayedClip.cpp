@@ -208,7 +208,8 @@ std::vector<double> strengthOf(const SingleVoice& voice, double step, double bur
     {
         const Transient& event = voice.events[i];
         const double length = burstLength(voice.events, i, burst);
-        const auto first = static_cast<std::size_t>(event.time / step);
+        // The nearest step: the one that it falls into may begin almost a step too early.
+        const auto first = static_cast<std::size_t>(std::lround(event.time / step));
         const auto last = std::max(first + 1, static_cast<std::size_t>(std::lround((event.time + length) / step)));
         for (std::size_t n = first; n < std::min(last, strength.size()); ++n)
             strength[n] = std::hypot(strength[n], event.amplitude);

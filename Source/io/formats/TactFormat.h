@@ -4,6 +4,8 @@
 
 #include "io/formats/ForeignFormat.h"
 
+#include <cstdint>
+
 namespace pacini
 {
 
@@ -17,5 +19,11 @@ namespace pacini
 [[nodiscard]] Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params);
 
 [[nodiscard]] const ForeignFormat& tactFormat();
+
+/// Effects are made of frames of this length, ms.
+inline constexpr std::int64_t tactFrame = 20;
+
+/// Frequency of the sinusoid that stands for a motor's strength, Hz.
+inline constexpr double tactMotorFrequency = 150.0;
 
 } // namespace pacini

@@ -54,25 +54,8 @@ void compare(const Curve& dense, const Curve& curve, Visit visit)
                  [&](std::size_t m, const HatPlace& place) { visit(dense[m].time, dense[m].value, place.of(curve)); });
 }
 
-/// Amplitudes above 1 become 1.
-void limitAmplitudes(SingleVoice& voice, std::vector<FormatLoss>& losses)
-{
-    LossTrack track(LossKind::amplitude, "amplitudes above full drive become full drive");
-    const auto limit = [&](double time, double& value)
-    {
-        track.add(time, value - 1.0);
-        value = std::min(value, 1.0);
-    };
-    for (Breakpoint& point : voice.amplitude)
-        limit(point.time, point.value);
-    track.appendTo(losses);
-    for (Transient& event : voice.events)
-        limit(event.time, event.amplitude);
-    track.appendTo(losses);
-}
-
 /// Frequencies in Hz become 0 to 1.
-Curve normalised(const SingleVoice& voice, const NormalisedRange& range, std::vector<FormatLoss>& losses)
+Curve normalised(const SingleVoice& voice, const NormalisedRange& range, LossList& losses)
 {
     LossTrack track(LossKind::frequency,
                     fmt::format("frequencies outside of {:.0f} to {:.0f} Hz move to its ends", range.low, range.high));
@@ -86,33 +69,8 @@ Curve normalised(const SingleVoice& voice, const NormalisedRange& range, std::ve
             track.add(point.time, octaves);
         point.value = range.normalisedOf(to);
     }
-    track.appendTo(losses);
+    losses.append(track);
     return curve;
-}
-
-void addVoiceLosses(const Clip& clip, const SingleVoice& voice, std::vector<FormatLoss>& losses)
-{
-    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; what is more than a third of an octave "
-                                                 "from it is played there",
-                                                 clip.bands.size()));
-    for (const Breakpoint& point : voice.displaced)
-        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
-    bands.appendTo(losses);
-    double noise = 0.0;
-    for (const NoiseBand& band : clip.noise)
-        for (const Breakpoint& point : band.amplitude)
-            noise = std::max(noise, point.value);
-    if (noise > leastAmplitude)
-        losses.push_back({LossKind::noise, 0.0, 0.0, noise, "residual noise becomes part of the voice"});
-    if (!clip.markers.empty())
-        losses.push_back({LossKind::text, clip.markers.front().time, 0.0, 0.0,
-                          fmt::format("{} named markers have no place", clip.markers.size())});
-    const auto silent = [](const Breakpoint& point)
-    {
-        return point.value < leastAmplitude;
-    };
-    if (voice.events.empty() && std::all_of(voice.amplitude.begin(), voice.amplitude.end(), silent))
-        losses.push_back({LossKind::empty, 0.0, clip.duration, 0.0, "nothing here is strong enough to be felt"});
 }
 
 /// Each point's share of the time, so that many near points count no more than one.
@@ -126,6 +84,17 @@ std::vector<double> timeShares(const Curve& curve)
         shares[i] += half;
     }
     return shares;
+}
+
+/// Leaves out events that the voice reaches by itself. Players make room for an emphasis by ducking the voice, or play
+/// it on top: either hides the onset that is there already, which cost up to 9 points of HTS in single sounds.
+void dropReached(std::vector<Transient>& events, LossList& losses)
+{
+    for (const Transient& event : events)
+        if (event.amplitude <= 0.0)
+            losses.add(LossKind::event, event.time, 0.0, 0.0,
+                       "events that the amplitude reaches by itself are left out");
+    std::erase_if(events, [](const Transient& event) { return event.amplitude <= 0.0; });
 }
 
 std::size_t pointCount(double perSecond, double duration)
@@ -168,10 +137,12 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     ExportVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);
-    limitAmplitudes(voice, result.losses);
-    addVoiceLosses(clip, voice, result.losses);
+    result.losses.addOneVoice(clip, voice);
+    result.losses.addMarkers(clip);
+    result.losses.limit(voice.amplitude, 1.0);
+    result.losses.limit(voice.events, 1.0);
     if (clip.duration < shortest)
-        result.losses.push_back({LossKind::length, 0.0, clip.duration, 0.0, "becomes 10 ms long"});
+        result.losses.add(LossKind::length, 0.0, clip.duration, shortest - clip.duration, "becomes 10 ms long");
 
     const auto whole = [&](Curve curve, double otherwise)
     {
@@ -183,6 +154,8 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     const Curve level = format.scale == LevelScale::root ? rootOf(voice.amplitude) : voice.amplitude;
     const Curve frequency = whole(normalised(voice, range, result.losses), 0.5);
     const bool keepsPoints = isSingleVoice(clip);
+    if (!keepsPoints)
+        dropReached(voice.events, result.losses);
     result.events = std::move(voice.events);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
@@ -190,7 +163,7 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
         event.time = std::clamp(event.time, 0.0, result.duration);
         if (!keepsPoints)
         {
-            // An event that the voice reaches by itself still is one: players must not show it weaker than the voice.
+            // Players must not show an event weaker than the voice around it.
             event.amplitude = std::max(event.amplitude, valueAt(voice.amplitude, event.time));
             event.sharpness = format.events.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
         }
@@ -214,7 +187,7 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
                                                                           : std::abs(kept - exact);
                     track.add(time, error > leastAmplitude ? error : 0.0);
                 });
-        track.appendTo(result.losses);
+        result.losses.append(track);
     }
     if (keepsPoints && !params.frequencyPoints)
         result.frequency = frequency;
@@ -240,7 +213,7 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
                         std::abs(std::log2(std::max(range.hertzOf(kept), 1.0) / std::max(range.hertzOf(exact), 1.0)));
                     track.add(time, error > semitone && loudness.at(time) > leastAmplitude ? error : 0.0);
                 });
-        track.appendTo(result.losses);
+        result.losses.append(track);
     }
     return result;
 }

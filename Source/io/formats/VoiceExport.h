@@ -3,6 +3,7 @@
 // A clip as the formats with one voice write it: levels and frequencies of 0 to 1, and events.
 
 #include "io/formats/ForeignFormat.h"
+#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 
 #include <pacini/clip/Clip.h>
@@ -38,7 +39,7 @@ struct ExportVoice
     Curve level;           ///< has a point at the time of each event
     Curve frequency;
     std::vector<Transient> events; ///< amplitude is a level
-    std::vector<FormatLoss> losses;
+    LossList losses;
 };
 
 /// The one voice of a valid clip (see singleVoiceOf), fitted to the range of the format (see adaptClip for what a
@@ -46,8 +47,8 @@ struct ExportVoice
 /// keep each level within half a step of 8 bits, at most params.amplitudePoints per second, or else the format's, and
 /// likewise for frequencies, where the loud parts count most. A clip that is one voice already keeps its points unless
 /// the params ask for a density, and its events their sharpness. Those of other clips mean 100 Hz (dull) to 280 Hz
-/// (crisp, see makePulse) and get the sharpness that is played at their frequency. A clip without any duration gets 10
-/// ms.
+/// (crisp, see makePulse) and get the sharpness that is played at their frequency; those that the voice reaches by
+/// itself are left out. A clip without any duration gets 10 ms.
 [[nodiscard]] ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format);
 
 /// Adds points to a curve so that its square root, or square, taken point by point, is within 1/255 of that of the

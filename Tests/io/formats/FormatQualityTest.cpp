@@ -1,14 +1,18 @@
 // What is exported sounds as Pacini itself does within the format's model.
 
+#include "io/formats/AhapFormat.h"
 #include "io/formats/AndroidFormat.h"
 #include "io/formats/DemoSounds.h"
 #include "io/formats/HapsFormat.h"
+#include "io/formats/HapticFormat.h"
 #include "io/formats/HjifFormat.h"
 #include "io/formats/PcmFormat.h"
 #include "io/formats/PlayedClip.h"
 #include "io/formats/TactFormat.h"
+#include "io/formats/players/AhapPlayer.h"
 #include "io/formats/players/AndroidPlayer.h"
 #include "io/formats/players/HapsPlayer.h"
+#include "io/formats/players/HapticPlayer.h"
 #include "io/formats/players/HjifPlayer.h"
 #include "io/formats/players/TactPlayer.h"
 
@@ -61,6 +65,69 @@ std::vector<float> reduced(const Clip& clip, const Model& model)
     return samples;
 }
 
+test::PlayerCurve pointsOf(const Curve& curve, const std::function<double(double)>& map)
+{
+    test::PlayerCurve points;
+    for (const Breakpoint& point : curve)
+        points.emplace_back(point.time, map(point.value));
+    return points;
+}
+
+/// What of `hertz` a player of `low` to `high` Hz is told.
+double placeOf(double hertz, double low, double high)
+{
+    return std::clamp((hertz - low) / (high - low), 0.0, 1.0);
+}
+
+/// The one voice of a clip with all of its points, on the player of .haptic files.
+std::vector<float> asHaptic(const Clip& clip)
+{
+    test::HapticPlayerSettings player;
+    player.sampleRate = fs;
+    const SingleVoice voice = oneVoice(clip);
+    test::HapticSignal signal;
+    signal.amplitude = pointsOf(voice.amplitude, [](double a) { return std::min(a, 1.0); });
+    signal.frequency = pointsOf(voice.frequency, [&](double hertz) { return placeOf(hertz, player.low, player.high); });
+    for (const Transient& event : voice.events)
+        // No emphasis may be weaker than the amplitude around it.
+        signal.emphases.push_back({event.time, std::max(event.amplitude, valueAt(voice.amplitude, event.time)),
+                                   placeOf(100.0 * std::pow(2.8, event.sharpness), player.dull, player.crisp)});
+    return test::playHaptic(signal, player);
+}
+
+/// The one voice of a clip with all of its points, on the player of AHAP files: curves and events do not meet.
+std::vector<float> asAhap(const Clip& clip)
+{
+    const SingleVoice voice = oneVoice(clip);
+    const auto sharpnessOf = [](double hertz)
+    {
+        return placeOf(hertz, 65.0, 300.0);
+    };
+    test::AhapPattern curves, events;
+    curves.events = {{0.0, clip.duration, 1.0, 0.0, false}};
+    curves.intensity = {pointsOf(voice.amplitude, [](double a) { return std::sqrt(std::min(a, 1.0)); })};
+    curves.sharpness = {pointsOf(voice.frequency, sharpnessOf)};
+    for (const Transient& event : voice.events)
+        events.events.push_back({event.time, 0.0, std::sqrt(std::min(event.amplitude, 1.0)),
+                                 sharpnessOf(100.0 * std::pow(2.8, event.sharpness)), true});
+    std::vector<float> samples(static_cast<std::size_t>(std::ceil(clip.duration * fs)));
+    test::playAhap(curves, fs, samples);
+    test::playAhap(events, fs, samples);
+    return samples;
+}
+
+std::vector<float> playedAhap(const Clip& clip, bool split)
+{
+    ExportParams params;
+    params.split = split;
+    const auto exported = writeAhap(clip, params);
+    REQUIRE(exported);
+    std::vector<float> samples(static_cast<std::size_t>(std::ceil(clip.duration * fs)));
+    for (const ExportedFile& file : exported->files)
+        test::playAhap(file.bytes, fs, samples);
+    return samples;
+}
+
 using Render = std::function<std::vector<float>(const Clip&)>;
 
 /// Compares over all demo sounds; `most` points of HTS may be lost on the mean, `mostOfOne` on each.
@@ -91,6 +158,29 @@ TEST_CASE("An HJIF file with all bands sounds as the clip does", "[formats]")
                [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 3.0, 3.0);
 }
 
+TEST_CASE("A .haptic file of the usual density sounds as the clip's one voice does", "[formats]")
+{
+    compareAll(
+        asHaptic,
+        [](const Clip& clip)
+        {
+            test::HapticPlayerSettings player;
+            player.sampleRate = fs;
+            return test::playHaptic(mainFile(writeHaptic(clip, {})), player);
+        },
+        2.0, 9.0); // a roll of 44 drum strokes is more than 40 points per second can say
+}
+
+TEST_CASE("AHAP files, one or two, sound as the clip's one voice does", "[formats]")
+{
+    for (const bool split : {false, true})
+    {
+        CAPTURE(split);
+        compareAll(
+            asAhap, [&](const Clip& clip) { return playedAhap(clip, split); }, 1.0, 6.0);
+    }
+}
+
 TEST_CASE("An Android waveform sounds as the clip's strength does on a motor", "[formats]")
 {
     compareAll(
@@ -98,7 +188,7 @@ TEST_CASE("An Android waveform sounds as the clip's strength does on a motor", "
             return reduced(clip, {150.0, PulseParams{PulseShape::sine, 150.0, 3.0}, 0.010});
         },
         [](const Clip& clip) { return test::playAndroidWaveform(mainFile(writeAndroidJson(clip, {})), 150.0, fs); },
-        3.0, 8.0);
+        1.0, 3.0);
 }
 
 TEST_CASE("An Android waveform envelope sounds as the clip's one voice does", "[formats]")
@@ -124,7 +214,7 @@ TEST_CASE("A .tact file sounds as the clip's strength does on a motor", "[format
         [](const Clip& clip) {
             return reduced(clip, {150.0, PulseParams{PulseShape::sine, 150.0, 3.0}, 0.020});
         },
-        [](const Clip& clip) { return test::playTact(mainFile(writeTact(clip, {})), 150.0, fs); }, 3.0, 9.0);
+        [](const Clip& clip) { return test::playTact(mainFile(writeTact(clip, {})), 150.0, fs); }, 1.0, 3.0);
 }
 
 TEST_CASE("Raw samples sound as the clip does at their rate", "[formats]")

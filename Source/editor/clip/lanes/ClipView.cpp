@@ -131,9 +131,8 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarsShown(true, false);
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform, &viewport, &actuator,
-                                                 &overview})
+    for (juce::Component* child : std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform,
+                                                                          &viewport, &actuator, &overview})
         addAndMakeVisible(child);
     addChildComponent(markers);
     addAndMakeVisible(*overlay);

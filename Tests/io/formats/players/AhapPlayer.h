@@ -70,9 +70,8 @@ inline double controlAt(const std::vector<PlayerCurve>& curves, double time, dou
 }
 
 /// Adds what one file plays to `samples`, which are at `fs` Hz.
-inline void playAhap(const std::string& text, double fs, std::vector<float>& samples)
+inline void playAhap(const AhapPattern& pattern, double fs, std::vector<float>& samples)
 {
-    const AhapPattern pattern = parseAhap(text);
     double phase = 0.0;
     for (const AhapEvent& event : pattern.events)
     {
@@ -97,6 +96,11 @@ inline void playAhap(const std::string& text, double fs, std::vector<float>& sam
             phase += hertz(event.transient ? event.time : time) / fs;
         }
     }
+}
+
+inline void playAhap(const std::string& text, double fs, std::vector<float>& samples)
+{
+    playAhap(parseAhap(text), fs, samples);
 }
 
 } // namespace pacini::test

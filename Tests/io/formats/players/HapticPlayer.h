@@ -55,27 +55,39 @@ inline double playerValue(const PlayerCurve& curve, double time, double otherwis
     }
 }
 
-inline std::vector<float> playHaptic(const std::string& text, const HapticPlayerSettings& settings = {})
+struct HapticEmphasis
 {
-    struct Emphasis
-    {
-        double time, amplitude, sharpness;
-    };
+    double time = 0.0, amplitude = 0.0, sharpness = 0.0;
+};
+
+/// A file as a player sees it.
+struct HapticSignal
+{
+    PlayerCurve amplitude, frequency; ///< 0 to 1
+    std::vector<HapticEmphasis> emphases;
+};
+
+inline HapticSignal parseHaptic(const std::string& text)
+{
     const auto file = nlohmann::json::parse(text);
     const auto& envelopes = file.at("signals").at("continuous").at("envelopes");
-    PlayerCurve amplitude, frequency;
-    std::vector<Emphasis> emphases;
+    HapticSignal signal;
     for (const auto& point : envelopes.at("amplitude"))
     {
-        amplitude.emplace_back(point.at("time").get<double>(), point.at("amplitude").get<double>());
+        signal.amplitude.emplace_back(point.at("time").get<double>(), point.at("amplitude").get<double>());
         if (point.contains("emphasis"))
-            emphases.push_back({amplitude.back().first, point["emphasis"].at("amplitude").get<double>(),
-                                point["emphasis"].at("frequency").get<double>()});
+            signal.emphases.push_back({signal.amplitude.back().first, point["emphasis"].at("amplitude").get<double>(),
+                                       point["emphasis"].at("frequency").get<double>()});
     }
     if (envelopes.contains("frequency"))
         for (const auto& point : envelopes["frequency"])
-            frequency.emplace_back(point.at("time").get<double>(), point.at("frequency").get<double>());
+            signal.frequency.emplace_back(point.at("time").get<double>(), point.at("frequency").get<double>());
+    return signal;
+}
 
+inline std::vector<float> playHaptic(const HapticSignal& signal, const HapticPlayerSettings& settings = {})
+{
+    const auto& [amplitude, frequency, emphases] = signal;
     const double fs = settings.sampleRate;
     std::vector<float> samples(static_cast<std::size_t>(std::ceil(amplitude.back().first * fs)));
     std::vector<double> pulses(samples.size(), 0.0);
@@ -109,6 +121,11 @@ inline std::vector<float> playHaptic(const std::string& text, const HapticPlayer
         phase -= std::floor(phase);
     }
     return samples;
+}
+
+inline std::vector<float> playHaptic(const std::string& text, const HapticPlayerSettings& settings = {})
+{
+    return playHaptic(parseHaptic(text), settings);
 }
 
 } // namespace pacini::test

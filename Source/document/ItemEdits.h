@@ -1,0 +1,25 @@
+#pragma once
+
+// What the parts of a Document do to clips and sounds of a project.
+
+#include "document/Project.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <vector>
+
+namespace pacini
+{
+
+[[nodiscard]] Error noSuchClip(int id);
+
+[[nodiscard]] EditList withEdits(EditList list, std::vector<Edit> edits);
+[[nodiscard]] std::vector<Edit> listOf(const EditList& edits);
+
+/// Gives an item the clip and the edits of another analysis; edits that are as they were stay shared.
+void putReapplied(ClipItem& item, Reapplied reapplied);
+
+/// The id of a sound in a project, where it is put if it is not there yet.
+[[nodiscard]] int placeSound(Project& project, AudioReference sound);
+
+} // namespace pacini

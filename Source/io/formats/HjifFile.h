@@ -1,0 +1,65 @@
+#pragma once
+
+// An HJIF file as it stands: what of it makes a signal.
+
+#include <pacini/foundation/Result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini
+{
+
+struct HjifKeyframe
+{
+    double position = 0.0; ///< ticks from the effect
+    std::optional<double> amplitude;
+    std::optional<double> frequency; ///< Hz
+};
+
+struct HjifEffect
+{
+    std::string type;
+    double position = 0.0; ///< ticks
+    std::optional<double> id, phase;
+    std::string baseSignal = "Sine";
+    std::vector<HjifKeyframe> keyframes;
+};
+
+struct HjifBand
+{
+    std::string type;
+    double low = 0.0, high = 0.0; ///< Hz
+    std::vector<HjifEffect> effects;
+};
+
+struct HjifChannel
+{
+    double gain = 1.0;
+    std::optional<double> rate, samples;
+    std::vector<HjifBand> bands;
+};
+
+struct HjifPerception
+{
+    std::string modality;
+    double unitExponent = 0.0;
+    std::vector<HjifEffect> library;
+    std::vector<HjifChannel> channels;
+};
+
+struct HjifFile
+{
+    std::string description;
+    double ticks = 1000.0; ///< per second
+    std::vector<HjifPerception> perceptions;
+};
+
+/// The entries of a file's tree, of which only the types, the timescale and the version are checked. Warnings: a
+/// version newer than known, missing entries that other players need. Errors: invalidData with the entry's place.
+[[nodiscard]] Result<HjifFile> readHjifFile(const nlohmann::json& tree, std::vector<std::string>& warnings);
+
+} // namespace pacini
