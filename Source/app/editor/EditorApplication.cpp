@@ -2,6 +2,7 @@
 
 // The clip editor as a program of its own: PaciniEditor [--fresh] [--device-type TYPE] [FILE...]
 
+#include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
 #include "editor/Text.h"
@@ -76,8 +77,7 @@ public:
         if (!fresh)
         {
             home.createDirectory();
-            settings = std::make_unique<juce::PropertiesFile>(home.getChildFile("editor.settings"),
-                                                              juce::PropertiesFile::Options());
+            settings = std::make_unique<EditorSettings>(home);
         }
         editor::Session::Folders folders;
         if (!fresh)
@@ -91,31 +91,26 @@ public:
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
         {
-            devices = settings->getXmlValue("devices");
-            for (auto [name, trim] : {std::pair("sound", &rig->soundTrim()), std::pair("haptic", &rig->hapticTrim())})
-            {
-                trim->setLevel(settings->getDoubleValue(juce::String(name) + "Level", 1.0));
-                trim->setDelay(settings->getDoubleValue(juce::String(name) + "Delay", 0.0));
-            }
-            rig->setOutputs({settings->getIntValue("soundOutput", 0), settings->getIntValue("hapticOutput", 2)});
+            devices = settings->devices();
+            settings->apply(*rig);
         }
         if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
         window = std::make_unique<EditorWindow>(*session, *rig, demoSounds(),
                                                 fresh ? std::filesystem::path() : pathOf(ownProfiles));
         auto& view = window->view();
+        const bool firstRun = settings && settings->isFirstRun();
         if (settings)
-        {
-            view.setDark(settings->getBoolValue("dark", true));
-            view.setScale(settings->getDoubleValue("scale", 1.0));
-        }
+            settings->apply(view);
         window->centreWithSize(1280, 800);
-        if (!settings || !window->restoreWindowStateFromString(settings->getValue("window")))
+        if (!settings || !window->restoreWindowStateFromString(settings->window()))
             window->centreWithSize(1280, 800);
         window->setVisible(true);
         view.grabKeyboardFocus();
         if (!files.empty())
             view.files().open(files);
+        else if (firstRun)
+            view.doCommand(editor::openSample);
         view.files().offerRecovery();
     }
 
@@ -129,22 +124,7 @@ public:
     void shutdown() override
     {
         if (settings && window)
-        {
-            auto& view = window->view();
-            settings->setValue("dark", view.isDark());
-            settings->setValue("scale", view.scale());
-            settings->setValue("window", window->getWindowStateAsString());
-            settings->setValue("soundOutput", rig->outputs().sound);
-            settings->setValue("hapticOutput", rig->outputs().haptic);
-            for (auto [name, trim] : {std::pair("sound", &rig->soundTrim()), std::pair("haptic", &rig->hapticTrim())})
-            {
-                settings->setValue(juce::String(name) + "Level", trim->levelNow());
-                settings->setValue(juce::String(name) + "Delay", trim->delayNow());
-            }
-            if (const auto devices = rig->devices().createStateXml())
-                settings->setValue("devices", devices.get());
-            settings->saveIfNeeded();
-        }
+            settings->keep(*rig, window->view(), window->getWindowStateAsString());
         window.reset();
         rig.reset();
         session.reset();
@@ -167,7 +147,7 @@ private:
         quit();
     }
 
-    std::unique_ptr<juce::PropertiesFile> settings;
+    std::unique_ptr<EditorSettings> settings;
     std::unique_ptr<editor::Session> session;
     std::unique_ptr<PreviewRig> rig;
     std::unique_ptr<EditorWindow> window;

@@ -2,6 +2,7 @@
 #include "editor/clip/ProjectFiles.h"
 
 #include "document/FolderFiles.h"
+#include "document/ProjectJson.h"
 #include "editor/Text.h"
 #include "editor/clip/EditorView.h"
 
@@ -36,6 +37,38 @@ void ProjectFiles::open(const std::vector<std::filesystem::path>& files)
         whenSaved(openThem);
     else
         openThem();
+}
+
+namespace
+{
+std::filesystem::path sampleProject(EditorView& view)
+{
+    const auto& demos = view.surroundings().demoSounds;
+    return demos.empty() ? std::filesystem::path() : demos.front().parent_path() / "sample.pacini";
+}
+} // namespace
+
+bool ProjectFiles::hasSample() const
+{
+    std::error_code error;
+    const auto file = sampleProject(view);
+    return !file.empty() && std::filesystem::exists(file, error);
+}
+
+void ProjectFiles::openSample()
+{
+    whenSaved(
+        [this]
+        {
+            Session& session = view.session();
+            const auto file = sampleProject(view);
+            const auto text = readWholeFile(file, largestProjectText);
+            auto read = text ? readProjectJson(*text, file.parent_path()) : Result<ReadProject>(text.error());
+            if (read)
+                session.openProject(std::move(read->project));
+            else
+                session.onError("The sample project was not opened", toText(read.error().text()));
+        });
 }
 
 void ProjectFiles::askWhatToOpen()

@@ -26,6 +26,9 @@ public:
     /// Sounds, clips and projects. A project takes the place of the open one, which the user is asked to save.
     void open(const std::vector<std::filesystem::path>& files);
     void askWhatToOpen();
+    /// The project beside the demo sounds, as one that was never saved.
+    void openSample();
+    [[nodiscard]] bool hasSample() const;
     void askWhatFolder();
     /// One sound; `start` is where to look first, a file or a folder.
     void askForSound(const juce::String& title, const std::filesystem::path& start,

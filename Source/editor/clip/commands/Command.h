@@ -14,6 +14,7 @@ enum Command : int
     openFolder,
     openRecent,
     openDemo,
+    openSample,
     save,
     saveAs,
     exportClips,
@@ -94,6 +95,7 @@ enum Command : int
     largerInterface,
     smallerInterface,
     soundDevices,
+    preferences,
 
     measureActuator,
 

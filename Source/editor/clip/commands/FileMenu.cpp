@@ -71,6 +71,15 @@ Menu fileMenu(EditorView& view)
          {
              return demoSounds(view);
          }},
+        {.id = openSample,
+         .name = "Open the sample project",
+         .help = "Three clips with hand edits, groups, markers and notes, to try things on; it opens as a new project",
+         .run = [&view] { view.files().openSample(); },
+         .can =
+             [&view]
+         {
+             return view.files().hasSample();
+         }},
         {.id = save,
          .name = "Save project",
          .help = "Writes the project to its file",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
+#include "editor/clip/sheets/PreferencesSheet.h"
 
 namespace pacini::editor
 {
@@ -214,6 +215,12 @@ Menu viewMenu(EditorView& view)
          .run = [&view] { view.setScale(view.scale() - scaleStep); },
          .keys = {ctrlShift('-')}},
     };
+    menu.actions.push_back({.id = preferences,
+                            .name = "Preferences...",
+                            .help = "How the editor looks and behaves",
+                            .run = [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); },
+                            .keys = {ctrl(',')},
+                            .lineBefore = true});
     if (view.surroundings().showDevices)
         menu.actions.push_back({.id = soundDevices,
                                 .name = "Sound devices...",

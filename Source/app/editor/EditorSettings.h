@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the editor remembers from one run to the next.
+
+#include "app/editor/PreviewRig.h"
+#include "editor/clip/EditorView.h"
+
+#include <juce_data_structures/juce_data_structures.h>
+
+#include <memory>
+
+namespace pacini::app
+{
+
+/// Kept in a file of the user's. [message]
+class EditorSettings
+{
+public:
+    explicit EditorSettings(const juce::File& folder);
+
+    /// Whether the editor has never run before.
+    [[nodiscard]] bool isFirstRun() const { return file.getAllProperties().size() == 0; }
+
+    [[nodiscard]] std::unique_ptr<juce::XmlElement> devices() const { return file.getXmlValue("devices"); }
+    [[nodiscard]] juce::String window() const { return file.getValue("window"); }
+    void apply(PreviewRig& rig) const;
+    void apply(editor::EditorView& view) const;
+
+    void keep(PreviewRig& rig, editor::EditorView& view, const juce::String& windowState);
+
+private:
+    juce::PropertiesFile file;
+};
+
+} // namespace pacini::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/sheets/PreferencesSheet.h"
+
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+
+#include <array>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int rowHeight = 4 * grid;
+constexpr int nameWidth = 24 * grid;
+constexpr std::array scales{0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
+constexpr std::array laneHeights{32, 48, 64, 96};
+
+template <typename Values>
+int nearest(const Values& values, double wanted)
+{
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (std::abs(values[i] - wanted) < std::abs(values[best] - wanted))
+            best = i;
+    return static_cast<int>(best);
+}
+} // namespace
+
+PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 520), view(shown)
+{
+    Session& session = view.session();
+    addChoice("Colours", "Light text on dark ground, or dark on light", {"Dark", "Light"}, view.isDark() ? 0 : 1,
+              [this](int i) { view.setDark(i == 0); });
+    juce::StringArray sizes;
+    for (const double scale : scales)
+        sizes.add(juce::String(juce::roundToInt(100.0 * scale)) + " %");
+    addChoice("Size of everything", "For high resolutions and tired eyes", sizes, nearest(scales, view.scale()),
+              [this](int i) { view.setScale(scales[static_cast<std::size_t>(i)]); });
+    addChoice("Levels", "The scale of all lanes of levels", {"In dB", "Linear"}, session.amplitudesInDecibels() ? 0 : 1,
+              [&session](int i) { session.setAmplitudesInDecibels(i == 0); });
+    addChoice("Lanes", "The height of a band", {"Low", "Usual", "Tall", "Very tall"},
+              nearest(laneHeights, session.laneHeight()),
+              [&session](int i) { session.setLaneHeight(laneHeights[static_cast<std::size_t>(i)]); });
+    const auto option = [&session](auto member, auto value)
+    {
+        ViewOptions options = session.viewOptions();
+        options.*member = value;
+        session.setViewOptions(options);
+    };
+    const ViewOptions options = session.viewOptions();
+    addChoice("Sound", "How the sound is drawn", {"Waveform", "Spectrogram", "Both"}, static_cast<int>(options.sound),
+              [option](int i) { option(&ViewOptions::sound, static_cast<SoundView>(i)); });
+    addChoice("While playing", "Whether the view goes along with the playhead",
+              {"The view stays", "Turn pages", "Playhead in the middle"}, static_cast<int>(options.follow),
+              [option](int i) { option(&ViewOptions::follow, static_cast<Follow>(i)); });
+    addSwitch("What the actuator plays", "Rows below the lanes: the drive of the actuator and what is lost",
+              options.actuator, [option](bool on) { option(&ViewOptions::actuator, on); });
+    const auto target = [&session](bool SnapTargets::*member, bool on)
+    {
+        SnapTargets targets = session.snapTargets();
+        targets.*member = on;
+        session.setSnapTargets(targets);
+    };
+    const SnapTargets targets = session.snapTargets();
+    for (const auto& [member, name] :
+         {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
+          std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})
+        addSwitch(name, "What is dragged sticks to what is near; Alt: not this time", targets.*member,
+                  [target, member = member](bool on) { target(member, on); });
+    setAnswers({{"Close", {}}});
+}
+
+void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Component> control)
+{
+    auto row = std::make_unique<Row>();
+    row->name.setText(name, juce::dontSendNotification);
+    row->name.setFont(usualFont());
+    row->name.setAccessible(false);
+    control->setTitle(name);
+    row->control = std::move(control);
+    addAndMakeVisible(row->name);
+    addAndMakeVisible(*row->control);
+    rows.push_back(std::move(row));
+}
+
+void PreferencesSheet::addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& choices,
+                                 int chosen, std::function<void(int)> choose)
+{
+    auto box = std::make_unique<juce::ComboBox>();
+    box->addItemList(choices, 1);
+    box->setSelectedItemIndex(chosen, juce::dontSendNotification);
+    box->setTooltip(help);
+    box->onChange = [choose = std::move(choose), now = box.get()]
+    {
+        choose(now->getSelectedItemIndex());
+    };
+    add(name, std::move(box));
+}
+
+void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& help, bool on,
+                                 std::function<void(bool)> turn)
+{
+    auto button = std::make_unique<juce::ToggleButton>(on ? "On" : "Off");
+    button->setToggleState(on, juce::dontSendNotification);
+    button->setTooltip(help);
+    button->onClick = [turn = std::move(turn), now = button.get()]
+    {
+        now->setButtonText(now->getToggleState() ? "On" : "Off");
+        turn(now->getToggleState());
+    };
+    add(name, std::move(button));
+}
+
+void PreferencesSheet::layOut(juce::Rectangle<int> area)
+{
+    const int step = std::min(rowHeight + grid / 2, area.getHeight() / static_cast<int>(rows.size()));
+    for (const auto& row : rows)
+    {
+        auto line = area.removeFromTop(step).withSizeKeepingCentre(area.getWidth(), std::min(step - 2, rowHeight - 4));
+        row->name.setBounds(line.removeFromLeft(nameWidth));
+        row->control->setBounds(dynamic_cast<juce::ToggleButton*>(row->control.get()) ? line.withWidth(9 * grid)
+                                                                                      : line);
+    }
+}
+
+} // namespace pacini::editor
