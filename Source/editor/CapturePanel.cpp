@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace pacini::editor
@@ -16,61 +15,7 @@ namespace pacini::editor
 namespace
 {
 constexpr std::array<int, 4> lengths{3, 5, 10, 30}; // s
-
-juce::File dragFolder()
-{
-    return juce::File::getSpecialLocation(juce::File::tempDirectory).getChildFile("Pacini captures");
-}
 } // namespace
-
-ClipChip::ClipChip()
-{
-    setTitle("Captured clip");
-    setDescription("Drag it to a folder or into a program that takes files");
-    setTooltip("Drag it to a folder or into a program that takes files");
-    setMouseCursor(juce::MouseCursor::DraggingHandCursor);
-    setVisible(false);
-}
-
-void ClipChip::show(const Clip& clip, const juce::File& wanted)
-{
-    dragged = wanted;
-    text = toText(clip.name) + ", " + juce::String(clip.duration, 1) + " s";
-    curve.clear();
-    curve.startNewSubPath(0.0f, 1.0f);
-    double loudest = 1e-9;
-    for (const auto& point : clip.envelope)
-        loudest = std::max(loudest, point.value);
-    for (const auto& point : clip.envelope)
-        curve.lineTo(static_cast<float>(point.time / std::max(clip.duration, 1e-9)),
-                     1.0f - static_cast<float>(std::sqrt(std::max(point.value, 0.0) / loudest)));
-    curve.lineTo(1.0f, 1.0f);
-    curve.closeSubPath();
-    setVisible(true);
-    repaint();
-}
-
-void ClipChip::paint(juce::Graphics& g)
-{
-    const Palette& p = paletteFor(*this);
-    const auto area = getLocalBounds().toFloat().reduced(0.5f);
-    g.setColour(p.well);
-    g.fillRoundedRectangle(area, 4.0f);
-    const auto plot = area.reduced(4.0f, 3.0f);
-    g.setColour(p.accent.withAlpha(0.35f));
-    g.fillPath(curve, juce::AffineTransform::scale(plot.getWidth(), plot.getHeight()).translated(plot.getTopLeft()));
-    g.setColour(p.accent);
-    g.drawRoundedRectangle(area, 4.0f, 1.0f);
-    g.setColour(p.text);
-    g.setFont(smallFont());
-    g.drawFittedText(text, getLocalBounds().reduced(grid, 0), juce::Justification::centredLeft, 1);
-}
-
-void ClipChip::mouseDrag(const juce::MouseEvent& event)
-{
-    if (event.getDistanceFromDragStart() > 6 && dragged.existsAsFile())
-        juce::DragAndDropContainer::performExternalDragDropOfFiles({dragged.getFullPathName()}, false, this);
-}
 
 CapturePanel::CapturePanel(LiveSource& heard)
     : source(heard), button("Capture"), editButton("Edit"), saveButton("Save" + toText("…"))
@@ -144,14 +89,10 @@ void CapturePanel::take(Result<Clip> made)
         return;
     }
     clip = std::move(made).value();
-    const auto file = dragFolder().getChildFile(juce::String(clip->name).replaceCharacter(' ', '-') + ".json");
-    dragFolder().createDirectory();
-    const auto written = writeClip(file.getFullPathName().toStdString(), *clip, ClipFormat::json);
-    if (!written)
-        say("Cannot be dragged: " + juce::String(written.error().text()), true);
-    else
-        say("", false);
-    chip.show(*clip, file);
+    const auto written = writeForDragging(*clip);
+    file = written ? *written : juce::File();
+    say(written ? juce::String() : "Cannot be dragged: " + toText(written.error().text()), !written);
+    chip.show(*clip, [this] { return file; });
     saveButton.setEnabled(true);
     editButton.setEnabled(true);
 }
@@ -160,7 +101,7 @@ void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
         "Save the clip",
-        juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(chip.file().getFileName()),
+        juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(file.getFileName()),
         "*.json;*.pacb");
     chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
                          [this](const juce::FileChooser& chosen)

@@ -4,6 +4,7 @@
 // The last seconds of the sound as a clip: one button, and something to drag out or to save.
 
 #include "editor/CaptureJob.h"
+#include "editor/ClipChip.h"
 #include "editor/LiveSource.h"
 #include "editor/Refreshed.h"
 
@@ -14,22 +15,6 @@
 
 namespace pacini::editor
 {
-
-/// The captured clip: it can be dragged to a folder or a track, as a file.
-class ClipChip final : public juce::Component, public juce::SettableTooltipClient
-{
-public:
-    ClipChip();
-    void show(const Clip& clip, const juce::File& wanted);
-    [[nodiscard]] const juce::File& file() const noexcept { return dragged; }
-    void paint(juce::Graphics& g) override;
-    void mouseDrag(const juce::MouseEvent& event) override;
-
-private:
-    juce::File dragged;
-    juce::String text;
-    juce::Path curve; // of the envelope, within 0 to 1
-};
 
 class CapturePanel final : public juce::Component
 {
@@ -53,6 +38,7 @@ private:
     ClipChip chip;
     juce::Label message;
     std::optional<Clip> clip;
+    juce::File file; ///< of the clip, to be dragged
     std::unique_ptr<juce::FileChooser> chooser;
     int captures = 0;
     CaptureJob job; // ends first

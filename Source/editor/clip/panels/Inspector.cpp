@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/Inspector.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/lanes/CurveLane.h"
@@ -14,7 +15,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 74 * grid;
+constexpr int preferredHeight = 78 * grid;
 
 /// The first thing selected.
 struct FirstThing
@@ -174,6 +175,7 @@ Inspector::Inspector(EditorView& shown)
     button(fadeOutButton, fadeOut, "Fades out over the scope");
     button(reverseButton, reverse, "Plays the whole clip from its end");
     setSize(200, preferredHeight);
+    addChildComponent(chip);
     session.listeners.add(this);
     lookAndFeelChanged();
     showSelection();
@@ -252,6 +254,15 @@ void Inspector::showFacts()
     if (const auto item = session.item(); item && !item->unfitting.empty())
         text << "\n" << static_cast<int>(item->unfitting.size()) << " edits wait for another analysis";
     facts.setText(text, juce::dontSendNotification);
+    chip.show(*clip,
+              [this]
+              {
+                  const auto dragged = session.clip();
+                  const auto written = dragged ? writeForDragging(*dragged) : Result<juce::File>(juce::File());
+                  if (!written)
+                      session.onError("The clip cannot be dragged", toText(written.error().text()));
+                  return written ? *written : juce::File();
+              });
 }
 
 std::vector<Lane> Inspector::scopeLanes() const
@@ -340,7 +351,8 @@ void Inspector::resized()
     keepLabel.setBounds(inside.removeFromTop(2 * grid));
     keep.setBounds(inside.removeFromTop(rowHeight + 4));
     cost.setBounds(inside);
-    inside = card(factsCard, 12 * grid);
+    inside = card(factsCard, 16 * grid);
+    chip.setBounds(inside.removeFromBottom(4 * grid));
     facts.setBounds(inside);
 }
 

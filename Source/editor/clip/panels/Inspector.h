@@ -3,6 +3,7 @@
 
 // What is selected, in numbers, and edits of stretches: level, fades, simplifying.
 
+#include "editor/ClipChip.h"
 #include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -37,6 +38,7 @@ private:
     juce::Label gainLabel, keepLabel, cost, facts;
     juce::Slider gain, keep;
     juce::TextButton fadeInButton, fadeOutButton, reverseButton;
+    ClipChip chip;
     Gesture gesture = 0;
 };
 
