@@ -37,6 +37,14 @@ struct MeasureSettings
     return params;
 }
 
+/// The settings to prove an equaliser by that is meant for `lowest` Hz and more: the sweep begins a little below. What
+/// lies lower is left as loud as it was and would set the peak, so that the rest drowned in the noise of the sensor.
+[[nodiscard]] inline MeasureSettings provingSettings(MeasureSettings settings, double lowest)
+{
+    settings.lowFrequency = std::max(settings.lowFrequency, std::min(0.8 * lowest, 0.25 * settings.highFrequency));
+    return settings;
+}
+
 /// How its recording is analysed. Levels of an uncalibrated sensor are relative.
 [[nodiscard]] inline MeasurementParams analysisOf(const MeasureSettings& settings)
 {

@@ -273,7 +273,7 @@ void MeasureDesk::verify()
         return fail(true, std::move(reason));
     session.stop();
     setTone(false);
-    auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, portsNow.sampleRate, true);
+    auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, portsNow.sampleRate, true);
     if (!made)
         return fail(true, made.error().text());
     playedSweep = made->sweep;
@@ -373,6 +373,11 @@ void MeasureDesk::dropVerifications()
     changed();
 }
 
+MeasureSettings MeasureDesk::proving() const
+{
+    return provingSettings(work.settings(), work.equalizer()->lowFrequency);
+}
+
 Result<void> MeasureDesk::saveSweep(const std::filesystem::path& sound, bool throughEqualizer)
 {
     if (throughEqualizer && work.equalizer() == nullptr)
@@ -380,8 +385,8 @@ Result<void> MeasureDesk::saveSweep(const std::filesystem::path& sound, bool thr
     SweepFile file;
     if (throughEqualizer)
         file.equalizedFor = "the actuator that is measured";
-    auto made = verifyingSweep(work.settings(), throughEqualizer ? work.equalizer()->fit.sections : EqualizerSections(),
-                               soundRate);
+    auto made = throughEqualizer ? verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate)
+                                 : verifyingSweep(work.settings(), {}, soundRate);
     if (!made)
         return made.error();
     file.sweep = made->sweep;
@@ -412,7 +417,7 @@ void MeasureDesk::readRecording(const std::filesystem::path& file, bool throughE
     RecordedSweep recorded{{},    {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate),
                            false, 0.0};
     if (throughEqualizer)
-        if (const auto made = verifyingSweep(work.settings(), work.equalizer()->fit.sections, soundRate))
+        if (const auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate))
             recorded.sweep = made->sweep;
     if (const auto described = readSweepFile(describing(file)))
         recorded.sweep = described->sweep;

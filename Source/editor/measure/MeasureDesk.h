@@ -116,6 +116,7 @@ private:
     };
 
     void changed();
+    [[nodiscard]] MeasureSettings proving() const;
     void follow();
     void connect();
     void analyse(RecordedSweep recorded, Target target);
