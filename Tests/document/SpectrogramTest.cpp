@@ -12,11 +12,11 @@ using namespace pacini;
 
 namespace
 {
-std::vector<float> tone(double frequency, double amplitude, double fs, double seconds, double from = 0.0)
+std::vector<float> tone(double frequency, double amplitude, double rate, double seconds, double from = 0.0)
 {
-    std::vector<float> samples(static_cast<std::size_t>(seconds * fs));
+    std::vector<float> samples(static_cast<std::size_t>(seconds * rate));
     for (std::size_t i = 0; i < samples.size(); ++i)
-        if (const double t = static_cast<double>(i) / fs; t >= from)
+        if (const double t = static_cast<double>(i) / rate; t >= from)
             samples[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * frequency * t));
     return samples;
 }
@@ -62,12 +62,12 @@ std::array<double, 3> cieLab(std::uint32_t rgb)
 
 TEST_CASE("A tone has its amplitude's level in the row of its frequency, and elsewhere there is next to nothing")
 {
-    constexpr double fs = 44100.0;
+    constexpr double rate = 44100.0;
     for (const SpectrumRows rows : {SpectrumRows{20.0, 2000.0, 128}, SpectrumRows{20.0, 22050.0, 128}})
         for (const double frequency : {30.0, 71.0, 155.0, 170.0, 440.0, 960.0, 1700.0})
         {
-            const auto samples = tone(frequency, 0.25, fs, 1.0);
-            SpectrumAnalyser analyser(samples, fs, rows);
+            const auto samples = tone(frequency, 0.25, rate, 1.0);
+            SpectrumAnalyser analyser(samples, rate, rows);
             std::vector<std::uint8_t> levels(rows.count);
             analyser.column(0.5, levels);
             INFO(frequency << " Hz of " << rows.high);
@@ -105,13 +105,13 @@ TEST_CASE("Above half the sample rate and outside the sound there is silence")
 
 TEST_CASE("A spectrogram shows a tone where it sounds, at every zoom, and asks for what is visible first")
 {
-    constexpr double fs = 8000.0, seconds = 20.0, begin = 8.0;
-    const auto samples = tone(500.0, 0.5, fs, seconds, begin);
+    constexpr double rate = 8000.0, seconds = 20.0, begin = 8.0;
+    const auto samples = tone(500.0, 0.5, rate, seconds, begin);
     const SpectrumRows rows{20.0, 2000.0, 64};
     for (const double perPixel : {0.5, 0.05, 0.02, 0.004, 0.001})
     {
         Spectrogram spectrogram(seconds, rows);
-        SpectrumAnalyser analyser(samples, fs, rows);
+        SpectrumAnalyser analyser(samples, rate, rows);
         const double width = 100.0;
         const TimeAxis axis{std::max(0.0, begin - 50.0 * perPixel), perPixel};
         const auto asked = fill(spectrogram, analyser, rows.count, axis, width);

@@ -25,7 +25,7 @@ std::size_t largestMatching(const std::vector<double>& a, const std::vector<doub
     return best;
 }
 
-std::vector<double> times(Random& random, std::size_t count)
+std::vector<double> randomTimes(Random& random, std::size_t count)
 {
     std::vector<double> t(count);
     for (double& v : t)
@@ -40,8 +40,8 @@ TEST_CASE("Matching in order of time finds as many pairs as trying everything", 
     Random random(11);
     for (int trial = 0; trial < 300; ++trial)
     {
-        const auto a = times(random, 1 + random.next() % 6);
-        const auto b = times(random, 1 + random.next() % 6);
+        const auto a = randomTimes(random, 1 + random.next() % 6);
+        const auto b = randomTimes(random, 1 + random.next() % 6);
         CHECK(matchEvents(a, b, 0.025).size() == largestMatching(a, b, 0.025, 0, 0u));
     }
 }
