@@ -5,6 +5,7 @@
 #include "document/ProjectJson.h"
 #include "editor/Text.h"
 #include "editor/clip/EditorView.h"
+#include "io/InputFile.h"
 
 #include <algorithm>
 

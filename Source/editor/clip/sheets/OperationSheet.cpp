@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/OperationSheet.h"
 
+#include "document/EditLayer.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
