@@ -8,7 +8,6 @@ namespace pacini::app
 
 namespace
 {
-using editor::Follow;
 using editor::SoundView;
 
 /// Calls `visit(name, value)` for all that a user can choose about the view.

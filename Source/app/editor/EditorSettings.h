@@ -20,7 +20,7 @@ public:
     explicit EditorSettings(const juce::File& folder);
 
     /// Whether the editor has never run before.
-    [[nodiscard]] bool isFirstRun() const { return file.getAllProperties().size() == 0; }
+    [[nodiscard]] bool isFirstRun() { return file.getAllProperties().size() == 0; }
 
     [[nodiscard]] std::unique_ptr<juce::XmlElement> devices() const { return file.getXmlValue("devices"); }
     [[nodiscard]] juce::String window() const { return file.getValue("window"); }
