@@ -76,8 +76,8 @@ TEST_CASE("A program that is ended by a signal has written the silent packets th
         std::vector<std::byte> expected;
         for (const unsigned counter : {2u, 3u})
         {
-            const auto report = switchRumbleReport(counter, {});
-            expected.insert(expected.end(), report.begin(), report.end());
+            for (const std::byte each : switchRumbleReport(counter, {}))
+                expected.push_back(each);
         }
         CHECK(written == expected);
     }
