@@ -21,6 +21,10 @@ from host_test import picture, until  # noqa: E402
 DEMO = ROOT / "Resources" / "demo" / "drums_tabla_pattern.flac"
 ACTUATOR_CHOICE = (1280 - 60, 26 + 21)  # in the toolbar
 DOWN_TO_ACTUATOR = 8  # a phone, in the list behind «none»: it has few voices and a narrow range
+FORMAT_CHOICE = (640, 212)  # in the sheet
+DOWN_TO_FORMAT = 3  # .haptic, which keeps little
+FILE_FIELD = (640, 292)
+NOWHERE = (1150, 560)
 
 
 def settings(home, dark):
@@ -61,11 +65,21 @@ def run(program, dark, names, files):
         screen.focus()
         screen.keys("alt+3", "End")
         screen.keys(*["ctrl+Left"] * 3)
-        screen.move(1150, 690)
+        screen.move(*NOWHERE)
         time.sleep(6)  # the actuator's rows and the spectrogram are made in the background
         take(screen, names[0])
         if len(names) > 1:
             screen.keys("ctrl+e")
+            time.sleep(1)
+            screen.move(*FORMAT_CHOICE)
+            screen.tool("click", 1)
+            time.sleep(0.7)
+            screen.keys(*["Down"] * DOWN_TO_FORMAT, "Return")
+            screen.move(*FILE_FIELD)
+            screen.tool("click", 1)
+            screen.keys("ctrl+a")
+            screen.type("~/clips/drums.haptic")
+            screen.move(*NOWHERE)
             time.sleep(1.5)
             take(screen, names[1])
 
