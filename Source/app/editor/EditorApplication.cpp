@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The clip editor as a program of its own: PaciniEditor [--fresh] [--device-type TYPE] [FILE...]
+// The clip editor as a program of its own: PaciniEditor [--fresh] [--device-type TYPE] [--language CODE] [FILE...]
 
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "io/ProfileFile.h"
 #include "plugin/ProfileShelf.h"
 
@@ -63,7 +64,7 @@ public:
     void initialise(const juce::String&) override
     {
         bool fresh = false;
-        juce::String deviceType;
+        juce::String deviceType, language;
         std::vector<std::filesystem::path> files;
         const auto arguments = getCommandLineParameterArray();
         for (int i = 0; i < arguments.size(); ++i)
@@ -71,6 +72,8 @@ public:
                 fresh = true;
             else if (arguments[i] == "--device-type")
                 deviceType = arguments[++i].unquoted();
+            else if (arguments[i] == "--language")
+                language = arguments[++i].unquoted();
             else if (!arguments[i].startsWith("-"))
                 files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(arguments[i].unquoted())));
         const auto home = settingsFolder();
@@ -96,8 +99,19 @@ public:
         }
         if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        window = std::make_unique<EditorWindow>(*session, *rig, demoSounds(),
-                                                fresh ? std::filesystem::path() : pathOf(ownProfiles));
+        editor::useLanguage(language.isNotEmpty() ? language : settings ? settings->language() : juce::String("en"));
+        editor::Surroundings around;
+        around.demoSounds = demoSounds();
+        if (settings)
+        {
+            around.profileFolder = pathOf(ownProfiles);
+            around.language = settings->language();
+            around.chooseLanguage = [this](const juce::String& code)
+            {
+                settings->keepLanguage(code);
+            };
+        }
+        window = std::make_unique<EditorWindow>(*session, *rig, std::move(around));
         auto& view = window->view();
         const bool firstRun = settings && settings->isFirstRun();
         if (settings)

@@ -7,14 +7,11 @@
 namespace pacini::app
 {
 
-EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::vector<std::filesystem::path> demos,
-                           std::filesystem::path profileFolder)
+EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, editor::Surroundings around)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
       controllers(session),
-      content(session,
-              {std::move(demos), [] { juce::JUCEApplication::getInstance()->systemRequestedQuit(); },
-               [this] { showDevices(); }, std::make_shared<MeasureDevice>(wanted.devices()), std::move(profileFolder)})
+      content(session, completed(std::move(around)))
 {
     setUsingNativeTitleBar(true);
     setContentNonOwned(&content, false);
@@ -25,6 +22,20 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, std::ve
         setName(content.title());
     };
     setName(content.title());
+}
+
+editor::Surroundings EditorWindow::completed(editor::Surroundings around)
+{
+    around.quit = []
+    {
+        juce::JUCEApplication::getInstance()->systemRequestedQuit();
+    };
+    around.showDevices = [this]
+    {
+        showDevices();
+    };
+    around.measureRig = std::make_shared<MeasureDevice>(rig.devices());
+    return around;
 }
 
 EditorWindow::~EditorWindow()

@@ -18,8 +18,8 @@ namespace pacini::app
 class EditorWindow final : public juce::DocumentWindow
 {
 public:
-    EditorWindow(editor::Session& session, PreviewRig& rig, std::vector<std::filesystem::path> demos,
-                 std::filesystem::path profileFolder);
+    /// `around` without what the window itself has: a way out, devices, a rig for measuring.
+    EditorWindow(editor::Session& session, PreviewRig& rig, editor::Surroundings around);
     ~EditorWindow() override;
 
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }
@@ -27,6 +27,7 @@ public:
     void focusGained(FocusChangeType) override { content.takeFocus(); }
 
 private:
+    [[nodiscard]] editor::Surroundings completed(editor::Surroundings around);
     void showDevices();
 
     PreviewRig& rig;

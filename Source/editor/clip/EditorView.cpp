@@ -2,6 +2,7 @@
 #include "editor/clip/EditorView.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,7 @@ EditorView::EditorView(Session& shared, Surroundings around)
     {
         fileQuestions.tellMissing(missing);
     };
+    translateTexts(body);
     open.listeners.add(this);
     arrange();
 }
@@ -190,6 +192,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
                     self->showSheet(nullptr);
             });
     };
+    translateTexts(*sheetNow);
     body.addAndMakeVisible(*sheetNow);
     sheetNow->setBounds(body.getLocalBounds());
     sheetNow->takeFocus();

@@ -32,10 +32,12 @@ namespace pacini::editor
 struct Surroundings
 {
     std::vector<std::filesystem::path> demoSounds;
-    std::function<void()> quit;                  ///< null: the host closes the window
-    std::function<void()> showDevices;           ///< null: the host has the devices
-    std::shared_ptr<MeasureRig> measureRig = {}; ///< null: only simulated actuators can be measured
-    std::filesystem::path profileFolder = {};    ///< where measured profiles are written at first
+    std::function<void()> quit;                                   ///< null: the host closes the window
+    std::function<void()> showDevices;                            ///< null: the host has the devices
+    std::shared_ptr<MeasureRig> measureRig = {};                  ///< null: only simulated actuators can be measured
+    std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
+    juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
+    std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.

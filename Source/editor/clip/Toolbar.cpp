@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 namespace pacini::editor
 {
@@ -140,7 +141,7 @@ void Toolbar::fillProfiles()
 
 void Toolbar::showState()
 {
-    playButton.setButtonText(session.isPlaying() ? "Pause" : "Play");
+    playButton.setButtonText(tr(session.isPlaying() ? "Pause" : "Play"));
     loopButton.setToggleState(session.isLooping(), juce::dontSendNotification);
     heard.setSelectedId(1 + static_cast<int>(session.heard()), juce::dontSendNotification);
     int chosen = plainDrive;
@@ -160,7 +161,7 @@ void Toolbar::showTime()
     const auto clip = session.clip();
     time.setText(clip ? clockText(session.playhead()) + " / " + clockText(clip->duration) : juce::String("-:-- / -:--"),
                  juce::dontSendNotification);
-    const juce::String wanted = session.isPlaying() ? "Pause" : "Play";
+    const juce::String wanted = tr(session.isPlaying() ? "Pause" : "Play");
     if (playButton.getButtonText() != wanted)
         playButton.setButtonText(wanted);
 }

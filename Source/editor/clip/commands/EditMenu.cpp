@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/lanes/CurveLane.h"
@@ -13,7 +14,7 @@ namespace
 {
 juce::String nameWithStep(const char* name, const std::string& step)
 {
-    return step.empty() ? juce::String(name) : juce::String(name) + " " + toText(step).toLowerCase();
+    return step.empty() ? tr(name) : tr(name) + " " + toText(step).toLowerCase();
 }
 
 std::optional<Lane> focusedLane()

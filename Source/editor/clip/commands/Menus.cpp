@@ -2,6 +2,7 @@
 #include "editor/clip/commands/Menus.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
 namespace pacini::editor
@@ -11,7 +12,7 @@ namespace
 {
 juce::String nameOf(const Action& action)
 {
-    return (action.fullName ? action.fullName() : juce::String(action.name)).replace("...", toText("…"));
+    return (action.fullName ? action.fullName() : tr(action.name)).replace("...", toText("…"));
 }
 
 bool canDo(const Action& action)
@@ -63,7 +64,7 @@ juce::StringArray Menus::getMenuBarNames()
 {
     juce::StringArray names;
     for (const Menu& menu : menus)
-        names.add(menu.name);
+        names.add(tr(menu.name));
     return names;
 }
 
@@ -95,7 +96,7 @@ void Menus::getCommandInfo(juce::CommandID id, juce::ApplicationCommandInfo& inf
     const Action* action = find(id);
     if (action == nullptr)
         return;
-    info.setInfo(nameOf(*action), action->help, {}, 0);
+    info.setInfo(nameOf(*action), tr(action->help), {}, 0);
     info.setActive(canDo(*action));
     info.setTicked(action->on && action->on());
     for (const juce::KeyPress& key : action->keys)

@@ -2,8 +2,10 @@
 #include "editor/clip/sheets/PreferencesSheet.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,6 +33,8 @@ int nearest(const Values& values, double wanted)
 PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 520), view(shown)
 {
     Session& session = view.session();
+    if (view.surroundings().chooseLanguage)
+        addLanguages();
     addChoice("Colours", "Light text on dark ground, or dark on light", {"Dark", "Light"}, view.isDark() ? 0 : 1,
               [this](int i) { view.setDark(i == 0); });
     juce::StringArray sizes;
@@ -70,6 +74,19 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
         addSwitch(name, "What is dragged sticks to what is near; Alt: not this time", targets.*member,
                   [target, member = member](bool on) { target(member, on); });
     setAnswers({{"Close", {}}});
+}
+
+void PreferencesSheet::addLanguages()
+{
+    juce::StringArray codes{"", "en"}, names{"As the system", "English"};
+    for (const auto& code : languages())
+    {
+        codes.add(code);
+        names.add(languageName(code));
+    }
+    addChoice("Language", "The language of the interface, from the next start on", names,
+              std::max(0, codes.indexOf(view.surroundings().language)),
+              [this, codes](int i) { view.surroundings().chooseLanguage(codes[i]); });
 }
 
 void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Component> control)

@@ -31,6 +31,7 @@ private:
 
     void layOut(juce::Rectangle<int> area) override;
     juce::Component* firstFocus() override { return rows.front()->control.get(); }
+    void addLanguages();
     void add(const juce::String& name, std::unique_ptr<juce::Component> control);
     void addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& choices, int chosen,
                    std::function<void(int)> choose);

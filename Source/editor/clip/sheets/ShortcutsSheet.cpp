@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/ShortcutsSheet.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <vector>
 
@@ -37,11 +38,11 @@ public:
             {"Wheel", "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: moves in time; Alt: lane height"}};
         for (const Menu& menu : menus)
         {
-            rows.push_back({menu.name, {}});
+            rows.push_back({tr(menu.name), {}});
             for (const Action& action : menu.actions)
                 if (!action.keys.empty())
                     rows.push_back(
-                        {action.keys.front().getTextDescription(), juce::String(action.name) + ": " + action.help});
+                        {action.keys.front().getTextDescription(), tr(action.name) + ": " + tr(action.help)});
         }
         setSize(600, static_cast<int>(rows.size()) * rowHeight);
         setTitle("Keys and mouse");
