@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/Theme.h"
 
+#include "editor/Translation.h"
+
 #include <algorithm>
 
 namespace pacini::editor
@@ -300,7 +302,7 @@ juce::Rectangle<int> drawCard(juce::Graphics& g, juce::Rectangle<int> area, cons
     g.fillRoundedRectangle(area.toFloat(), 6.0f);
     g.setColour(palette.dim);
     g.setFont(fontOf(13.0f, true));
-    g.drawText(name, area.reduced(2 * grid, grid).withHeight(2 * grid), juce::Justification::centredLeft, true);
+    g.drawText(tr(name), area.reduced(2 * grid, grid).withHeight(2 * grid), juce::Justification::centredLeft, true);
     return insideOfCard(area);
 }
 

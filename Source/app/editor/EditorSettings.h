@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool isFirstRun() { return file.getAllProperties().size() == 0; }
 
     [[nodiscard]] std::unique_ptr<juce::XmlElement> devices() const { return file.getXmlValue("devices"); }
-    [[nodiscard]] juce::String language() const { return file.getValue("language"); }
+    [[nodiscard]] juce::String language() const { return file.getValue("language", "en"); }
     void keepLanguage(const juce::String& code) { file.setValue("language", code); }
     [[nodiscard]] juce::String window() const { return file.getValue("window"); }
     void apply(PreviewRig& rig) const;

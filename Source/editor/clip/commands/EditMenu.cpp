@@ -14,7 +14,7 @@ namespace
 {
 juce::String nameWithStep(const char* name, const std::string& step)
 {
-    return step.empty() ? tr(name) : tr(name) + " " + toText(step).toLowerCase();
+    return step.empty() ? tr(name) : tr(name) + " " + tr(toText(step)).toLowerCase();
 }
 
 std::optional<Lane> focusedLane()

@@ -3,6 +3,7 @@
 
 #include "document/SelectionScale.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/session/Snapping.h"
 
 #include <algorithm>
@@ -200,7 +201,7 @@ void PlotLane::paintHead(juce::Graphics& g)
     const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
     if (two)
         text = text.withSizeKeepingCentre(text.getWidth(), 36);
-    g.drawFittedText(look.name, two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1, 0.8f);
+    g.drawFittedText(tr(look.name), two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1, 0.8f);
     if (!two)
         return;
     g.setColour(p.dim);

@@ -78,12 +78,14 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
 
 void PreferencesSheet::addLanguages()
 {
-    juce::StringArray codes{"", "en"}, names{"As the system", "English"};
+    juce::StringArray codes{"en"}, names{"English"};
     for (const auto& code : languages())
     {
         codes.add(code);
         names.add(languageName(code));
     }
+    codes.add({});
+    names.add("As the system");
     addChoice("Language", "The language of the interface, from the next start on", names,
               std::max(0, codes.indexOf(view.surroundings().language)),
               [this, codes](int i) { view.surroundings().chooseLanguage(codes[i]); });
