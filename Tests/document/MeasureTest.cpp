@@ -2,6 +2,7 @@
 #include "document/measure/MeasureCallback.h"
 #include "document/measure/MeasureWords.h"
 #include "document/measure/SimulatedMeasureRig.h"
+#include "io/ProfileFile.h"
 #include "io/ProfileJson.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
@@ -10,6 +11,8 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <thread>
 
 using namespace pacini;
@@ -107,6 +110,38 @@ TEST_CASE("An actuator is measured, flattened and proved flat within 1 dB, and b
     const auto back = readProfileJson(profileJson(profile));
     REQUIRE(back.ok());
     CHECK(back->measurement->points.size() == profile.measurement->points.size());
+}
+
+TEST_CASE("The sweep that proves an equaliser begins a little below the range that was asked for", "[measure]")
+{
+    const auto jig = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles/l5-test-jig.json").value();
+    SimulatedMeasureRig rig(SimulatedMeasureRig::paramsOf(jig), 0.0);
+    MeasureSettings settings;
+    settings.duration = 8.0;
+    settings.calibrated = true;
+    const double rate = rig.ports().sampleRate;
+    ActuatorMeasurement work;
+    work.setSettings(settings);
+    work.setRate(rate);
+    EqualizerWish wish;
+    wish.lowFrequency = 100.0;
+    work.setWish(wish);
+    work.addFitting(fittingOf(rig, 0, settings));
+    compute(work);
+    REQUIRE(work.equalizer() != nullptr);
+    const MeasureSettings proving = provingSettings(settings, work.equalizer()->lowFrequency);
+    CHECK(proving.lowFrequency == Approx(80.0));
+    const auto through = verifyingSweep(proving, work.equalizer()->fit.sections, rate, true).value();
+    rig.setFitting(0);
+    auto recorded = recordedOn(rig, through.signal, through.sweep, {0, 1, 2});
+    recorded.gain = through.gain;
+    auto proof = analyseFitting("proof", recorded, settings);
+    REQUIRE(proof.ok());
+    work.addVerification(std::move(proof).value());
+    compute(work);
+    REQUIRE(work.verified() != nullptr);
+    CAPTURE(work.verified()->linearity.worstDeviation, work.verified()->linearity.worstFrequency);
+    CHECK(std::abs(work.verified()->linearity.worstDeviation) < 1.0);
 }
 
 TEST_CASE("What changes before a step makes the step forget its result, and late results are not taken", "[measure]")
