@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -104,6 +105,32 @@ TEST_CASE("The editor draws itself empty, with a clip, light and dark, and at al
             bench.view.setScale(scale);
             CHECK(coloursIn(bench.view.createComponentSnapshot(bench.view.getLocalBounds())) > 40);
         }
+}
+
+TEST_CASE("The numbers of a sheet that opens in light colours are dark")
+{
+    test::EditorBench bench;
+    bench.openDemo("knock_wood_bridge");
+    bench.view.setDark(false);
+    REQUIRE(bench.view.doCommand(editor::measureActuator));
+    REQUIRE(bench.view.sheet() != nullptr);
+    int boxes = 0;
+    const std::function<void(const juce::Component&)> look = [&](const juce::Component& part)
+    {
+        for (const auto* child : part.getChildren())
+        {
+            if (dynamic_cast<const juce::Slider*>(&part) != nullptr &&
+                dynamic_cast<const juce::Label*>(child) != nullptr)
+            {
+                CAPTURE(part.getTitle());
+                CHECK(child->findColour(juce::Label::textColourId).getBrightness() < 0.5f);
+                ++boxes;
+            }
+            look(*child);
+        }
+    };
+    look(*bench.view.sheet());
+    CHECK(boxes > 3);
 }
 
 TEST_CASE("Every control has a name and can be reached by keys")

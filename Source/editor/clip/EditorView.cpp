@@ -15,6 +15,20 @@ namespace
 constexpr int menuHeight = 26;
 constexpr int toolbarHeight = 42;
 constexpr int sideWidth = 248;
+
+/// Sliders make their boxes, and text editors colour their text, before they have a look or when they had another.
+void takeLook(juce::Component& part)
+{
+    part.sendLookAndFeelChange();
+    const auto colour = [](auto& self, juce::Component& each) -> void
+    {
+        if (auto* text = dynamic_cast<juce::TextEditor*>(&each))
+            text->applyColourToAllText(text->findColour(juce::TextEditor::textColourId));
+        for (auto* child : each.getChildren())
+            self(self, *child);
+    };
+    colour(colour, part);
+}
 constexpr int workBarWidth = 440;
 constexpr int workBarHeight = 48;
 } // namespace
@@ -92,7 +106,7 @@ juce::String EditorView::title() const
 void EditorView::setDark(bool dark)
 {
     look.setDark(dark);
-    sendLookAndFeelChange();
+    takeLook(*this);
     repaint();
 }
 
@@ -194,6 +208,7 @@ void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
     };
     translateTexts(*sheetNow);
     body.addAndMakeVisible(*sheetNow);
+    takeLook(*sheetNow);
     sheetNow->setBounds(body.getLocalBounds());
     sheetNow->takeFocus();
 }
