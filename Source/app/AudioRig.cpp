@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/AudioRig.h"
 
+#include "app/OpenDevice.h"
+
 #include <algorithm>
 
 namespace pacini::app
@@ -28,22 +30,7 @@ AudioRig::~AudioRig()
 
 juce::String AudioRig::open(const juce::XmlElement* saved, const juce::String& deviceType)
 {
-    juce::String error;
-    if (deviceType.isNotEmpty())
-    {
-        manager.getAvailableDeviceTypes();
-        manager.setCurrentAudioDeviceType(deviceType, true);
-        juce::AudioDeviceManager::AudioDeviceSetup setup;
-        if (auto* type = manager.getCurrentDeviceTypeObject())
-        {
-            type->scanForDevices();
-            setup.inputDeviceName = type->getDeviceNames(true)[type->getDefaultDeviceIndex(true)];
-            setup.outputDeviceName = type->getDeviceNames(false)[type->getDefaultDeviceIndex(false)];
-        }
-        error = manager.initialise(mostChannels, mostChannels, nullptr, false, {}, &setup);
-    }
-    else
-        error = manager.initialise(mostChannels, mostChannels, saved, true);
+    const auto error = openDevice(manager, mostChannels, mostChannels, saved, deviceType);
     manager.addAudioCallback(this);
     return error;
 }

@@ -54,6 +54,19 @@ class Screen(Processes):
         self.tool("type", "--delay", "20", text)
         time.sleep(0.3)
 
+    def export(self, path, rendered=False):
+        """The shown clip as a file: the path."""
+        self.keys("ctrl+e")
+        time.sleep(0.5)
+        if rendered:
+            self.keys("Tab", "Down", "Down", "shift+Tab")
+        self.keys("ctrl+a")
+        self.type(str(path))
+        self.keys("Return")
+        check(f"{path.name} is exported", until(path.exists, 30))
+        time.sleep(0.5)
+        return path
+
     def move(self, x, y):
         self.tool("mousemove", self.left + x, self.top + y)
         time.sleep(0.15)
@@ -76,23 +89,10 @@ def main():
         time.sleep(3)  # the analysis of a short sound
         screen.focus()
 
-        def export(name, rendered=False):
-            path = folder / name
-            screen.keys("ctrl+e")
-            time.sleep(0.5)
-            if rendered:
-                screen.keys("Tab", "Down", "Down", "shift+Tab")
-            screen.keys("ctrl+a")
-            screen.type(str(path))
-            screen.keys("Return")
-            check(f"{name} is exported", until(path.exists, 30))
-            time.sleep(0.5)
-            return path
-
         def clip(path):
             return json.loads(path.read_text()) if path.exists() else {}
 
-        before = clip(export("before.json"))
+        before = clip(screen.export(folder / "before.json"))
         check("the demo sound has become a clip", len(before.get("bands", [])) > 3,
               f"{len(before.get('envelope', []))} points of the envelope")
 
@@ -100,11 +100,11 @@ def main():
         screen.move(x, y)
         screen.tool("click", "--repeat", 2, "--delay", 80, 1)
         time.sleep(0.5)
-        with_point = clip(export("point.json"))
+        with_point = clip(screen.export(folder / "point.json"))
         added = [p for p in with_point["envelope"] if p not in before["envelope"]]
         check("a double-click adds one point", len(added) == 1, str(added))
         screen.drag(x, y, x + 60, y + 20)
-        dragged = clip(export("dragged.json"))
+        dragged = clip(screen.export(folder / "dragged.json"))
         moved = [p for p in dragged["envelope"] if p not in before["envelope"]]
         per_pixel = 1.02 * before["duration"] / (1280 - 248 - 144 - 10)
         check("a drag moves it", len(moved) == 1 and
@@ -118,14 +118,14 @@ def main():
             subprocess.run(["convert", str(folder / "window.png"), "-crop", f"1280x800+{screen.left}+{screen.top}",
                             "+repage", sys.argv[3]], check=True)
         screen.keys("ctrl+z")
-        export("undone.json")
+        screen.export(folder / "undone.json")
         check("undo brings it back where it was", (folder / "undone.json").read_bytes() == (folder / "point.json").read_bytes())
         screen.keys("ctrl+z")
-        export("first.json")
+        screen.export(folder / "first.json")
         check("and again, to the very file of the beginning",
               (folder / "first.json").read_bytes() == (folder / "before.json").read_bytes())
 
-        plain = export("plain.wav", rendered=True)
+        plain = screen.export(folder / "plain.wav", rendered=True)
         # The actuator is the last choice of the toolbar.
         screen.move(1280 - 60, 26 + 21)
         screen.tool("click", 1)
@@ -133,7 +133,7 @@ def main():
         screen.keys("Down", "Down", "Down", "Return")
         time.sleep(0.5)
         screen.focus()
-        fitted = export("fitted.wav", rendered=True)
+        fitted = screen.export(folder / "fitted.wav", rendered=True)
         check("another actuator gives another drive signal",
               plain.exists() and fitted.exists() and plain.read_bytes() != fitted.read_bytes())
         check("the program still runs", app.poll() is None)

@@ -33,26 +33,15 @@ def main():
             screen.focus()
             return app
 
-        def export(name):
-            path = folder / name
-            screen.keys("ctrl+e")
-            time.sleep(0.5)
-            screen.keys("ctrl+a")
-            screen.type(str(path))
-            screen.keys("Return")
-            check(f"{name} is exported", until(path.exists, 30))
-            time.sleep(0.5)
-            return path
-
         def text(path):
             return path.read_bytes() if path.exists() else b""
 
         app = start(demo)
-        first = export("first.json")
+        first = screen.export(folder / "first.json")
         screen.move(PLOT_LEFT + 500, ENVELOPE_TOP + 12)
         screen.tool("click", "--repeat", 2, "--delay", 80, 1)
         edited_at = time.monotonic()
-        edited = export("edited.json")
+        edited = screen.export(folder / "edited.json")
         check("an edit is made", text(edited) not in (b"", text(first)))
         time.sleep(max(0.0, edited_at + SAVED_WITHIN - time.monotonic()))
         app.send_signal(signal.SIGKILL)
@@ -62,7 +51,7 @@ def main():
         look("recovery.png")
         screen.keys("Return")  # restore
         time.sleep(1)
-        restored = export("restored.json")
+        restored = screen.export(folder / "restored.json")
         check("the clip is what it was when the program was killed", text(restored) == text(edited),
               f"{len(text(restored))} and {len(text(edited))} bytes")
         if text(restored):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/PreviewRig.h"
 
+#include "app/OpenDevice.h"
+
 #include <algorithm>
 #include <span>
 #include <thread>
@@ -19,21 +21,7 @@ PreviewRig::~PreviewRig()
 
 juce::String PreviewRig::open(const juce::XmlElement* saved, const juce::String& deviceType)
 {
-    if (deviceType.isNotEmpty())
-    {
-        manager.getAvailableDeviceTypes();
-        manager.setCurrentAudioDeviceType(deviceType, true);
-        juce::AudioDeviceManager::AudioDeviceSetup setup;
-        if (auto* type = manager.getCurrentDeviceTypeObject())
-        {
-            type->scanForDevices();
-            setup.outputDeviceName = type->getDeviceNames(false)[type->getDefaultDeviceIndex(false)];
-        }
-        const auto error = manager.initialise(0, mostChannels, nullptr, false, {}, &setup);
-        manager.addAudioCallback(this);
-        return error;
-    }
-    const auto error = manager.initialise(0, mostChannels, saved, true);
+    const auto error = openDevice(manager, 0, mostChannels, saved, deviceType);
     manager.addAudioCallback(this);
     return error;
 }

@@ -149,6 +149,9 @@ def main():
         from fake_controller import FakeController
     except (ImportError, ValueError) as error:
         skip(f"umockdev for Python is missing ({error})")
+    # Who is started in the background may ignore these, and so would its children.
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
     controller = FakeController()
     with tempfile.TemporaryDirectory() as name:
         short, long = clip(Path(name), "short.json", 2.0), clip(Path(name), "long.json", 20.0)

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The sound device that a program starts with.
+
+#include <juce_audio_devices/juce_audio_devices.h>
+
+namespace pacini::app
+{
+
+/// Opens the default device of a kind such as "JACK"; without one the saved device, or else the system's. An error
+/// text, empty when all is well. [message]
+inline juce::String openDevice(juce::AudioDeviceManager& manager, int mostInputs, int mostOutputs,
+                               const juce::XmlElement* saved, const juce::String& deviceType)
+{
+    if (deviceType.isEmpty())
+        return manager.initialise(mostInputs, mostOutputs, saved, true);
+    manager.getAvailableDeviceTypes();
+    manager.setCurrentAudioDeviceType(deviceType, true);
+    juce::AudioDeviceManager::AudioDeviceSetup setup;
+    if (auto* type = manager.getCurrentDeviceTypeObject())
+    {
+        type->scanForDevices();
+        if (mostInputs > 0)
+            setup.inputDeviceName = type->getDeviceNames(true)[type->getDefaultDeviceIndex(true)];
+        setup.outputDeviceName = type->getDeviceNames(false)[type->getDefaultDeviceIndex(false)];
+    }
+    return manager.initialise(mostInputs, mostOutputs, nullptr, false, {}, &setup);
+}
+
+} // namespace pacini::app
