@@ -40,6 +40,7 @@ public:
 
 private:
     using Shape = editor::ParameterSlider::Shape;
+    static constexpr int headerHeight = 6 * editor::grid;
 
     void timerCallback() override { refresh(); }
     std::unique_ptr<editor::ParameterSlider> slider(ParameterId parameter, Shape shape);

@@ -42,6 +42,8 @@ public:
     void mouseMove(const juce::MouseEvent& event) override;
 
 private:
+    static constexpr int driveHeight = 60; // pixels
+
     void sessionChanged(unsigned changes) override;
     void timerCallback() override;
     void update();
