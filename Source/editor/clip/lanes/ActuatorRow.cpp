@@ -3,7 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
-#include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>

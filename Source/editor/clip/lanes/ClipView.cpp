@@ -4,6 +4,7 @@
 #include "editor/Theme.h"
 #include "editor/clip/lanes/CurveLane.h"
 #include "editor/clip/lanes/EventLane.h"
+#include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
 #include <cmath>

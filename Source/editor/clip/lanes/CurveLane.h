@@ -4,23 +4,10 @@
 // A curve of the clip as a row.
 
 #include "document/DrawnCurve.h"
-#include "editor/Theme.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 namespace pacini::editor
 {
-
-/// The colour of a lane: bands go through the hues by frequency.
-[[nodiscard]] juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, bool dark);
-
-/// "62 Hz", "1.2 kHz".
-[[nodiscard]] juce::String hertzText(double frequency);
-/// "60–125 Hz", "0.50–2.0 kHz".
-[[nodiscard]] juce::String rangeText(double low, double high);
-/// "-12.3 dB", "silent".
-[[nodiscard]] juce::String amplitudeText(double amplitude);
-/// The name of a lane for people.
-[[nodiscard]] juce::String laneName(const Clip& clip, Lane lane);
 
 /// Few points are drawn with their handles and can be picked; many as one bar for each column of pixels.
 class CurveLane final : public PlotLane

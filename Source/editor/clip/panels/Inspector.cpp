@@ -4,7 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
-#include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/lanes/LaneText.h"
+
+#include "editor/Text.h"
+
+#include <cmath>
+
+namespace pacini::editor
+{
+
+juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, bool dark)
+{
+    if (lane.kind == LaneKind::envelope)
+        return palette.accent;
+    if (lane.kind == LaneKind::centroid)
+        return palette.warning;
+    if (lane.kind == LaneKind::noise || clip.bands.empty())
+        return palette.dim;
+    const float place = static_cast<float>(lane.index) / static_cast<float>(clip.bands.size());
+    const float hue = 0.98f - 0.5f * place; // low ones warm, high ones cold
+    return juce::Colour::fromHSV(hue < 0.0f ? hue + 1.0f : hue, dark ? 0.45f : 0.75f, dark ? 0.92f : 0.62f, 1.0f);
+}
+
+juce::String hertzText(double frequency)
+{
+    if (frequency >= 1000.0)
+        return juce::String(frequency / 1000.0, 2) + " kHz";
+    return (frequency < 100.0 ? juce::String(frequency, 1) : juce::String(juce::roundToInt(frequency))) + " Hz";
+}
+
+juce::String rangeText(double low, double high)
+{
+    if (high < 1000.0)
+        return juce::String(juce::roundToInt(low)) + toText("–") + juce::String(juce::roundToInt(high)) + " Hz";
+    const auto kilo = [](double f)
+    {
+        return juce::String(f / 1000.0, f < 1000.0 ? 2 : 1);
+    };
+    return kilo(low) + toText("–") + kilo(high) + " kHz";
+}
+
+juce::String amplitudeText(double amplitude)
+{
+    if (amplitude <= 0.0)
+        return "silent";
+    return juce::String(20.0 * std::log10(amplitude), 1) + " dB";
+}
+
+juce::String laneName(const Clip& clip, Lane lane)
+{
+    switch (lane.kind)
+    {
+    case LaneKind::envelope:
+        return "Envelope";
+    case LaneKind::centroid:
+        return "Centroid";
+    case LaneKind::noise:
+        return lane.index < clip.noise.size()
+                   ? "Noise " + rangeText(clip.noise[lane.index].lowFrequency, clip.noise[lane.index].highFrequency)
+                   : juce::String("Noise");
+    default:
+        return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
+    }
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How lanes and their values are named and coloured.
+
+#include "editor/Theme.h"
+
+#include <pacini/clip/edits/Lane.h>
+
+namespace pacini::editor
+{
+
+/// The colour of a lane: bands go through the hues by frequency.
+[[nodiscard]] juce::Colour laneColour(const Clip& clip, Lane lane, const Palette& palette, bool dark);
+
+/// "62 Hz", "1.2 kHz".
+[[nodiscard]] juce::String hertzText(double frequency);
+/// "60–125 Hz", "0.50–2.0 kHz".
+[[nodiscard]] juce::String rangeText(double low, double high);
+/// "-12.3 dB", "silent".
+[[nodiscard]] juce::String amplitudeText(double amplitude);
+/// The name of a lane for people.
+[[nodiscard]] juce::String laneName(const Clip& clip, Lane lane);
+
+} // namespace pacini::editor
