@@ -41,6 +41,8 @@ struct ByKind : Cases...
 {
     using Cases::operator()...;
 };
+template <typename... Cases>
+ByKind(Cases...) -> ByKind<Cases...>; // Clang needs it up to version 16
 } // namespace
 
 std::string editTitle(const Edit& edit)

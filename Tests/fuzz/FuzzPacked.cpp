@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     FUZZ_CHECK(validate(*clip).ok());
     // A few random bytes can hold thousands of points; packing those again teaches nothing new and takes longest.
-    if (breakpointCount(*clip) > 500)
+    if (breakpointCount(*clip) > 200)
         return 0;
     const PackParams params{16, 1000};
     const auto packed = packClip(*clip, params);

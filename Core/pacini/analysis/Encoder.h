@@ -252,11 +252,11 @@ private:
             importance[i] += weight;
         }
 
-        Curve fit(CurveFitter& fitter, double otherwise, double price)
+        Curve fit(CurveFitter& curves, double otherwise, double price)
         {
             for (std::size_t i = 0; i < sums.size(); ++i)
                 sums[i] = importance[i] > 1e-9 ? sums[i] / importance[i] : i > 0 ? sums[i - 1] : otherwise;
-            return fitter.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
+            return curves.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
         }
 
     private:
