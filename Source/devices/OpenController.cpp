@@ -1,6 +1,6 @@
 #include "devices/OpenController.h"
 
-#if defined(__linux__) && !defined(PACINI_PLAY_BY_HIDAPI)
+#if defined(__linux__) && !defined(PACINI_AS_OTHER_SYSTEMS)
 #include "devices/HidrawController.h"
 #else
 #include "devices/HidapiController.h"
@@ -11,7 +11,7 @@ namespace pacini::devices
 
 Result<std::unique_ptr<OpenController>> OpenController::open(const std::string& path)
 {
-#if defined(__linux__) && !defined(PACINI_PLAY_BY_HIDAPI)
+#if defined(__linux__) && !defined(PACINI_AS_OTHER_SYSTEMS)
     return openHidraw(path);
 #else
     return openByHidapi(path);

@@ -18,7 +18,7 @@ namespace pacini::devices
 {
 
 /// On Linux a HidrawController, elsewhere a HidapiController; on Linux also that one when this is compiled with
-/// PACINI_PLAY_BY_HIDAPI, by which it is tested.
+/// PACINI_AS_OTHER_SYSTEMS, by which it is tested.
 class OpenController : public ReportSink
 {
 public:
