@@ -10,6 +10,9 @@
 #else
 #include <array>
 #include <memory>
+#if defined(__APPLE__)
+#include <hidapi_darwin.h>
+#endif
 #endif
 
 namespace pacini::devices
@@ -34,7 +37,14 @@ std::vector<std::byte> hidDescriptor(const hid_device_info& info)
     constexpr unsigned short hapticPage = 0x0E;
     if (info.usage_page != hapticPage)
         return {};
+#if defined(__APPLE__)
+    const int exclusive = hid_darwin_get_open_exclusive();
+    hid_darwin_set_open_exclusive(0); // a mouse goes on moving while it is looked into
+#endif
     const std::unique_ptr<hid_device, decltype(&hid_close)> device(hid_open_path(info.path), &hid_close);
+#if defined(__APPLE__)
+    hid_darwin_set_open_exclusive(exclusive);
+#endif
     std::array<unsigned char, HID_API_MAX_REPORT_DESCRIPTOR_SIZE> bytes{};
     const int length = device ? hid_get_report_descriptor(device.get(), bytes.data(), bytes.size()) : 0;
     std::vector<std::byte> descriptor;

@@ -135,6 +135,19 @@ TEST_CASE("Maxima are unsigned where the minimum is not negative", "[devices]")
     CHECK(fieldOf("36 00 80 46 00 80").physicalMaximum == -32768);
 }
 
+TEST_CASE("What was pushed comes back", "[devices]")
+{
+    const HidReports reports =
+        reportsOf(padAround("15 81 25 7F 75 04 95 02 A4 05 0D 15 00 75 08 95 01 85 03 B4 09 30 81 02"), gamepad);
+    REQUIRE(reports.fields.size() == 2);
+    const HidField& last = reports.fields[1];
+    CHECK(last.report == 0);
+    CHECK(last.bit == 4);
+    CHECK(last.bits == 4);
+    CHECK(last.usage == hidUsage(0x01, 0x30));
+    CHECK(last.logicalMinimum == -127);
+}
+
 TEST_CASE("What breaks the rules is refused with its place", "[devices]")
 {
     const auto errorOf = [](const std::string& hex)
