@@ -64,10 +64,13 @@ Interruption::~Interruption()
 
 #else
 
+#include <signal.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
+#include <cstddef>
+#include <iterator>
 #include <thread>
 
 namespace pacini::cli
@@ -78,56 +81,93 @@ namespace
 std::atomic<int> interruptingSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-using SignalHandler = void (*)(int);
-SignalHandler formerInterrupt = SIG_DFL;
-SignalHandler formerTerminate = SIG_DFL;
+#if defined(_WIN32)
+
+constexpr int interrupting[] = {SIGINT, SIGTERM};
+using Action = void (*)(int);
+
+// Windows puts the usual action back by itself, and so a second signal ends the program.
+extern "C" void noteInterruptingSignal(int signal)
+{
+    interruptingSignal.store(signal);
+}
+
+Action take(int number) noexcept
+{
+    const Action former = ::signal(number, noteInterruptingSignal);
+    if (former == SIG_IGN)
+        ::signal(number, SIG_IGN);
+    return former;
+}
+
+void giveBack(int number, Action former) noexcept
+{
+    if (former != SIG_ERR)
+        ::signal(number, former);
+}
+
+#else
+
+constexpr int interrupting[] = {SIGINT, SIGTERM, SIGHUP};
+using Action = struct sigaction;
 
 extern "C" void noteInterruptingSignal(int signal)
 {
     interruptingSignal.store(signal);
-    std::signal(signal, SIG_DFL); // a second one ends the program
 }
 
-SignalHandler take(int signal) noexcept
+Action take(int number) noexcept
 {
-    const SignalHandler former = std::signal(signal, noteInterruptingSignal);
-    if (former == SIG_IGN)
-        std::signal(signal, SIG_IGN);
-    return former == SIG_ERR ? SIG_DFL : former;
+    Action former = {};
+    Action action = {};
+    action.sa_handler = noteInterruptingSignal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND); // a second one ends the program
+    sigemptyset(&action.sa_mask);
+    if (::sigaction(number, nullptr, &former) == 0 && former.sa_handler != SIG_IGN)
+        ::sigaction(number, &action, nullptr);
+    return former;
 }
+
+void giveBack(int number, const Action& former) noexcept
+{
+    ::sigaction(number, &former, nullptr); // with its flags, which signal() would lose
+}
+
+#endif
+
+Action formerActions[std::size(interrupting)];
 } // namespace
 
-// Standard C++ knows SIGINT, also that of a console on Windows, and SIGTERM.
 Interruption::Interruption() noexcept
 {
     interruptingSignal.store(0);
-    formerInterrupt = take(SIGINT);
-    formerTerminate = take(SIGTERM);
+    for (std::size_t i = 0; i < std::size(interrupting); ++i)
+        formerActions[i] = take(interrupting[i]);
 }
 
 bool Interruption::wait(Seconds time) noexcept
 {
     using Clock = std::chrono::steady_clock;
-    constexpr auto look = std::chrono::milliseconds(10);
+    constexpr Clock::duration look = std::chrono::milliseconds(10);
     const auto end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time.value));
     while (interruptingSignal.load() == 0 && Clock::now() < end)
-        std::this_thread::sleep_for(std::min<Clock::duration>(look, end - Clock::now()));
+        std::this_thread::sleep_for(std::min(look, end - Clock::now()));
     came = interruptingSignal.load();
     return came != 0;
 }
 
 void Interruption::release() noexcept
 {
-    std::signal(SIGINT, formerInterrupt);
-    std::signal(SIGTERM, formerTerminate);
+    for (std::size_t i = 0; i < std::size(interrupting); ++i)
+        giveBack(interrupting[i], formerActions[i]);
 }
 
 Interruption::~Interruption()
 {
     release();
     if (came != 0)
-        std::raise(came);
+        ::raise(came);
 }
 
 } // namespace pacini::cli

@@ -62,10 +62,10 @@ std::string shownName(const devices::Controller& controller)
 }
 
 /// A clip without events would not be felt, and nobody would know why.
-void warnOfSilence(Console& console, const devices::ControllerModel& model)
+void warnOfSilence(Console& console, const std::string& clip, const devices::ControllerModel& model)
 {
     if (model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts())
-        console.warning("", "the device has no lasting waveform; of the clip it plays only the events");
+        console.warning(clip, "only the events are played, as the device has no lasting waveform");
 }
 } // namespace
 
@@ -223,7 +223,7 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
         console.error("", model.error());
         return Exit::failed;
     }
-    warnOfSilence(console, *model);
+    warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);
     devices::RumblePlayer player(*model, devices::ClipRumble(clip, range, Decibels(intensity), *model), sink, clock);
@@ -251,7 +251,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     if (!*opened)
         return Exit::failed; // the signal ends the program
     const auto& [controller, target, model] = **opened;
-    warnOfSilence(console, model);
+    warnOfSilence(console, input, model);
     devices::SteadyClock clock;
     devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model), *target, clock);
     const double length = range.to.value - range.from.value;

@@ -49,6 +49,8 @@ public:
         std::vector<std::byte> answer(bytes);
         answer.at(0) = static_cast<std::byte>(report);
         const int length = ::ioctl(file.number, HIDIOCGFEATURE(bytes), answer.data());
+        if (length < 0 && errno == EPIPE)
+            return Error{ErrorCode::io, "", "does not tell what it can play"};
         if (length < 0)
             return controllerError(errno);
         answer.resize(std::min(static_cast<std::size_t>(length), bytes));

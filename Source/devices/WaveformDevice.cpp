@@ -44,7 +44,8 @@ ReportField placeOf(const HidReports& reports, const HidField& trigger, HidUsage
                     std::clamp<std::int64_t>(number, 0, std::numeric_limits<std::int32_t>::max()));
             };
             const std::int32_t least = within(field.logicalMinimum);
-            const std::int32_t most = within(field.logicalMaximum);
+            const std::int64_t fits = (std::int64_t{1} << field.bits) - 1;
+            const std::int32_t most = within(std::min(field.logicalMaximum, fits));
             if (field.bit > std::numeric_limits<std::uint16_t>::max() || most < 1 || most < least)
                 return {};
             return {static_cast<std::uint16_t>(field.bit), field.bits, least, most};

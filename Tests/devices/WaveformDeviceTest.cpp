@@ -80,6 +80,7 @@ TEST_CASE("A haptic device is one that can be triggered, tells waveforms and can
     CHECK(isOne(dial));
     CHECK_FALSE(isOne(changed("15 01 25 07 09 21", "15 01 25 01 09 21")));       // no ordinal for stop
     CHECK_FALSE(isOne(changed("15 01 25 07 09 21", "15 01 25 02 09 21")));       // nor one for a waveform
+    CHECK_FALSE(isOne(changed("25 07 09 21", "25 07 75 01 09 21")));             // too few bits for stop
     CHECK_FALSE(isOne(changed("75 08 95 01 09 24", "75 08 95 60 09 24")));       // longer than any report here
     CHECK_FALSE(isOne(changed("05 0E 09 01 A1 02 15", "05 0E 09 02 A1 02 15"))); // another collection
 }

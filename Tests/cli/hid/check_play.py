@@ -122,10 +122,10 @@ def claims(devices):
 
         check_listing()
         check_stream(controller, short)
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             check_signal(controller, long, number)
         if not BY_HIDAPI:
-            for number in (signal.SIGHUP, signal.SIGSEGV, signal.SIGABRT):
+            for number in (signal.SIGSEGV, signal.SIGABRT):
                 check_signal(controller, long, number)
             check_second_program(controller, long)
         check_messages(short)
