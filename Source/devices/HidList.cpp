@@ -1,8 +1,8 @@
 #include "devices/HidList.h"
 
+#if defined(PACINI_HAS_HIDAPI)
 #include "devices/HidSource.h"
 
-#if defined(PACINI_HAS_HIDAPI)
 #include <hidapi.h>
 
 #include <algorithm>
