@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace pacini::cli
@@ -18,7 +19,7 @@ using devices::ControllerHaptics;
 using devices::ControllerModel;
 using devices::Transport;
 
-constexpr std::array<std::pair<std::string_view, ControllerModel>, 7> knownModels{{
+constexpr std::array<std::pair<std::string_view, ControllerModel>, 8> knownModels{{
     {"switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
     {"switch-usb", {ControllerHaptics::hdRumble, Transport::usb}},
     {"dualshock4", {ControllerHaptics::dualShock4, Transport::usb}},
@@ -26,6 +27,7 @@ constexpr std::array<std::pair<std::string_view, ControllerModel>, 7> knownModel
     {"dualsense", {ControllerHaptics::dualSense, Transport::usb}},
     {"dualsense-bluetooth", {ControllerHaptics::dualSense, Transport::bluetooth}},
     {"xbox", {ControllerHaptics::xbox, Transport::bluetooth}},
+    {"waveforms", {ControllerHaptics::waveforms, Transport::usb, devices::standardTrigger()}},
 }};
 
 char lowered(char c)
@@ -65,6 +67,8 @@ std::string_view hapticsName(ControllerHaptics haptics)
         return "DualSense";
     case ControllerHaptics::xbox:
         return "Xbox";
+    case ControllerHaptics::waveforms:
+        return "Waveforms";
     }
     return "";
 }
@@ -114,6 +118,12 @@ Result<std::optional<Controller>> chosenController(const std::vector<Controller>
         if (holdsText(controller.name, named))
             meant.push_back(controller);
     }
+    const auto isGamePad = [](const Controller& controller)
+    {
+        return controller.haptics != ControllerHaptics::waveforms;
+    };
+    if (named.empty() && std::any_of(meant.begin(), meant.end(), isGamePad))
+        meant.erase(std::remove_if(meant.begin(), meant.end(), std::not_fn(isGamePad)), meant.end());
     if (meant.size() > 1)
         return Error{
             ErrorCode::invalidArgument, "",

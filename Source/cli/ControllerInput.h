@@ -1,6 +1,6 @@
 #pragma once
 
-// Game controllers that the user names.
+// Game controllers and other haptic devices that the user names.
 
 #include "devices/ControllerReports.h"
 #include "devices/HidList.h"
@@ -28,8 +28,8 @@ namespace pacini::cli
 [[nodiscard]] devices::ControllerModel modelNamed(std::string_view name);
 
 /// The one of `connected` that is meant: by its number from 1 on, its path, or a part of its name, upper and lower case
-/// alike; the only one when nothing is named. Nothing when it is not there. Errors: `invalidArgument` when several
-/// could be meant.
+/// alike. When nothing is named it is the only game controller, or without any the only device: a notebook's touchpad
+/// is always there. Nothing when it is not there. Errors: `invalidArgument` when several could be meant.
 [[nodiscard]] Result<std::optional<devices::Controller>>
 chosenController(const std::vector<devices::Controller>& connected, const std::string& named);
 

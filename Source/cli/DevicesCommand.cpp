@@ -14,10 +14,13 @@ namespace pacini::cli
 
 CLI::App* DevicesCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("devices", "List the connected game controllers that can play haptics");
+    auto* command =
+        app.add_subcommand("devices", "List the connected game controllers and other devices that can play haptics");
     command->add_flag("--json", json, "Print one JSON object");
-    command->footer("'pacini play CLIP --device N' plays on the one with that number.\n"
-                    "Known are Joy-Con, Switch Pro, DualShock 4, DualSense and, on Bluetooth, Xbox controllers.");
+    command->footer(
+        "'pacini play CLIP --device N' plays on the one with that number.\n"
+        "Known are Joy-Con, Switch Pro, DualShock 4, DualSense and, on Bluetooth, Xbox controllers, and as\n"
+        "'Waveforms' what has waveforms of HID page 0x0E: some touchpads, mice, pens and dials.");
     return command;
 }
 

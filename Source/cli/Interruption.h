@@ -9,8 +9,8 @@ namespace pacini::cli
 
 /// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but waits to be taken in; at the end of
 /// its life, that signal does what it would have done. A second one ends the program at once. Signals that the program
-/// was started to ignore stay ignored; threads that are started meanwhile leave them all alone. Where there are no such
-/// signals, none comes.
+/// was started to ignore stay ignored; threads that are started meanwhile leave them all alone. On systems other than
+/// Linux there is one of these at a time; Windows has no SIGHUP.
 class Interruption
 {
 public:

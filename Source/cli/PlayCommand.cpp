@@ -60,14 +60,23 @@ std::string shownName(const devices::Controller& controller)
 {
     return printable(controller.name.empty() ? controller.path : controller.name);
 }
+
+/// A clip without events would not be felt, and nobody would know why.
+void warnOfSilence(Console& console, const std::string& clip, const devices::ControllerModel& model)
+{
+    if (model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts())
+        console.warning(clip, "only the events are played, as the device has no lasting waveform");
+}
 } // namespace
 
 CLI::App* PlayCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("play", "Play a clip on a game controller");
+    auto* command = app.add_subcommand("play", "Play a clip on a game controller or another haptic device");
     command->add_option("input", input, "A clip of any format")->type_name("CLIP");
     command
-        ->add_option("--device", device, "Its number in 'pacini devices', its path, or a part of its name [the only]")
+        ->add_option("--device", device,
+                     "Its number in 'pacini devices', its path, or a part of its name [the only "
+                     "game controller]")
         ->type_name("N|NAME");
     command->add_option("--intensity", intensity, "dB by which it is played stronger, or weaker")
         ->capture_default_str()
@@ -113,6 +122,22 @@ Result<devices::PlayRange> PlayCommand::rangeIn(const Clip& clip) const
     return devices::PlayRange{Seconds(from), Seconds(end), loop};
 }
 
+Result<PlayCommand::Opened> PlayCommand::openOne(const devices::Controller& controller)
+{
+    const auto named = [&](Error error)
+    {
+        error.where = shownName(controller);
+        return error;
+    };
+    auto opened = devices::OpenController::open(controller.path);
+    if (!opened)
+        return named(opened.error());
+    const auto model = devices::modelOf(controller, **opened);
+    if (!model)
+        return named(model.error());
+    return Opened{controller, std::move(opened).value(), *model};
+}
+
 Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& console, Interruption& interruption) const
 {
     // Right after it is connected, a controller may not be opened yet: the system still gives it to the user.
@@ -129,15 +154,11 @@ Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& cons
             return chosen.error();
         if (*chosen)
         {
-            auto opened = devices::OpenController::open((*chosen)->path);
+            auto opened = openOne(**chosen);
             if (opened)
-                return std::optional(Opened{**chosen, std::move(opened).value()});
+                return std::optional(std::move(opened).value());
             if (!wait || ++refused > patience)
-            {
-                Error error = opened.error();
-                error.where = shownName(**chosen);
-                return error;
-            }
+                return opened.error();
         }
         else if (!wait)
             return Error{ErrorCode::io, "",
@@ -174,26 +195,38 @@ Exit PlayCommand::run(Console& console)
     return dryRun ? list(console, read->clip, *range) : play(console, read->clip, *range);
 }
 
+Result<devices::ControllerModel> PlayCommand::listedModel() const
+{
+    if (!like.empty())
+        return modelNamed(like);
+    const auto connected = devices::connectedControllers();
+    if (!connected)
+        return connected.error();
+    const auto chosen = chosenController(*connected, device);
+    if (!chosen)
+        return chosen.error();
+    if (!*chosen)
+        return Error{ErrorCode::io, "", "no such controller is connected; --like names a kind"};
+    if (!(*chosen)->waveforms)
+        return devices::ControllerModel{(*chosen)->haptics, (*chosen)->transport};
+    const auto opened = openOne(**chosen); // only it can tell its waveforms
+    if (!opened)
+        return opened.error();
+    return opened->model;
+}
+
 Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRange& range) const
 {
-    devices::ControllerModel model = modelNamed(like);
-    if (like.empty())
+    const auto model = listedModel();
+    if (!model)
     {
-        const auto connected = devices::connectedControllers();
-        const auto chosen = connected ? chosenController(*connected, device)
-                                      : Result<std::optional<devices::Controller>>(connected.error());
-        if (!chosen || !*chosen)
-        {
-            console.error("", chosen ? Error{ErrorCode::io, "", "no such controller is connected; --like names a kind"}
-                                     : chosen.error());
-            return Exit::failed;
-        }
-        model = {(*chosen)->haptics, (*chosen)->transport};
+        console.error("", model.error());
+        return Exit::failed;
     }
+    warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);
-    devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model.haptics), sink,
-                                 clock);
+    devices::RumblePlayer player(*model, devices::ClipRumble(clip, range, Decibels(intensity), *model), sink, clock);
     static_cast<void>(player.finish());
     Json packets = Json::array();
     for (const auto& [time, report] : sink.packets)
@@ -217,11 +250,10 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     }
     if (!*opened)
         return Exit::failed; // the signal ends the program
-    auto& [controller, target] = **opened;
-    const devices::ControllerModel model{controller.haptics, controller.transport};
+    const auto& [controller, target, model] = **opened;
+    warnOfSilence(console, input, model);
     devices::SteadyClock clock;
-    devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model.haptics), *target,
-                                 clock);
+    devices::RumblePlayer player(model, devices::ClipRumble(clip, range, Decibels(intensity), model), *target, clock);
     const double length = range.to.value - range.from.value;
     bool ended = false;
     while (!ended && player.isPlaying())

@@ -14,7 +14,7 @@
 namespace pacini::cli
 {
 
-/// `pacini play`: a clip on a game controller.
+/// `pacini play`: a clip on a game controller or another haptic device.
 class PlayCommand : public Command
 {
 public:
@@ -26,7 +26,14 @@ private:
     {
         devices::Controller controller;
         std::unique_ptr<devices::OpenController> device;
+        devices::ControllerModel model;
     };
+
+    /// Errors: those of OpenController::open() and modelOf(), with the device's name. [worker]
+    [[nodiscard]] static Result<Opened> openOne(const devices::Controller& controller);
+
+    /// What --dry-run is for.
+    [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
 
     /// What is wrong with the options.
     [[nodiscard]] std::optional<Error> usageError() const;

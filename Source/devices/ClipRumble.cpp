@@ -10,9 +10,16 @@ namespace pacini::devices
 
 namespace
 {
+constexpr double packetRounding = 1e-6; // of a packet
+
 bool isHigh(Hertz frequency) noexcept
 {
     return frequency >= carrierBorder;
+}
+
+std::int64_t packetsIn(double intervals) noexcept
+{
+    return std::max<std::int64_t>(std::llround(intervals), 1);
 }
 } // namespace
 
@@ -42,9 +49,9 @@ MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexce
             std::max(motors.weak, amplitude * std::sqrt(pulse.sharpness))};
 }
 
-ClipRumble::ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, ControllerHaptics controller)
-    : haptics(controller),
-      interval(pacingOf(controller).interval),
+ClipRumble::ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
+    : model(controller),
+      interval(pacingOf(controller.haptics).interval),
       packets(std::move(clip), range, intensity.gain(), interval),
       handover({.interval = interval})
 {
@@ -53,10 +60,12 @@ ClipRumble::ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, Co
 std::optional<RumbleState> ClipRumble::at(std::int64_t packet)
 {
     const PacketContent content = packets.at(packet);
-    RumbleState state = silentState(haptics);
+    RumbleState state = silentState(model.haptics);
     const RumbleState silence = state;
-    if (haptics == ControllerHaptics::hdRumble)
+    if (model.haptics == ControllerHaptics::hdRumble)
         state = sidesFor(content);
+    else if (model.haptics == ControllerHaptics::waveforms)
+        state = waveformFor(packet, content);
     else
         state = motorsFor(packet, content);
     const auto count = packets.count();
@@ -82,6 +91,38 @@ MotorLevels ClipRumble::motorsFor(std::int64_t packet, const PacketContent& cont
     }
     const MotorLevels motors = motorsOf(content.bands);
     return packet < motorEventEnd ? withPulse(motors, motorEvent) : motors;
+}
+
+WaveformState ClipRumble::waveformFor(std::int64_t packet, const PacketContent& content) noexcept
+{
+    if (model.trigger.event == 0)
+        return lastingFor(packet, motorsFor(packet, content));
+    if (content.event)
+    {
+        played = {Waveform::event, content.event->tone.amplitude, true};
+        playedEnd = packet + packetsIn(std::ceil(model.trigger.eventTime.value / interval.value - packetRounding));
+        return played;
+    }
+    if (played.waveform == Waveform::event && packet < playedEnd)
+    {
+        played.begins = false;
+        return played;
+    }
+    return lastingFor(packet, motorsOf(content.bands));
+}
+
+WaveformState ClipRumble::lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept
+{
+    const double intensity = std::min(std::hypot(levels.strong, levels.weak), 1.0);
+    if (!(intensity > 0.0) || !model.trigger.lasts())
+        return played = {};
+    const Waveform waveform = levels.strong > levels.weak ? Waveform::rumble : Waveform::buzz;
+    const Seconds time = waveform == Waveform::rumble ? model.trigger.rumbleTime : model.trigger.buzzTime;
+    const bool goesOn = played.waveform == waveform && (time.value <= 0.0 || packet < playedEnd);
+    if (!goesOn)
+        playedEnd = packet + packetsIn(std::floor(time.value / interval.value + packetRounding));
+    // What goes on by itself needs no trigger of its own; one that ends does.
+    return played = {waveform, intensity, !goesOn && time.value > 0.0};
 }
 
 } // namespace pacini::devices

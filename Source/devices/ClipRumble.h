@@ -29,6 +29,10 @@ namespace pacini::devices
 [[nodiscard]] MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept;
 
 /// Asked for one packet after another.
+///
+/// On waveforms (see chosenWaveforms()), an event is triggered in its packet, as strong as it is, and what lasts gives
+/// way to it until it has ended. What lasts follows the levels of two motors: where the strong one is ahead it is a
+/// rumble, otherwise a buzz, as intense as both together.
 class ClipRumble
 {
 public:
@@ -36,7 +40,7 @@ public:
     /// plays emphasis on motors for 30 ms.
     static constexpr Seconds motorPulse{0.030};
 
-    ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, ControllerHaptics controller);
+    ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller);
 
     /// What a packet plays; packets only go forward, some may be left out. After the end come those in which the last
     /// sound fades out, then nothing. [worker]
@@ -46,12 +50,17 @@ private:
     [[nodiscard]] SidesRumble sidesFor(const PacketContent& content) noexcept;
     [[nodiscard]] MotorLevels motorsFor(std::int64_t packet, const PacketContent& content) noexcept;
 
-    ControllerHaptics haptics;
+    [[nodiscard]] WaveformState waveformFor(std::int64_t packet, const PacketContent& content) noexcept;
+    [[nodiscard]] WaveformState lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept;
+
+    ControllerModel model;
     Seconds interval;
     ClipPackets packets;
     RumbleHandover handover;
     EventPulse motorEvent;
     std::int64_t motorEventEnd = 0; ///< the packet after it
+    WaveformState played;
+    std::int64_t playedEnd = 0; ///< the packet at which what is played has ended by itself
 };
 
 } // namespace pacini::devices

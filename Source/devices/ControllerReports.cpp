@@ -20,7 +20,15 @@ RumbleState silentState(ControllerHaptics haptics) noexcept
 {
     if (haptics == ControllerHaptics::hdRumble)
         return SidesRumble{};
+    if (haptics == ControllerHaptics::waveforms)
+        return WaveformState{};
     return MotorLevels{};
+}
+
+bool beginsAnew(const RumbleState& state) noexcept
+{
+    const auto* waveform = std::get_if<WaveformState>(&state);
+    return waveform != nullptr && waveform->begins;
 }
 
 Pacing pacingOf(ControllerHaptics haptics) noexcept
@@ -32,6 +40,8 @@ Pacing pacingOf(ControllerHaptics haptics) noexcept
         return {.interval = Seconds(0.015), .refresh = Seconds(0.015)};
     case ControllerHaptics::xbox:
         return {.interval = Seconds(0.016), .refresh = twiceASecond};
+    case ControllerHaptics::waveforms:
+        return {.interval = Seconds(0.020), .refresh = twiceASecond};
     case ControllerHaptics::dualShock4:
     case ControllerHaptics::dualSense:
         break;
@@ -59,6 +69,9 @@ Report reportOf(const ControllerModel& model, const RumbleState& state, unsigned
     const auto* sides = std::get_if<SidesRumble>(&state);
     if (model.haptics == ControllerHaptics::hdRumble)
         return switchRumbleReport(counter, sides != nullptr ? *sides : SidesRumble{});
+    const auto* waveform = std::get_if<WaveformState>(&state);
+    if (model.haptics == ControllerHaptics::waveforms)
+        return waveformReport(model.trigger, waveform != nullptr ? *waveform : WaveformState{});
     const auto* given = std::get_if<MotorLevels>(&state);
     const MotorLevels motors = given != nullptr ? *given : MotorLevels{};
     if (model.haptics == ControllerHaptics::xbox)

@@ -1,11 +1,12 @@
 #pragma once
 
-// What each kind of controller is sent, and how often.
+// What each kind of controller, or other haptic device, is sent, and how often.
 
 #include "devices/KnownControllers.h"
 #include "devices/MotorLevels.h"
 #include "devices/Report.h"
 #include "devices/SwitchReports.h"
+#include "devices/WaveformReport.h"
 
 #include <pacini/foundation/Units.h>
 
@@ -20,11 +21,15 @@ struct ControllerModel
 {
     ControllerHaptics haptics = ControllerHaptics::hdRumble;
     Transport transport = Transport::unknown;
+    WaveformTrigger trigger{}; ///< of waveforms: those of the device that is open
     bool operator==(const ControllerModel&) const = default;
 };
 
-/// What a controller is to play: SidesRumble for HD rumble, MotorLevels for the others.
-using RumbleState = std::variant<SidesRumble, MotorLevels>;
+/// What a controller is to play: SidesRumble for HD rumble, WaveformState for waveforms, MotorLevels for the others.
+using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState>;
+
+/// Whether a state is to be sent even if it is the one that was sent before. [any]
+[[nodiscard]] bool beginsAnew(const RumbleState& state) noexcept;
 
 /// The state in which nothing moves. [any]
 [[nodiscard]] RumbleState silentState(ControllerHaptics haptics) noexcept;
@@ -41,7 +46,9 @@ struct Pacing
 /// HD rumble: every 15 ms, as a Switch does; the controller stops by itself when it hears nothing for long. Motors keep
 /// their level: changes at most every 10 ms (Sony) or 16 ms (Xbox, whose firmware can crash on reports less than 10 ms
 /// apart), repeats twice a second, well within the 2.55 s of an Xbox report. None needs anything sent while it is
-/// silent. Sources: dekuNukem, Nintendo_Switch_Reverse_Engineering; Linux, hid-nintendo.c; xpadneo, rumble throttle.
+/// silent. Waveforms: at most every 20 ms, which a pen's radio keeps up with and which is no shorter than most clicks;
+/// what lasts is triggered again twice a second, as devices may cut it off after one. Sources: dekuNukem,
+/// Nintendo_Switch_Reverse_Engineering; Linux, hid-nintendo.c; xpadneo, rumble throttle; for waveforms ours.
 /// [any]
 [[nodiscard]] Pacing pacingOf(ControllerHaptics haptics) noexcept;
 

@@ -1,11 +1,14 @@
 #include "devices/HidList.h"
 
 #if defined(PACINI_HAS_HIDAPI)
+#include "devices/HidSource.h"
+
 #include <hidapi.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #endif
 
 namespace pacini::devices
@@ -58,6 +61,12 @@ Transport transportOf([[maybe_unused]] const hid_device_info& info)
 #endif
     return Transport::unknown;
 }
+
+std::optional<WaveformDevice> waveformsOf(const hid_device_info& info)
+{
+    const auto device = waveformDevice(hidDescriptor(info));
+    return device ? *device : std::nullopt;
+}
 } // namespace
 
 Result<std::vector<Controller>> connectedControllers()
@@ -68,8 +77,16 @@ Result<std::vector<Controller>> connectedControllers()
                                                                                   &hid_free_enumeration);
     std::vector<Controller> controllers;
     for (const hid_device_info* info = first.get(); info != nullptr; info = info->next)
-        if (const auto haptics = controllerHaptics(info->vendor_id, info->product_id); haptics && info->path != nullptr)
-            controllers.push_back({utf8(info->product_string), *haptics, transportOf(*info), info->path});
+    {
+        if (info->path == nullptr)
+            continue;
+        Controller controller{utf8(info->product_string), ControllerHaptics::waveforms, transportOf(*info), info->path};
+        if (const auto haptics = controllerHaptics(info->vendor_id, info->product_id))
+            controller.haptics = *haptics;
+        else if (!(controller.waveforms = waveformsOf(*info)))
+            continue;
+        controllers.push_back(std::move(controller));
+    }
     // A device with several uses is listed once for each.
     std::sort(controllers.begin(), controllers.end(),
               [](const Controller& a, const Controller& b) { return a.path < b.path; });

@@ -1,11 +1,13 @@
 #pragma once
 
-// The game controllers that are connected.
+// The game controllers and other haptic devices that are connected.
 
 #include "devices/KnownControllers.h"
+#include "devices/WaveformDevice.h"
 
 #include <pacini/foundation/Result.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,14 @@ struct Controller
     std::string name; ///< as the controller gives it, UTF-8; may be empty
     ControllerHaptics haptics = ControllerHaptics::hdRumble;
     Transport transport = Transport::unknown;
-    std::string path; ///< what the system calls it
+    std::string path;                          ///< what the system calls it
+    std::optional<WaveformDevice> waveforms{}; ///< for ControllerHaptics::waveforms
 };
 
-/// The connected controllers of controllerHaptics(), sorted by path, each once. Listing needs no right to open them.
-/// Errors: `io` when this was built without hidapi, or the system does not list its devices. [worker]
+/// The connected controllers of controllerHaptics() and the devices of waveformDevice(), sorted by path, each once. On
+/// Linux, listing needs no right to open them; on other systems only devices that are haptic as a whole are looked
+/// into, such as mice, as the system keeps touchpads for itself. Errors: `io` when this was built without hidapi, or
+/// the system does not list its devices. [worker]
 [[nodiscard]] Result<std::vector<Controller>> connectedControllers();
 
 } // namespace pacini::devices

@@ -9,13 +9,14 @@
 namespace pacini::devices
 {
 
-/// What moves a controller.
+/// What moves a controller, or another haptic device.
 enum class ControllerHaptics
 {
     hdRumble,   ///< SwitchReports.h
     dualShock4, ///< SonyReports.h
     dualSense,  ///< SonyReports.h
     xbox,       ///< XboxReport.h
+    waveforms,  ///< WaveformReport.h
 };
 
 /// How a controller is connected.

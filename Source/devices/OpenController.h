@@ -2,52 +2,37 @@
 
 // A controller that is open for writing.
 
-#include "devices/EmergencyStop.h"
+#include "devices/ControllerReports.h"
+#include "devices/HidList.h"
 #include "devices/ReportSink.h"
 
 #include <pacini/foundation/Result.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pacini::devices
 {
 
-/// Writes to Linux' hidraw node itself instead of through hidapi, which adds nothing there and hides what is needed:
-/// the number of the open file, for the last packet of a crash and for the lock, and the reason when something fails.
+/// On Linux a HidrawController, elsewhere a HidapiController; on Linux also that one when this is compiled with
+/// PACINI_AS_OTHER_SYSTEMS, by which it is tested.
 class OpenController : public ReportSink
 {
 public:
-    /// Opens `path` of connectedControllers() and locks it against other programs that play by Pacini; others are not
-    /// kept away. Errors: `io`: no right (the message tells what to do), in use, gone, or not on Linux. [worker]
+    /// Opens `path` of connectedControllers(). Errors: `io`: no right (the message tells what to do), in use, gone, or
+    /// not possible in this build. [worker]
     [[nodiscard]] static Result<std::unique_ptr<OpenController>> open(const std::string& path);
 
-    ~OpenController() override;
-
-    void prepare(const StopReports& stops) override { emergency.arm(stops); }
-
-    /// Errors: `io`: the controller is gone, or has refused. Returns within seconds, the time that Linux gives a
-    /// controller to answer.
-    [[nodiscard]] Result<void> send(const Report& report) override;
-
-private:
-    /// Closes at the end of its life, after all that uses it.
-    struct File
-    {
-        explicit File(int openFile) noexcept : number(openFile) {}
-        File(const File&) = delete;
-        File& operator=(const File&) = delete;
-        ~File();
-        int number;
-    };
-
-    explicit OpenController(int openFile) noexcept : file(openFile), emergency(openFile) {}
-
-    File file;
-    EmergencyStop emergency;
+    /// Asks for a feature report: its bytes, at most `bytes` of them, the number first, 0 where reports have none.
+    /// Errors: `io`. [worker]
+    [[nodiscard]] virtual Result<std::vector<std::byte>> feature(std::uint8_t report, std::size_t bytes) = 0;
 };
 
-/// Why a controller cannot be opened or written to, by the value of errno. [any]
-[[nodiscard]] Error controllerError(int errnoValue);
+/// What a controller that is open understands; one that plays waveforms is asked for them. Errors: those of
+/// chosenWaveforms(). [worker]
+[[nodiscard]] Result<ControllerModel> modelOf(const Controller& controller, OpenController& open);
 
 } // namespace pacini::devices

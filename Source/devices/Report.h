@@ -10,7 +10,7 @@
 namespace pacini::devices
 {
 
-/// A report of any of the controllers here. Owns no memory: signal handlers can send it.
+/// A report of any of the devices here. Owns no memory: signal handlers can send it.
 class Report
 {
 public:
@@ -21,6 +21,12 @@ public:
     template <std::size_t size>
     requires(size <= largest) Report(const std::array<std::byte, size>& content)
     noexcept : used(size) { std::copy(content.begin(), content.end(), bytes.begin()); }
+
+    /// At most `largest` bytes.
+    explicit Report(std::span<const std::byte> content) noexcept : used(content.size())
+    {
+        std::copy(content.begin(), content.end(), bytes.begin());
+    }
 
     [[nodiscard]] std::span<const std::byte> content() const noexcept { return std::span(bytes).first(used); }
 

@@ -29,7 +29,7 @@ public:
     {
         constexpr double rounding = 1e-6; // s
         const Report content = contentOf(state);
-        if (last == content)
+        if (last == content && !beginsAnew(state))
         {
             if (content == silence && time.value - since.value > pacing.quietAfter.value)
                 return false;

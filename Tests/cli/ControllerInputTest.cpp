@@ -50,3 +50,15 @@ TEST_CASE("Without a name the only controller is meant", "[cli]")
     CHECK(chosenPath({threeControllers()[1]}, "") == "/dev/hidraw1");
     CHECK(chosenPath(threeControllers(), "") == "error");
 }
+
+TEST_CASE("A haptic touchpad is meant when it is named, or when there is no game controller", "[cli]")
+{
+    const devices::Controller touchpad{"Touchpad", devices::ControllerHaptics::waveforms, devices::Transport::usb,
+                                       "/dev/hidraw8"};
+    const std::vector<devices::Controller> both{threeControllers()[1], touchpad};
+    CHECK(chosenPath(both, "") == "/dev/hidraw1");
+    CHECK(chosenPath(both, "touch") == "/dev/hidraw8");
+    CHECK(chosenPath(both, "2") == "/dev/hidraw8");
+    CHECK(chosenPath({touchpad}, "") == "/dev/hidraw8");
+    CHECK(chosenPath({touchpad, touchpad}, "") == "error");
+}

@@ -6,7 +6,7 @@ from command import CommandTest
 # kind: (s between packets, bytes of a report, reports before the first packet, after the last silent one)
 KINDS = {"switch": (0.015, 10, 1, 0), "switch-usb": (0.015, 10, 3, 0), "dualshock4": (0.010, 32, 0, 0),
          "dualshock4-bluetooth": (0.010, 78, 0, 0), "dualsense": (0.010, 48, 0, 1),
-         "dualsense-bluetooth": (0.010, 78, 0, 1), "xbox": (0.016, 9, 0, 0)}
+         "dualsense-bluetooth": (0.010, 78, 0, 1), "xbox": (0.016, 9, 0, 0), "waveforms": (0.020, 6, 0, 0)}
 
 
 class Play(CommandTest):

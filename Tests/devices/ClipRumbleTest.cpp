@@ -1,5 +1,6 @@
 #include "devices/ClipRumble.h"
 
+#include "devices/WaveformDevice.h"
 #include "support/Catch.h"
 
 #include <cmath>
@@ -42,6 +43,21 @@ const SidesRumble& sidesOf(const std::optional<RumbleState>& state)
 const MotorLevels& motorsOf(const std::optional<RumbleState>& state)
 {
     return std::get<MotorLevels>(*state);
+}
+
+const WaveformState& waveformOf(const std::optional<RumbleState>& state)
+{
+    return std::get<WaveformState>(*state);
+}
+
+// The first states that a device of waveforms plays.
+std::vector<WaveformState> waveformsOf(const Clip& clip, const WaveformTrigger& trigger, std::int64_t count)
+{
+    ClipRumble rumble(clip, wholeClip, 0_dB, {ControllerHaptics::waveforms, Transport::usb, trigger});
+    std::vector<WaveformState> states;
+    for (std::int64_t packet = 0; packet < count; ++packet)
+        states.push_back(waveformOf(rumble.at(packet)));
+    return states;
 }
 } // namespace
 
@@ -113,7 +129,7 @@ TEST_CASE("An event has the pulse of the decoder and does not play the energy of
 
 TEST_CASE("A pulse joins the carrier that it is nearest to and is over with its packet", "[devices]")
 {
-    ClipRumble rumble(steadyClip({{0.3, 0.9, 1.0}}, 0.25), wholeClip, 0_dB, ControllerHaptics::hdRumble);
+    ClipRumble rumble(steadyClip({{0.3, 0.9, 1.0}}, 0.25), wholeClip, 0_dB, {ControllerHaptics::hdRumble});
     RumbleTones before{}, with{}, after{};
     for (std::int64_t packet = 0; packet <= 21; ++packet)
     {
@@ -136,7 +152,7 @@ TEST_CASE("Motors share energy at the border of the carriers and are held up for
     CHECK(devices::motorsOf(bands).strong == Approx(0.5));
     CHECK(devices::motorsOf(bands).weak == Approx(1.0));
 
-    ClipRumble rumble(steadyClip({{0.32, 0.8, 0.36}}, 0.1), wholeClip, 0_dB, ControllerHaptics::xbox);
+    ClipRumble rumble(steadyClip({{0.32, 0.8, 0.36}}, 0.1), wholeClip, 0_dB, {ControllerHaptics::xbox});
     for (std::int64_t packet = 0; packet < 24; ++packet)
     {
         const MotorLevels levels = motorsOf(rumble.at(packet));
@@ -149,9 +165,10 @@ TEST_CASE("Motors share energy at the border of the carriers and are held up for
 
 TEST_CASE("What a clip plays fades out and ends", "[devices]")
 {
-    for (const auto haptics : {ControllerHaptics::hdRumble, ControllerHaptics::dualSense})
+    for (const auto haptics : {ControllerHaptics::hdRumble, ControllerHaptics::dualSense, ControllerHaptics::waveforms})
     {
-        ClipRumble rumble(steadyClip({{1.0, 1.0, 1.0}}), wholeClip, 20_dB, haptics);
+        ClipRumble rumble(steadyClip({{1.0, 1.0, 1.0}}), wholeClip, 20_dB,
+                          {haptics, Transport::usb, standardTrigger()});
         const Seconds interval = pacingOf(haptics).interval;
         std::int64_t packet = 0;
         std::optional<RumbleState> last;
@@ -164,5 +181,59 @@ TEST_CASE("What a clip plays fades out and ends", "[devices]")
         CHECK(static_cast<double>(packet) * interval.value > 1.0);
         CHECK(static_cast<double>(packet) * interval.value < 1.1);
         CHECK(last != silentState(haptics));
+    }
+}
+
+TEST_CASE("On waveforms an event has its own time, then what lasts goes on", "[devices]")
+{
+    WaveformTrigger trigger = standardTrigger();
+    trigger.eventTime = 45_ms; // ends within the third packet
+    const auto states = waveformsOf(steadyClip({{0.2, 0.8, 1.0}, {0.22, 0.9, 1.0}}, 0.25), trigger, 20);
+    for (std::size_t packet = 0; packet < states.size(); ++packet)
+    {
+        CAPTURE(packet);
+        const bool isEvent = packet >= 10 && packet < 14;
+        CHECK(states[packet].waveform == (isEvent ? Waveform::event : Waveform::rumble)); // 200 Hz
+        CHECK(states[packet].begins == (packet == 10 || packet == 11));
+        CHECK(states[packet].intensity == Approx(packet == 10 ? 0.8 : isEvent ? 0.9 : 0.25));
+    }
+}
+
+TEST_CASE("High bands buzz, low ones rumble, and both together are as intense as their energy", "[devices]")
+{
+    Clip clip = steadyClip({}, 0.3);
+    clip.bands.push_back({350.0, 400.0, 450.0, 0, {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.4}, {1.0, 0.4}}, {}});
+    const auto states = waveformsOf(clip, standardTrigger(), 45);
+    CHECK(states[10] == WaveformState{Waveform::rumble, states[10].intensity, false});
+    CHECK(states[10].intensity == Approx(0.3));
+    CHECK(states[40].waveform == Waveform::buzz);
+    CHECK(states[40].intensity == Approx(0.5));
+}
+
+TEST_CASE("A lasting waveform that ends is triggered again before it has ended", "[devices]")
+{
+    WaveformTrigger trigger = standardTrigger();
+    trigger.rumbleTime = 50_ms;
+    const auto states = waveformsOf(steadyClip(), trigger, 10);
+    for (std::size_t packet = 0; packet < states.size(); ++packet)
+        CHECK(states[packet].begins == (packet % 2 == 0)); // every 40 ms
+}
+
+TEST_CASE("A device without lasting waveforms plays events only, one without events short pieces", "[devices]")
+{
+    const Clip clip = steadyClip({{0.2, 1.0, 0.0}}, 0.1);
+    WaveformTrigger clicks = standardTrigger();
+    clicks.buzz = clicks.rumble = 0;
+    const auto clicked = waveformsOf(clip, clicks, 20);
+    WaveformTrigger rumbles = standardTrigger();
+    rumbles.event = 0;
+    const auto rumbled = waveformsOf(clip, rumbles, 20);
+    for (std::size_t packet = 0; packet < 20; ++packet)
+    {
+        CAPTURE(packet);
+        CHECK(clicked[packet].waveform == (packet == 10 ? Waveform::event : Waveform::stop));
+        CHECK(rumbled[packet].waveform == Waveform::rumble);
+        const bool isHeld = packet == 10 || packet == 11; // 30 ms
+        CHECK(rumbled[packet].intensity == Approx(isHeld ? 1.0 : 0.1));
     }
 }

@@ -1,5 +1,6 @@
 #include "devices/EmergencyStop.h"
 
+#include "devices/HidrawController.h"
 #include "devices/OpenController.h"
 #include "devices/SwitchReports.h"
 #include "support/Catch.h"

@@ -1,9 +1,11 @@
 #include "devices/RumblePlayer.h"
 
 #include "devices/SonyReports.h"
+#include "devices/WaveformDevice.h"
 #include "support/Catch.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -28,9 +30,9 @@ Clip toneClip(double duration, double start, double end)
     return clip;
 }
 
-ClipRumble rumbleOf(const Clip& clip, ControllerHaptics haptics, bool loop = false)
+ClipRumble rumbleOf(const Clip& clip, const ControllerModel& model, bool loop = false)
 {
-    return ClipRumble(clip, {Seconds(0.0), Seconds(clip.duration), loop}, 0_dB, haptics);
+    return ClipRumble(clip, {Seconds(0.0), Seconds(clip.duration), loop}, 0_dB, model);
 }
 
 struct SentPacket
@@ -78,7 +80,7 @@ struct Played
         : sink(clock)
     {
         sink.then = std::move(then);
-        RumblePlayer player(model, rumbleOf(clip, model.haptics), sink, clock);
+        RumblePlayer player(model, rumbleOf(clip, model), sink, clock);
         result = player.finish();
     }
 
@@ -152,6 +154,30 @@ TEST_CASE("Motors are told of changes and reminded twice a second", "[devices]")
     CHECK(times[4] == Approx(2.0).margin(0.033));
 }
 
+TEST_CASE("Events of waveforms that follow each other are each triggered, and the device is stopped in the end",
+          "[devices]")
+{
+    Clip clip = toneClip(0.5, 0.3, 0.4);
+    clip.transients = {{0.1, 1.0, 1.0}, {0.12, 1.0, 1.0}, {0.14, 1.0, 1.0}};
+    const Played played({ControllerHaptics::waveforms, Transport::usb, standardTrigger()}, clip);
+    std::vector<std::array<int, 3>> told; // ms, ordinal, intensity
+    for (const SentPacket& packet : played.sink.sent)
+        told.push_back({static_cast<int>(std::lround(1e3 * packet.time)),
+                        std::to_integer<int>(packet.report.content()[1]),
+                        std::to_integer<int>(packet.report.content()[2])});
+    CHECK(told == std::vector<std::array<int, 3>>{{0, 2, 0},
+                                                  {100, 3, 100},
+                                                  {120, 3, 100},
+                                                  {140, 3, 100},
+                                                  {160, 2, 0},
+                                                  {300, 5, 50},
+                                                  {400, 2, 0},
+                                                  {520, 2, 0},
+                                                  {540, 2, 0}});
+    for (const Report& stop : played.sink.stops)
+        CHECK(stop == waveformReport(standardTrigger(), {}));
+}
+
 TEST_CASE("A slow packet moves no other, and what it covers is left out", "[devices]")
 {
     InstantClock* clock = nullptr;
@@ -164,7 +190,7 @@ TEST_CASE("A slow packet moves no other, and what it covers is left out", "[devi
             clock->pause(50_ms);
         return Result<void>();
     };
-    RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon.haptics), sink, shared);
+    RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon), sink, shared);
     const auto result = player.finish();
     REQUIRE(result);
     CHECK(result->leftOut == 2);
@@ -186,7 +212,7 @@ TEST_CASE("Whenever playing is stopped, the last packets are silent", "[devices]
                 clock.interrupt();
             return Result<void>();
         };
-        RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon.haptics, true), sink, clock);
+        RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon, true), sink, clock);
         REQUIRE(player.finish());
         CHECK_FALSE(player.isPlaying());
         CAPTURE(after);
@@ -202,7 +228,7 @@ TEST_CASE("A player that is destroyed has silenced its controller", "[devices]")
     InstantClock clock;
     NotedReports sink(clock);
     {
-        const RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon.haptics, true), sink, clock);
+        const RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon, true), sink, clock);
     }
     REQUIRE(sink.sent.size() >= 3);
     CHECK(isNeutral(sink.sent.back().report));
@@ -254,7 +280,7 @@ TEST_CASE("Stopping from another thread interrupts the real clock at once", "[de
         return Result<void>();
     };
     // The only sound is hours away: a player that slept until then would hang here.
-    RumblePlayer player(joyCon, rumbleOf(toneClip(9000.0, 8999.0, 9000.0), joyCon.haptics, true), sink, clock);
+    RumblePlayer player(joyCon, rumbleOf(toneClip(9000.0, 8999.0, 9000.0), joyCon, true), sink, clock);
     begun.wait(false);
     player.stop();
     CHECK_FALSE(player.isPlaying());

@@ -34,7 +34,11 @@ Result<void> ControllerOutput::choose(const std::optional<devices::Controller>& 
     auto opened = devices::OpenController::open(wanted->path);
     if (!opened)
         return opened.error();
+    const auto understood = devices::modelOf(*wanted, **opened);
+    if (!understood)
+        return understood.error();
     target = std::move(opened).value();
+    model = *understood;
     controller = wanted;
     start();
     return {};
@@ -69,10 +73,9 @@ void ControllerOutput::start()
     startTimer(pollInterval);
     if (range.from.value >= range.to.value)
         return;
-    const devices::ControllerModel model{controller->haptics, controller->transport};
     clock = std::make_unique<devices::SteadyClock>();
-    player = std::make_unique<devices::RumblePlayer>(
-        model, devices::ClipRumble(*clip, range, Decibels(0.0), model.haptics), *target, *clock);
+    player = std::make_unique<devices::RumblePlayer>(model, devices::ClipRumble(*clip, range, Decibels(0.0), model),
+                                                     *target, *clock);
 }
 
 void ControllerOutput::sessionChanged(unsigned changes)

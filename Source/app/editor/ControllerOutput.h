@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A game controller that plays what the editor plays.
+// A game controller, or another haptic device, that plays what the editor plays.
 
 #include "devices/HidList.h"
 #include "devices/OpenController.h"
@@ -31,9 +31,16 @@ public:
         return devices::connectedControllers();
     }
 
-    /// Opens a controller, by its path; none: closes it. Errors: those of OpenController::open().
+    /// Opens a controller, by its path; none: closes it. Errors: those of OpenController::open() and
+    /// modelOf().
     Result<void> choose(const std::optional<devices::Controller>& wanted);
     [[nodiscard]] const std::optional<devices::Controller>& chosen() const noexcept { return controller; }
+
+    /// Whether the chosen one has nothing by which it could play more than events.
+    [[nodiscard]] bool playsOnlyEvents() const noexcept
+    {
+        return controller && model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts();
+    }
 
 private:
     void sessionChanged(unsigned changes) override;
@@ -44,8 +51,9 @@ private:
 
     editor::Session& session;
     std::optional<devices::Controller> controller;
-    juce::uint32 restartAt = 0; ///< ms, 0: no restart is due
-    bool loops = false;         ///< what plays comes back to the start of the loop by itself
+    devices::ControllerModel model; ///< of the controller
+    juce::uint32 restartAt = 0;     ///< ms, 0: no restart is due
+    bool loops = false;             ///< what plays comes back to the start of the loop by itself
     double lastPlayhead = 0.0;
     std::unique_ptr<devices::OpenController> target;
     std::unique_ptr<devices::SteadyClock> clock;

@@ -29,7 +29,7 @@ DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControlle
     controllerLabel.setAccessible(false);
     controllerNote.setFont(editor::smallFont());
     controllerChoice.setTitle("Game controller");
-    controllerChoice.setTooltip("A connected controller that plays the clip as well, by its motors");
+    controllerChoice.setTooltip("A connected controller or haptic device that plays the clip as well");
     controllerChoice.onChange = [this]
     {
         chooseController();
@@ -145,7 +145,10 @@ void DevicesSheet::chooseController()
     const int index = controllerChoice.getSelectedId() - none - 1;
     const auto opened =
         controllerOutput.choose(index < 0 ? std::nullopt : std::optional(controllers[static_cast<std::size_t>(index)]));
-    say(opened ? juce::String() : editor::toText(opened.error().text()));
+    if (!opened)
+        say(editor::toText(opened.error().text()));
+    else
+        say(controllerOutput.playsOnlyEvents() ? "It can play only the events" : "");
     fillControllers();
 }
 

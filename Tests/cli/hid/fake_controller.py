@@ -1,4 +1,4 @@
-"""A Pro Controller on a cable that exists only for programs run under umockdev-wrapper: notes what is written to it."""
+"""HID devices on a cable that exist only for programs run under umockdev-wrapper: they note what is written to them."""
 import errno
 import struct
 import threading
@@ -10,60 +10,85 @@ gi.require_version("UMockdev", "1.0")
 from gi.repository import GLib, UMockdev  # noqa: E402
 
 HIDIOCGRDESCSIZE, HIDIOCGRDESC = 0x80044801, 0x90044802
+HIDIOCGFEATURE, FEATURE_SIZE = 0xC0004807, 0x3FFF0000  # the size of the report is part of the request
 NODE = "/dev/hidraw0"
 USB = "/devices/pci0000:00/0000:00:14.0/usb1/1-1"
 INTERFACE = USB + "/1-1:1.0"
-HID = INTERFACE + "/0003:057E:2009.0001"
 
 # The least that is a gamepad: reports of 63 bytes, 30, 21 and 81 to the computer, 01, 10, 80 and 82 from it.
-DESCRIPTOR = (bytes.fromhex("05010904a101 0600ff 1500 26ff00 7508 953f")
-              + b"".join(bytes([0x85, number, 0x09, number, 0x81, 0x03]) for number in (0x30, 0x21, 0x81))
-              + b"".join(bytes([0x85, number, 0x09, number, 0x91, 0x83]) for number in (0x01, 0x10, 0x80, 0x82))
-              + bytes([0xC0]))
+GAMEPAD = (bytes.fromhex("05010904a101 0600ff 1500 26ff00 7508 953f")
+           + b"".join(bytes([0x85, number, 0x09, number, 0x81, 0x03]) for number in (0x30, 0x21, 0x81))
+           + b"".join(bytes([0x85, number, 0x09, number, 0x91, 0x83]) for number in (0x01, 0x10, 0x80, 0x82))
+           + bytes([0xC0]))
 
-DESCRIPTION = f"""P: {USB}
+# A touchpad: fingers in report 1; feature report 5 lists the waveforms of the ordinals 3 to 5 and how long they last,
+# output report 6 triggers one: ordinal, intensity of 0 to 100, repeats, ms between them.
+TOUCHPAD = bytes.fromhex("050d0905a101 8501 0922a102 15002501 7501 9502 0947 0942 8102 9506 8103"
+                         "0501 26ff0f 7510 9502 0930 0931 8102 c0"
+                         "050e0901a102 8505 0910a102 050a 1903 2905 160110 26ff2f 7510 9503 b102 c0"
+                         "050e0911a102 050a 1903 2905 1500 26ff00 7508 9503 b102 c0 c0"
+                         "050e0901a102 8506 0921 1501 2505 7508 9501 9102 0923 1500 2564 9102 0924 2505 9102"
+                         "0925 26e803 7510 9102 c0 c0")
+
+PRO_CONTROLLER = {"maker": 0x057E, "product": 0x2009, "by": "Nintendo Co., Ltd.", "name": "Pro Controller",
+                  "descriptor": GAMEPAD, "features": {}}
+
+
+def touchpad(waveforms, durations):
+    """A touchpad that lists these, three each."""
+    return {"maker": 0x06CB, "product": 0x1234, "by": "Example", "name": "Haptic Touchpad", "descriptor": TOUCHPAD,
+            "features": {5: struct.pack("<B3H3B", 5, *waveforms, *durations)}}
+
+
+def description(device):
+    """What umockdev has to be told; the device is the only one."""
+    ids = f"{device['maker']:04X}:{device['product']:04X}"
+    hid = f"{INTERFACE}/0003:{ids}.0001"
+    return f"""P: {USB}
 E: DEVTYPE=usb_device
-E: PRODUCT=57e/2009/210
+E: PRODUCT={device['maker']:x}/{device['product']:x}/210
 E: SUBSYSTEM=usb
-A: idVendor=057e\\n
-A: idProduct=2009\\n
+A: idVendor={device['maker']:04x}\\n
+A: idProduct={device['product']:04x}\\n
 A: bcdDevice=0210\\n
-A: manufacturer=Nintendo Co., Ltd.\\n
-A: product=Pro Controller\\n
+A: manufacturer={device['by']}\\n
+A: product={device['name']}\\n
 A: serial=000000000001\\n
 
 P: {INTERFACE}
 E: DEVTYPE=usb_interface
 E: DRIVER=usbhid
 E: INTERFACE=3/0/0
-E: PRODUCT=57e/2009/210
+E: PRODUCT={device['maker']:x}/{device['product']:x}/210
 E: SUBSYSTEM=usb
 A: bInterfaceNumber=00\\n
 
-P: {HID}
-E: DRIVER=nintendo
-E: HID_ID=0003:0000057E:00002009
-E: HID_NAME=Nintendo Co., Ltd. Pro Controller
+P: {hid}
+E: DRIVER=hid-generic
+E: HID_ID=0003:0000{device['maker']:04X}:0000{device['product']:04X}
+E: HID_NAME={device['by']} {device['name']}
 E: HID_PHYS=usb-0000:00:14.0-1/input0
 E: HID_UNIQ=000000000001
 E: SUBSYSTEM=hid
-H: report_descriptor={DESCRIPTOR.hex().upper()}
+H: report_descriptor={device['descriptor'].hex().upper()}
 
-P: {HID}/hidraw/hidraw0
+P: {hid}/hidraw/hidraw0
 N: hidraw0
 E: DEVNAME={NODE}
 E: MAJOR=240
 E: MINOR=0
 E: SUBSYSTEM=hidraw
-L: device=../../../0003:057E:2009.0001
+L: device=../../../0003:{ids}.0001
 A: dev=240:0\\n
 """
 
 
 class FakeController:
-    """Connected by connect(). `writes` are the times (monotonic, s) and the bytes of all reports since clear()."""
+    """One of those above, connected by connect(). `writes` are the times (monotonic, s) and the bytes of all reports since clear()."""
 
-    def __init__(self):
+    def __init__(self, device=None):
+        self.device = device or PRO_CONTROLLER
+        self.asked = []  # feature reports, by number
         self.bed = UMockdev.Testbed.new()
         self.writes = []
         self.pulled = False
@@ -75,13 +100,14 @@ class FakeController:
         threading.Thread(target=GLib.MainLoop().run, daemon=True).start()
 
     def connect(self):
-        self.bed.add_from_string(DESCRIPTION)
+        self.bed.add_from_string(description(self.device))
         self.bed.attach_ioctl(NODE, self.handler)
 
     def unplug(self):
         """From now on the kernel knows no such device, for those who have it open either."""
         self.pulled = True
-        self.bed.uevent("/sys" + HID + "/hidraw/hidraw0", "remove")
+        ids = f"{self.device['maker']:04X}:{self.device['product']:04X}"
+        self.bed.uevent(f"/sys{INTERFACE}/0003:{ids}.0001/hidraw/hidraw0", "remove")
 
     def clear(self):
         with self.changed:
@@ -110,14 +136,28 @@ class FakeController:
         return True
 
     def on_ioctl(self, _, client):
-        request, argument = client.get_request(), client.get_arg()
-        size = struct.pack("<i", len(DESCRIPTOR))
+        request, argument = client.get_request() & 0xFFFFFFFF, client.get_arg()
+        descriptor = self.device["descriptor"]
+        size = struct.pack("<i", len(descriptor))
         if request == HIDIOCGRDESCSIZE:
             argument.resolve(0, 4).update(0, list(size))
         elif request == HIDIOCGRDESC:
-            argument.resolve(0, 4 + 4096).update(0, list(size + DESCRIPTOR))
+            argument.resolve(0, 4 + 4096).update(0, list(size + descriptor))
+        elif request & ~FEATURE_SIZE == HIDIOCGFEATURE:
+            return self.on_feature(client, argument.resolve(0, (request & FEATURE_SIZE) >> 16))
         else:
             client.complete(-1, errno.ENOTTY)
             return True
         client.complete(0, 0)
+        return True
+
+    def on_feature(self, client, buffer):
+        number = bytes(buffer.retrieve())[0]
+        self.asked.append(number)
+        answer = self.device["features"].get(number)
+        if answer is None or self.pulled:
+            client.complete(-1, errno.ENODEV if self.pulled else errno.EPIPE)
+            return True
+        buffer.update(0, list(answer[:len(bytes(buffer.retrieve()))]))
+        client.complete(len(answer), 0)
         return True
