@@ -2,6 +2,7 @@
 #include "editor/BandView.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <pacini/filters/BandLayout.h>
 
@@ -71,7 +72,7 @@ void BandView::paint(juce::Graphics& g)
     const auto eventLane = area.removeFromTop(eventHeight);
     g.setFont(smallFont());
     g.setColour(p.dim);
-    g.drawText("Events", eventLane.withWidth(labelWidth - grid), juce::Justification::centredRight, false);
+    g.drawText(tr("Events"), eventLane.withWidth(labelWidth - grid), juce::Justification::centredRight, false);
 
     const float step = static_cast<float>(plot.getWidth()) / static_cast<float>(columns);
     g.setColour(p.warning);

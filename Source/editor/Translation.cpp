@@ -67,6 +67,11 @@ juce::String tr(const juce::String& english)
     return english.isEmpty() ? english : juce::translate(english);
 }
 
+juce::String counted(std::size_t number, const juce::String& one, const juce::String& many)
+{
+    return juce::String(static_cast<juce::int64>(number)) + " " + tr(number == 1 ? one : many);
+}
+
 void translateTexts(juce::Component& root)
 {
     root.setTitle(tr(root.getTitle()));

@@ -5,6 +5,8 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <cstddef>
+
 namespace pacini::editor
 {
 
@@ -21,9 +23,12 @@ void useLanguage(const juce::String& code);
 /// An English text in the language; itself where there is no translation.
 [[nodiscard]] juce::String tr(const juce::String& english);
 
+/// "1 point", "3 points": a number and its word, of which both are translated.
+[[nodiscard]] juce::String counted(std::size_t number, const juce::String& one, const juce::String& many);
+
 /// Translates what a component and all inside it say: names, descriptions, tooltips, buttons, labels that are not
-/// edited, choices and tabs. Texts that are put together while the program runs, and those that lanes draw, stay as
-/// they are. Twice does no harm.
+/// edited, choices and tabs. What is put together or drawn while the program runs is up to who does that. Twice does no
+/// harm.
 void translateTexts(juce::Component& root);
 
 } // namespace pacini::editor

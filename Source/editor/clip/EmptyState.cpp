@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -99,17 +100,17 @@ void EmptyState::paint(juce::Graphics& g)
     auto text = area.reduced(4 * grid).removeFromTop(9 * grid);
     g.setColour(p.text);
     g.setFont(titleFont());
-    g.drawText("Drop a sound or a clip here", text.removeFromTop(4 * grid), juce::Justification::centred);
+    g.drawText(tr("Drop a sound or a clip here"), text.removeFromTop(4 * grid), juce::Justification::centred);
     g.setColour(p.dim);
     g.setFont(usualFont());
-    g.drawFittedText("It is analysed into curves and events that you can reshape, feel and export.",
+    g.drawFittedText(tr("It is analysed into curves and events that you can reshape, feel and export."),
                      text.removeFromTop(3 * grid), juce::Justification::centred, 1);
     g.setFont(smallFont());
     const auto heading = [&](const std::vector<std::unique_ptr<juce::TextButton>>& list, const juce::String& words)
     {
         if (!list.empty())
             g.drawText(
-                words,
+                tr(words),
                 list.front()->getBounds().withWidth(area.getWidth()).translated(0, -3 * grid).withHeight(2 * grid),
                 juce::Justification::centredLeft);
     };

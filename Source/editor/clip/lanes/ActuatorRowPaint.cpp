@@ -4,6 +4,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/ActuatorRow.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
@@ -66,11 +67,11 @@ void ActuatorRow::paint(juce::Graphics& g)
         const bool chosen = session.profile() != nullptr;
         g.setColour(failure.isNotEmpty() && chosen ? p.warning : p.dim);
         g.setFont(smallFont());
-        g.drawFittedText(!chosen
-                             ? "No actuator is chosen: pick one at the top right to see what it plays, and what is lost"
-                         : failure.isNotEmpty() ? failure
-                                                : toText("Rendering…"),
-                         plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
+        g.drawFittedText(
+            !chosen ? tr("No actuator is chosen: pick one at the top right to see what it plays, and what is lost")
+            : failure.isNotEmpty() ? failure
+                                   : tr(toText("Rendering…")),
+            plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
         return;
     }
     paintDrive(g, drivePlot().withTrimmedTop(1));
@@ -92,14 +93,14 @@ void ActuatorRow::paintHead(juce::Graphics& g)
     top = top.withSizeKeepingCentre(top.getWidth(), third ? 50 : 19);
     g.setColour(p.text);
     g.setFont(usualFont());
-    g.drawFittedText("Actuator", top.removeFromTop(19), juce::Justification::centredLeft, 1);
+    g.drawFittedText(tr("Actuator"), top.removeFromTop(19), juce::Justification::centredLeft, 1);
     if (!profile)
         return;
     g.setColour(p.dim);
     g.setFont(smallFont());
     g.drawFittedText(toText(profile->name), top.removeFromTop(15), juce::Justification::centredLeft, 1, 0.75f);
-    g.drawFittedText(waiting ? toText("rendering…") : summary, top.removeFromTop(15), juce::Justification::centredLeft,
-                     1, 0.75f);
+    g.drawFittedText(waiting ? tr(toText("Rendering…")) : summary, top.removeFromTop(15),
+                     juce::Justification::centredLeft, 1, 0.75f);
     // What the colours of the lower plot mean.
     struct Item
     {
@@ -126,7 +127,7 @@ void ActuatorRow::paintHead(juce::Graphics& g)
         {
             line = second.withTrimmedLeft(74);
             swatch(Loss::dropped);
-            g.drawFittedText("left out", line, juce::Justification::centredLeft, 1, 0.8f);
+            g.drawFittedText(tr("left out"), line, juce::Justification::centredLeft, 1, 0.8f);
         }
     }
 }

@@ -2,6 +2,7 @@
 #include "editor/clip/lanes/ClipView.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/CurveLane.h"
 #include "editor/clip/lanes/EventLane.h"
 #include "editor/clip/lanes/LaneText.h"
@@ -103,7 +104,7 @@ private:
         g.fillRoundedRectangle(place.toFloat(), 4.0f);
         g.setColour(p.background);
         g.setFont(usualFont());
-        g.drawFittedText("Version A, to compare; press C to go back", place.reduced(grid, 0),
+        g.drawFittedText(tr("Version A, to compare; press C to go back"), place.reduced(grid, 0),
                          juce::Justification::centred, 1);
     }
 

@@ -4,6 +4,7 @@
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
@@ -125,8 +126,7 @@ PlotLane::Style CurveLane::style() const
         return {};
     const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
     const Curve* points = curve();
-    const juce::String number(points != nullptr ? static_cast<int>(points->size()) : 0);
-    Style result{laneName(*clip, shown), number + (number == "1" ? " point" : " points"),
+    Style result{laneName(*clip, shown), counted(points != nullptr ? points->size() : 0, "point", "points"),
                  laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
     if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
         result.note = {};

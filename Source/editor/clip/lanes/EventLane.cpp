@@ -2,6 +2,7 @@
 #include "editor/clip/lanes/EventLane.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ PlotLane::Style EventLane::style() const
     const auto colour = paletteFor(*this).warning;
     if (shows == Shows::sharpness)
         return {"Sharpness", "0 to 100 %", colour};
-    return {"Transients", juce::String(static_cast<int>(count())) + " events", colour};
+    return {"Transients", counted(count(), "event", "events"), colour};
 }
 
 ValueAxis EventLane::valueAxis(double height) const

@@ -5,6 +5,7 @@
 #include "document/view/MarkerLabels.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/PlotLane.h"
 #include "editor/clip/session/Snapping.h"
 
@@ -49,7 +50,7 @@ void MarkerStrip::paint(juce::Graphics& g)
     auto head = plot.removeFromLeft(laneHeadWidth);
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawText("Markers", head.withTrimmedLeft(grid + 3), juce::Justification::centredLeft, true);
+    g.drawText(tr("Markers"), head.withTrimmedLeft(grid + 3), juce::Justification::centredLeft, true);
     g.setColour(p.line);
     g.fillRect(getLocalBounds().removeFromBottom(1));
     const auto clip = session.clip();

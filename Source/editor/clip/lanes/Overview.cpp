@@ -3,6 +3,7 @@
 
 #include "document/view/Columns.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ void Overview::paint(juce::Graphics& g)
     const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth);
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawText("Overview", getLocalBounds().withWidth(laneHeadWidth).withTrimmedLeft(grid + 3),
+    g.drawText(tr("Overview"), getLocalBounds().withWidth(laneHeadWidth).withTrimmedLeft(grid + 3),
                juce::Justification::centredLeft);
     g.setColour(p.well);
     g.fillRect(plot);

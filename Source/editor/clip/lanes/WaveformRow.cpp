@@ -3,6 +3,7 @@
 
 #include "document/view/Columns.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
@@ -134,7 +135,8 @@ void WaveformRow::paint(juce::Graphics& g)
     {
         g.setColour(p.dim);
         g.setFont(smallFont());
-        g.drawText("This clip has no sound of its own", plot.reduced(grid, 0), juce::Justification::centredLeft, true);
+        g.drawText(tr("This clip has no sound of its own"), plot.reduced(grid, 0), juce::Justification::centredLeft,
+                   true);
         return;
     }
     const juce::Graphics::ScopedSaveState saved(g);
@@ -186,12 +188,12 @@ void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
                     .withSizeKeepingCentre(laneHeadWidth - grid - 7, 36);
     g.setColour(p.text);
     g.setFont(usualFont());
-    g.drawFittedText("Sound", head.removeFromTop(19), juce::Justification::centredLeft, 1);
+    g.drawFittedText(tr("Sound"), head.removeFromTop(19), juce::Justification::centredLeft, 1);
     g.setColour(p.dim);
     g.setFont(smallFont());
     g.drawFittedText(sound != nullptr ? juce::String(sound->audio.sampleRate / 1000.0, 1) + " kHz, " +
                                             juce::String(sound->audio.channels) + " ch"
-                                      : juce::String("none"),
+                                      : tr("none"),
                      head, juce::Justification::centredLeft, 1);
 }
 

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -296,7 +297,7 @@ void ClipList::paintOverChildren(juce::Graphics& g)
     {
         g.setColour(p.dim);
         g.setFont(smallFont());
-        g.drawFittedText("No clips yet", getLocalBounds(), juce::Justification::centred, 1);
+        g.drawFittedText(tr("No clips yet"), getLocalBounds(), juce::Justification::centred, 1);
     }
     if (!gap)
         return;

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/lanes/LaneText.h"
 
@@ -14,6 +15,12 @@ namespace pacini::editor
 
 namespace
 {
+/// "0.250 to 1.500 s".
+juce::String stretchText(TimeRange range)
+{
+    return juce::String(range.from, 3) + " " + tr("to") + " " + juce::String(range.to, 3) + " s";
+}
+
 constexpr int rowHeight = 3 * grid;
 constexpr int preferredHeight = 78 * grid;
 
@@ -231,14 +238,14 @@ void Inspector::showSelection()
     if (count > 0)
     {
         const auto range = *timeOf(selection, *clip);
-        scope = juce::String(count) + (count == 1 ? " point selected" : " points selected");
+        scope = counted(selectedCount(selection), "point selected", "points selected");
         if (count > 1)
-            scope << "\n" << juce::String(range.from, 3) << " to " << juce::String(range.to, 3) << " s, their lanes";
+            scope << "\n" << stretchText(range) << ", " << tr("their lanes");
     }
     else if (const auto& range = session.timeRange())
-        scope = "Range " + juce::String(range->from, 3) + " to " + juce::String(range->to, 3) + " s,\nall lanes";
+        scope = tr("Range") + " " + stretchText(*range) + ",\n" + tr("all lanes");
     else
-        scope = "Nothing selected:\nedits are for the whole clip";
+        scope = tr("Nothing selected:") + "\n" + tr("edits are for the whole clip");
     scopeText.setText(scope, juce::dontSendNotification);
 }
 
@@ -248,11 +255,12 @@ void Inspector::showFacts()
     if (!clip)
         return;
     juce::String text;
-    text << juce::String(clip->duration, 2) << " s, " << static_cast<int>(clip->bands.size()) << " bands\n"
-         << static_cast<int>(breakpointCount(*clip)) << " points, " << static_cast<int>(clip->transients.size())
-         << " transients";
+    text << juce::String(clip->duration, 2) << " s, " << counted(clip->bands.size(), "band", "bands") << "\n"
+         << counted(breakpointCount(*clip), "point", "points") << ", "
+         << counted(clip->transients.size(), "transient", "transients");
     if (const auto item = session.item(); item && !item->unfitting.empty())
-        text << "\n" << static_cast<int>(item->unfitting.size()) << " edits wait for another analysis";
+        text << "\n"
+             << counted(item->unfitting.size(), "edit waits for another analysis", "edits wait for another analysis");
     facts.setText(text, juce::dontSendNotification);
     chip.show(*clip,
               [this]

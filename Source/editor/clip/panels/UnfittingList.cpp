@@ -4,6 +4,7 @@
 #include "document/EditText.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -186,9 +187,9 @@ void UnfittingList::paint(juce::Graphics& g)
     g.setFont(smallFont());
     const auto item = session.item();
     const std::size_t count = item ? item->edits.size() : 0;
-    g.drawFittedText(count == 0 ? "Hand edits stay when the sound is analysed again. Those that no longer fit are "
-                                  "listed here."
-                                : "All hand edits have a place over this analysis.",
+    g.drawFittedText(tr(count == 0 ? "Hand edits stay when the sound is analysed again. Those that no longer fit are "
+                                     "listed here."
+                                   : "All hand edits have a place over this analysis."),
                      getLocalBounds(), juce::Justification::topLeft, 4, 1.0f);
 }
 
