@@ -36,8 +36,8 @@ class TactReader
 public:
     FieldsReader reader;
     std::vector<std::string>& warnings;
-    std::string name;
-    std::vector<Piece> pieces;
+    std::string name = {};
+    std::vector<Piece> pieces = {};
     double duration = 0.0; ///< ms
 
     void read()
