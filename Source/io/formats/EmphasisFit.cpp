@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -44,9 +45,13 @@ public:
     VoicePower(const Curve& amplitude, double start, double seconds)
         : steps(static_cast<std::size_t>(std::max(1.0, std::round(seconds / step))))
     {
-        CurveReader reader(amplitude);
+        const double first = start - (margin - 0.5) * step;
+        const auto next = std::upper_bound(amplitude.begin(), amplitude.end(), first,
+                                           [](double time, const Breakpoint& point) { return time < point.time; });
+        // Not from the clip's start for each event.
+        CurveReader reader({next == amplitude.begin() ? next : std::prev(next), amplitude.end()});
         for (std::size_t n = 0; n < steps + 2 * margin; ++n)
-            power.push_back(square(std::min(reader.at(start + (static_cast<double>(n) - margin + 0.5) * step), 1.0)));
+            power.push_back(square(std::min(reader.at(first + static_cast<double>(n) * step), 1.0)));
     }
 
     [[nodiscard]] double meanOfPulse() const
