@@ -26,6 +26,15 @@ inline constexpr std::array<Choice<EqualizerType>, 4> equalizerTypes{{{"peak", E
                                                                       {"highShelf", EqualizerType::highShelf},
                                                                       {"highpass", EqualizerType::highpass}}};
 
+/// Numbers that are needed alike: name, value, name, value and so on.
+template <typename Visitor, typename Number, typename... Rest>
+void visitNumbers(Visitor& visitor, Need need, const char* name, Number& value, Rest&... rest)
+{
+    visitor.number(name, value, need);
+    if constexpr (sizeof...(rest) > 0)
+        visitNumbers(visitor, need, rest...);
+}
+
 /// The entries of a measurement, see visitFields().
 template <typename AnyMeasurement, typename Visitor>
 void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
@@ -34,26 +43,22 @@ void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
     visitor.integer("fittings", measurement.fittings, "must be a whole number, 1 to 1000000");
     visitor.number("drive", measurement.drive, usual);
     visitor.optionalNumber("distortionDrive", measurement.distortionDrive);
-    visitor.optionalObject("linearity", measurement.linearity,
-                           [&](auto& linearity)
-                           {
-                               visitor.number("lowFrequency", linearity.lowFrequency, required);
-                               visitor.number("highFrequency", linearity.highFrequency, required);
-                               visitor.number("tolerance", linearity.tolerance, required);
-                               visitor.number("level", linearity.level, required);
-                               visitor.number("meanDeviation", linearity.meanDeviation, required);
-                               visitor.number("standardDeviation", linearity.standardDeviation, required);
-                               visitor.number("worstDeviation", linearity.worstDeviation, required);
-                               visitor.number("worstFrequency", linearity.worstFrequency, required);
-                               visitor.list("outliers", linearity.outliers, ProfileMeasurement::mostOutliers,
-                                            "outliers",
-                                            [&](auto& outlier)
-                                            {
-                                                visitor.number("lowFrequency", outlier.lowFrequency, required);
-                                                visitor.number("highFrequency", outlier.highFrequency, required);
-                                                visitor.number("deviation", outlier.deviation, required);
-                                            });
-                           });
+    visitor.optionalObject(
+        "linearity", measurement.linearity,
+        [&](auto& linearity)
+        {
+            visitNumbers(visitor, required, "lowFrequency", linearity.lowFrequency, "highFrequency",
+                         linearity.highFrequency, "tolerance", linearity.tolerance, "level", linearity.level,
+                         "meanDeviation", linearity.meanDeviation, "standardDeviation", linearity.standardDeviation,
+                         "worstDeviation", linearity.worstDeviation, "worstFrequency", linearity.worstFrequency);
+            visitor.list("outliers", linearity.outliers, ProfileMeasurement::mostOutliers, "outliers",
+                         [&](auto& outlier)
+                         {
+                             visitor.number("lowFrequency", outlier.lowFrequency, required);
+                             visitor.number("highFrequency", outlier.highFrequency, required);
+                             visitor.number("deviation", outlier.deviation, required);
+                         });
+        });
     visitor.list("points", measurement.points, ProfileMeasurement::mostPoints, "points",
                  [&](auto& point)
                  {
@@ -122,14 +127,10 @@ void visitFields(AnyProfile& profile, Visitor& visitor)
     visitor.optionalObject("body", profile.body,
                            [&](auto& body)
                            {
-                               visitor.number("force", body.force, usual);
-                               visitor.number("movingMass", body.movingMass, usual);
-                               visitor.number("deviceMass", body.deviceMass, usual);
-                               visitor.number("jointStiffness", body.jointStiffness, usual);
-                               visitor.number("jointDamping", body.jointDamping, usual);
-                               visitor.number("skinMass", body.skinMass, usual);
-                               visitor.number("skinStiffness", body.skinStiffness, usual);
-                               visitor.number("skinDamping", body.skinDamping, usual);
+                               visitNumbers(visitor, usual, "force", body.force, "movingMass", body.movingMass,
+                                            "deviceMass", body.deviceMass, "jointStiffness", body.jointStiffness,
+                                            "jointDamping", body.jointDamping, "skinMass", body.skinMass,
+                                            "skinStiffness", body.skinStiffness, "skinDamping", body.skinDamping);
                            });
     visitor.optionalObject("measurement", profile.measurement,
                            [&](auto& measurement) { visitMeasurement(measurement, visitor); });

@@ -29,11 +29,17 @@ class Lint(CommandTest):
                   transients=[{"time": 0.5, "amplitude": 1, "sharpness": 0.5},
                               {"time": 0.504, "amplitude": 1, "sharpness": 0.5}])
         losses = {loss["kind"]: loss for loss in self.losses("clip.json", "--target", "haptic")}
-        self.assertTrue({"bands", "frequency", "text", "crowding"} <= set(losses), losses)
+        self.assertTrue({"bands", "text", "crowding"} <= set(losses), losses)
         self.assertAlmostEqual(losses["bands"]["time"], 1.0, places=3)
-        self.assertAlmostEqual(losses["bands"]["error"], 0.5 ** 0.5, places=2)
-        self.assertAlmostEqual(losses["frequency"]["time"], 1.0, places=3)
+        self.assertAlmostEqual(losses["bands"]["error"], 0.5, places=2)
         self.assertAlmostEqual(losses["crowding"]["time"], 0.504, places=3)
+        low = dict(band, amplitude=[{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5},
+                                    {"time": 1, "amplitude": 0}, {"time": 2, "amplitude": 0}])
+        self.clip(seconds=2.0, envelope=[], bands=[low, high], transients=[])  # the voice has to follow the high one
+        losses = {loss["kind"]: loss for loss in self.losses("clip.json", "--target", "haptic")}
+        self.assertEqual(set(losses), {"frequency"})
+        self.assertAlmostEqual(losses["frequency"]["time"], 1.0, places=3)
+        self.assertAlmostEqual(losses["frequency"]["error"], 2.0, places=3)  # 800 Hz are two octaves above 200 Hz
 
     def only(self, kind, target, *arguments):
         """The one loss of a kind that the clip has in a format."""
@@ -81,6 +87,42 @@ class Lint(CommandTest):
                 above = self.only("amplitude", target)
                 self.assertAlmostEqual(above["time"], 0.5, places=3)
                 self.assertAlmostEqual(above["error"], 0.5, places=3)
+
+    def test_noise_is_said_where_it_sounds_and_how_strong(self):
+        levels = [(0, 0), (1, 0), (1, 0.3), (2, 0.3), (2, 0), (3, 0)]
+        self.clip(seconds=3.0, transients=[],
+                  noise=[{"lowFrequency": 100, "highFrequency": 200,
+                          "amplitude": [{"time": time, "amplitude": level} for time, level in levels]}])
+        for target in ("haptic", "ahap", "haps", "android", "tact", "hjif"):
+            with self.subTest(target):
+                noise = self.only("noise", target)
+                self.assertAlmostEqual(noise["time"], 1.0, places=3)
+                self.assertAlmostEqual(noise["duration"], 1.0, places=3)
+                self.assertAlmostEqual(noise["error"], 0.3, places=3)
+        self.fails(1, ["lint", "clip.json", "--target", "haptic", "--fail-on", "noise"], "more than is allowed")
+        self.clip(transients=[])
+        self.assertNotIn("noise", [loss["kind"] for loss in self.losses("clip.json", "--target", "hjif")])
+
+    def test_what_events_lose_is_said_where_they_are_and_how_much(self):
+        steady = {"lowFrequency": 80, "centreFrequency": 100, "highFrequency": 125, "priority": 0,
+                  "amplitude": [{"time": 0, "amplitude": 0.8}, {"time": 1, "amplitude": 0.8}], "pitch": []}
+        weak = [{"time": 0.25, "amplitude": 0.9, "sharpness": 0.5}, {"time": 0.5, "amplitude": 0.3, "sharpness": 0.5}]
+        self.clip(envelope=[], bands=[steady], transients=weak)  # one voice: keeps all events
+        raised = self.only("event", "haptic")  # no emphasis may be weaker than its point
+        self.assertAlmostEqual(raised["time"], 0.5, places=3)
+        self.assertAlmostEqual(raised["error"], 0.5, places=3)
+        self.fails(1, ["lint", "clip.json", "--target", "haptic", "--max-error", "0.4"], "more than is allowed")
+        self.succeeds("lint", "clip.json", "--target", "haptic", "--max-error", "0.6")
+        for target in ("haps", "tact", "android"):  # no sharpness
+            with self.subTest(target):
+                lost = self.only("event", target)
+                self.assertAlmostEqual(lost["time"], 0.25, places=3)
+                self.assertAlmostEqual(lost["duration"], 0.25, places=3)
+                self.assertEqual(lost["error"], 0)
+        self.clip(transients=[weak[0], dict(weak[1], amplitude=0.2)])  # the second is reached by the envelope
+        left = self.only("event", "ahap")
+        self.assertAlmostEqual(left["time"], 0.5, places=3)
+        self.assertIn("left out", left["message"])
 
     def test_a_limit_gates(self):
         points = [{"time": i / 1000, "amplitude": i % 2} for i in range(1001)]

@@ -23,15 +23,56 @@ Clip twoBands(double first, double second)
 }
 } // namespace
 
-TEST_CASE("One voice has the power of all bands and the mean of their octaves by power", "[synthesis]")
+TEST_CASE("One voice has the power of all bands and the frequency of the strongest", "[synthesis]")
 {
-    const SingleVoice voice = singleVoiceOf(twoBands(0.3, 0.4));
+    const SingleVoice voice = singleVoiceOf(twoBands(0.4, 0.3));
     REQUIRE(valueAt(voice.amplitude, 0.5) == Approx(0.5));
-    // 100 Hz has 9/25 of the power, 400 Hz, two octaves above, the rest.
-    REQUIRE(valueAt(voice.frequency, 0.5) == Approx(100.0 * std::pow(4.0, 16.0 / 25.0)));
-    // Both are more than a third of an octave away from it.
-    REQUIRE(valueAt(voice.displaced, 0.5) == Approx(0.5));
-    REQUIRE(valueAt(singleVoiceOf(twoBands(0.5, 0.0)).frequency, 0.5) == Approx(100.0));
+    REQUIRE(valueAt(voice.frequency, 0.5) == Approx(100.0));
+    // The other is more than a third of an octave away from it.
+    REQUIRE(valueAt(voice.displaced, 0.5) == Approx(0.3));
+}
+
+TEST_CASE("What one voice cannot play where it is counts less, by its distance", "[synthesis]")
+{
+    // 400 Hz are 0.415 octaves above 300 Hz and count 8.3 dB less.
+    REQUIRE(valueAt(singleVoiceOf(twoBands(0.20, 0.5)).frequency, 0.5) == Approx(100.0));
+    REQUIRE(valueAt(singleVoiceOf(twoBands(0.18, 0.5)).frequency, 0.5) == Approx(400.0));
+    REQUIRE(valueAt(singleVoiceOf(twoBands(0.18, 0.5), 50.0, 200.0).frequency, 0.5) == Approx(100.0));
+    REQUIRE(valueAt(singleVoiceOf(twoBands(0.20, 0.5), 50.0, 1000.0).frequency, 0.5) == Approx(400.0));
+}
+
+TEST_CASE("Bands of about one frequency count together for one voice", "[synthesis]")
+{
+    Clip clip = twoBands(0.5, 0.0);
+    clip.bands[1] = steadyBand(200.0, 0.4);
+    REQUIRE(valueAt(singleVoiceOf(clip).frequency, 0.5) == Approx(100.0));
+    clip.bands.push_back(steadyBand(205.0, 0.4));
+    REQUIRE(valueAt(singleVoiceOf(clip).frequency, 0.5) == Approx(200.0).epsilon(0.03));
+}
+
+TEST_CASE("One voice steps to another band when that is noticeably stronger, and does not take turns between equals",
+          "[synthesis]")
+{
+    Clip clip = twoBands(0.5, 0.0);
+    clip.bands[1] = steadyBand(200.0, 0.0);
+    clip.bands[1].amplitude = {{0.0, 0.0}, {1.0, 1.0}};
+    for (int i = 0; i <= 100; ++i) // the curve bends often enough to see when
+        clip.envelope.push_back({0.01 * i, 0.5});
+    const Curve frequency = singleVoiceOf(clip).frequency;
+    const double due = 0.5 * std::pow(10.0, 1.0 / 20.0); // s: 1 dB above 0.5
+    REQUIRE(valueAt(frequency, due - 0.011) == Approx(100.0));
+    REQUIRE(valueAt(frequency, due + 0.011) == Approx(200.0));
+    Curve::size_type steps = 0;
+    for (std::size_t i = 1; i < frequency.size(); ++i)
+        steps += frequency[i].value != frequency[i - 1].value;
+    REQUIRE(steps == 1);
+
+    clip.bands[1].amplitude.clear();
+    for (int i = 0; i <= 100; ++i) // within 1 dB of the other all the time
+        clip.bands[1].amplitude.push_back({0.01 * i, i % 2 == 0 ? 0.46 : 0.54});
+    const Curve steady = singleVoiceOf(clip).frequency;
+    for (const Breakpoint& point : steady)
+        REQUIRE(point.value == Approx(steady.front().value));
 }
 
 TEST_CASE("One voice follows the envelope where there is one, and its events keep what it does not reach",

@@ -271,8 +271,8 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice =
-        exportVoice(clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = sharpnessRange});
+    ExportVoice voice = exportVoice(
+        clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
     constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
     voice.losses.addCrowding(voice.events, resolved);
     const Pattern pattern = patternOf(voice, params.split, voice.losses);

@@ -2,7 +2,7 @@
 #include "io/formats/AhapFormat.h"
 #include "io/formats/FormatJson.h"
 #include "io/formats/NormalisedFrequency.h"
-#include "io/formats/VoiceExport.h"
+#include "io/formats/RootCurve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,8 @@
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/PlayedClip.h"
 
+#include <pacini/synthesis/TransientPulse.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,34 +21,43 @@ namespace pacini
 
 namespace
 {
-constexpr double steepest = 0.020;   // s: a segment that every device plays
-constexpr double usualPoints = 60.0; // per second
-// An event is a peak around the pulse that it stands for. Peaks of the 20 ms that every device plays to each side lost
-// up to 16 points of HTS in fast trains, these none.
-constexpr double peakLead = 0.002, peakTop = 0.008, peakEnd = 0.016; // s from the event
-constexpr std::int64_t longest = 1000;                               // ms: likewise
+constexpr double steepest = 0.020;     // s: a segment that every device plays
+constexpr double usualPoints = 60.0;   // per second
+constexpr std::int64_t longest = 1000; // ms: likewise
 
-/// The amplitude with events as peaks: up within 10 ms around the event's time and down again. Peaks that meet share
-/// their valley.
-Curve withPeaks(const SingleVoice& voice)
+struct Peaks
 {
-    Curve curve = voice.amplitude;
+    Curve amplitude; ///< the voice with events as peaks
+    Curve frequency; ///< Hz at the top of each
+};
+
+/// Events as peaks as long as the pulse that the decoder plays, with its frequency at the top. Peaks of the 20 ms that
+/// every device plays to each side lost up to 16 points of HTS in fast trains, peaks at the voice's frequency up to 10.
+/// Peaks that meet share their valley.
+Peaks withPeaks(const SingleVoice& voice)
+{
+    Peaks peaks{voice.amplitude, {}};
+    Curve& curve = peaks.amplitude;
     for (std::size_t i = 0; i < voice.events.size(); ++i)
     {
         const Transient& event = voice.events[i];
-        const double last = i > 0 ? voice.events[i - 1].time : -1.0;
+        const double last = i > 0 ? voice.events[i - 1].time : -limits::duration;
         const double next = i + 1 < voice.events.size() ? voice.events[i + 1].time : limits::duration;
-        const double from = std::max({0.0, event.time - peakLead, 0.5 * (event.time + last)});
-        const double to = std::min({event.time + peakEnd, 0.5 * (event.time + next), voice.duration});
-        const double top = std::min(event.time + peakTop, 0.5 * (from + to));
+        constexpr double fs = 48000.0;
+        const Pulse pulse = makePulse({}, event.sharpness, std::min(event.time - last, next - event.time), fs, 1.0);
+        const double from = event.time;
+        const double to =
+            std::min({event.time + static_cast<double>(pulse.frames) / fs, 0.5 * (event.time + next), voice.duration});
+        const double top = 0.5 * (from + to);
         const double level = std::min(std::hypot(valueAt(voice.amplitude, top), event.amplitude), 1.0);
         const Breakpoint before{from, valueAt(curve, from)}, after{to, valueAt(voice.amplitude, to)};
         std::erase_if(curve, [&](const Breakpoint& point) { return point.time >= from && point.time <= to; });
         const auto place = std::upper_bound(curve.begin(), curve.end(), from,
                                             [](double t, const Breakpoint& point) { return t < point.time; });
         curve.insert(place, {before, {top, level}, after});
+        peaks.frequency.push_back({top, pulse.cyclesPerFrame * fs});
     }
-    return curve;
+    return peaks;
 }
 
 struct Target
@@ -55,11 +66,11 @@ struct Target
 };
 
 /// Both curves at the ms at which either bends; a step takes one ms.
-std::map<std::int64_t, Target> targetsOf(const Curve& amplitude, const Curve& frequency, bool keepsPoints)
+std::map<std::int64_t, Target> targetsOf(const Peaks& peaks, const Curve& frequency, bool keepsPoints)
 {
     std::map<std::int64_t, Target> targets;
     std::int64_t last = -1;
-    for (const Breakpoint& point : amplitude)
+    for (const Breakpoint& point : peaks.amplitude)
     {
         const std::int64_t tick = std::max(androidTick(point.time), last + 1);
         targets[tick] = {point.value, valueAt(frequency, point.time)};
@@ -72,8 +83,11 @@ std::map<std::int64_t, Target> targetsOf(const Curve& amplitude, const Curve& fr
         const auto next = targets.lower_bound(tick);
         if ((next == targets.end() || next->first >= tick + room) &&
             (next == targets.begin() || std::prev(next)->first + room <= tick))
-            targets[tick] = {valueAt(amplitude, point.time), point.value};
+            targets[tick] = {valueAt(peaks.amplitude, point.time), point.value};
     }
+    for (const Breakpoint& top : peaks.frequency)
+        if (const auto at = targets.find(androidTick(top.time)); at != targets.end())
+            at->second.frequency = top.value;
     return targets;
 }
 
@@ -152,8 +166,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(20.0), voice.duration);
         losses.addThinned(before, voice.amplitude);
     }
-    const Curve amplitude = withPeaks(voice);
-    const auto targets = targetsOf(amplitude, voice.frequency, keepsPoints);
+    const auto targets = targetsOf(withPeaks(voice), voice.frequency, keepsPoints);
     result.effects.envelope = envelopeOf(targets, end);
     result.effects.basic = result.effects.envelope;
     const NormalisedRange range = normalisedRangeOf(params.profile, sharpnessRange);

@@ -72,7 +72,7 @@ struct AndroidExport
 /// device;
 /// - envelopes start and end at 0, every segment lasts 1 ms to 1 s, which all devices can play; segments of less than
 ///   20 ms, which some cannot, and more than 16 points, which Android may split, are named in the losses. Events are
-///   peaks that rise in 10 ms and fall in 8.
+///   peaks as long as the decoder's pulse, at its frequency.
 ///
 /// `amplitudePoints` per second (100 steps, 60 control points where it is not given) are the most.
 [[nodiscard]] AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params);

@@ -18,12 +18,8 @@ constexpr double longestMs = limits::duration * 1000.0;
 class AndroidReader
 {
 public:
-    AndroidReader(const nlohmann::json& tree, std::vector<std::string>& warningsToFill)
-        : reader(tree), warnings(warningsToFill)
-    {
-    }
-
     FieldsReader reader;
+    std::vector<std::string>& warnings;
 
     Clip waveform()
     {
@@ -120,8 +116,6 @@ private:
         if (!reader.error)
             point.duration = std::llround(duration);
     }
-
-    std::vector<std::string>& warnings;
 };
 } // namespace
 
@@ -131,7 +125,7 @@ Result<ImportedClip> readAndroidJson(std::string_view bytes)
     const auto tree = readForeignTree(bytes, result.warnings);
     if (!tree)
         return tree.error();
-    AndroidReader reader(*tree, result.warnings);
+    AndroidReader reader{FieldsReader(*tree), result.warnings};
     reader.reader.optionalText("name", result.clip.name);
     std::string name = result.clip.name.substr(0, limits::text / 2);
     if (tree->contains("waveformEnvelope"))

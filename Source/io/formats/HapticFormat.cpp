@@ -138,10 +138,9 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(clip, params, {.range = questRange, .events = questEmphasis});
+    ExportVoice voice = exportVoice(clip, params, {.range = questRange, .events = questPlayer});
     addTimeLoss(voice, voice.losses);
-    constexpr double crisp = 0.0121; // s: players show an emphasis for 36 ms (dull) to 12 ms (crisp)
-    voice.losses.addCrowding(voice.events, crisp);
+    voice.losses.addCrowding(voice.events, questPlayer.crispLength);
     std::vector<Point> amplitude = rounded(voice.level);
     attach(amplitude, voice.events, voice.losses);
     ExportedClip result;

@@ -38,10 +38,9 @@ void LossList::add(LossKind kind, double time, double duration, double error, st
 void LossList::addNoise(const Clip& clip)
 {
     for (const NoiseBand& band : clip.noise)
-        if (const double peak = largestValue(band.amplitude); peak > 0.0)
-            add(LossKind::noise, 0.0, clip.duration, peak,
-                fmt::format("noise from {} to {} Hz is left out", decimal(band.lowFrequency, 0),
-                            decimal(band.highFrequency, 0)));
+        addWhereItSounds(band, clip.duration,
+                         fmt::format("noise from {} to {} Hz is left out", decimal(band.lowFrequency, 0),
+                                     decimal(band.highFrequency, 0)));
 }
 
 void LossList::addMarkers(const Clip& clip)
@@ -62,11 +61,21 @@ void LossList::addText(const Clip& clip, bool keepsName)
 
 void LossList::addNoiseInVoice(const Clip& clip)
 {
-    double noise = 0.0;
     for (const NoiseBand& band : clip.noise)
-        noise = std::max(noise, largestValue(band.amplitude));
-    if (noise > leastAmplitude)
-        add(LossKind::noise, 0.0, clip.duration, noise, "residual noise becomes part of the voice");
+        addWhereItSounds(band, clip.duration, "residual noise becomes part of the voice");
+}
+
+void LossList::addWhereItSounds(const NoiseBand& band, double duration, const std::string& message)
+{
+    LossTrack track(LossKind::noise, message);
+    const Curve curve = detail::overWholeTime(band.amplitude, duration);
+    for (std::size_t i = 1; i < curve.size(); ++i)
+    {
+        const double most = std::max(curve[i - 1].value, curve[i].value);
+        for (const double time : {curve[i - 1].time, curve[i].time})
+            track.add(time, curve[i].time > curve[i - 1].time && most > leastAmplitude ? most : 0.0);
+    }
+    append(track);
 }
 
 void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice)

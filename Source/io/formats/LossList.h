@@ -23,7 +23,7 @@ public:
     /// What was found place by place.
     void append(LossTrack& track) { track.appendTo(losses); }
 
-    /// Residual noise, which is left out.
+    /// Residual noise, which is left out, where it sounds.
     void addNoise(const Clip& clip);
 
     void addMarkers(const Clip& clip);
@@ -57,6 +57,7 @@ public:
 
 private:
     void addNoiseInVoice(const Clip& clip);
+    void addWhereItSounds(const NoiseBand& band, double duration, const std::string& message);
 
     std::vector<FormatLoss> losses;
 };

@@ -28,9 +28,6 @@ struct NormalisedRange
 /// What the players of Quest controllers make of the frequencies of .haptic files, which say nothing of it themselves.
 inline constexpr NormalisedRange questRange{55.0, 200.0};
 
-/// And of their emphases.
-inline constexpr NormalisedRange questEmphasis{55.0, 165.0};
-
 /// What MPEG's reference software takes the sharpness of Core Haptics for; Apple declines to say.
 inline constexpr NormalisedRange sharpnessRange{65.0, 300.0};
 

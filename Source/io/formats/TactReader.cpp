@@ -34,14 +34,10 @@ struct Feedback
 class TactReader
 {
 public:
-    TactReader(const nlohmann::json& tree, std::vector<std::string>& warningsToFill)
-        : reader(tree), warnings(warningsToFill)
-    {
-    }
-
     FieldsReader reader;
-    std::string name;
-    std::vector<Piece> pieces;
+    std::vector<std::string>& warnings;
+    std::string name = {};
+    std::vector<Piece> pieces = {};
     double duration = 0.0; ///< ms
 
     void read()
@@ -163,8 +159,6 @@ private:
             pieces.push_back(piece);
         duration = std::max(duration, piece.to);
     }
-
-    std::vector<std::string>& warnings;
 };
 
 /// The largest of pieces at each time. Pieces that overlap are sampled every frame where they do.
@@ -246,7 +240,7 @@ Result<ImportedClip> readTact(std::string_view bytes)
     const auto tree = readForeignTree(bytes, result.warnings);
     if (!tree)
         return tree.error();
-    TactReader reader(*tree, result.warnings);
+    TactReader reader{FieldsReader(*tree), result.warnings};
     reader.read();
     if (reader.reader.error)
         return *reader.reader.error;

@@ -1,9 +1,11 @@
 #include "io/formats/VoiceExport.h"
 
 #include "io/formats/FormatLosses.h"
+#include "io/formats/RootCurve.h"
 
 #include <pacini/simplify/AnchoredCurve.h>
 #include <pacini/simplify/HatBasis.h>
+#include <pacini/simplify/Refit.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/SingleVoice.h>
 
@@ -19,32 +21,6 @@ namespace pacini
 namespace
 {
 constexpr double shortest = 0.01; // s
-
-/// Cuts the curve into pieces whose roots differ by at most twice the root of the tolerance: between the ends r0 and r1
-/// of a line, the square of the mean root is off by (r1 - r0)^2 / 4.
-template <typename ToRoot, typename FromRoot>
-Curve bent(const Curve& curve, ToRoot toRoot, FromRoot fromRoot)
-{
-    const double longest = 2.0 * std::sqrt(leastAmplitude) * (1.0 + 1e-6);
-    Curve result;
-    for (std::size_t i = 0; i < curve.size(); ++i)
-    {
-        if (i > 0 && curve[i].time > curve[i - 1].time)
-        {
-            const double r0 = toRoot(curve[i - 1].value), r1 = toRoot(curve[i].value);
-            const auto pieces = std::ceil(std::abs(r1 - r0) / longest);
-            for (double k = 1.0; k < pieces; k += 1.0)
-            {
-                // The place on the line of the curve where the root is r.
-                const double r = r0 + (r1 - r0) * k / pieces;
-                const auto [at, value] = fromRoot(r, curve[i - 1], curve[i]);
-                result.push_back({at, value});
-            }
-        }
-        result.push_back({curve[i].time, fromRoot(toRoot(curve[i].value), curve[i], curve[i]).value});
-    }
-    return result;
-}
 
 /// `curve` at both sides of every time of `dense`: visit(time, exact, approximate).
 template <typename Visit>
@@ -86,15 +62,42 @@ std::vector<double> timeShares(const Curve& curve)
     return shares;
 }
 
-/// Leaves out events that the voice reaches by itself. Players make room for an emphasis by ducking the voice, or play
-/// it on top: either hides the onset that is there already, which cost up to 9 points of HTS in single sounds.
-void dropReached(std::vector<Transient>& events, LossList& losses)
+/// The dense curve as few points, one at each event. Where the density does not allow to say all, what is ducked under
+/// an emphasis counts less, and the points get the values that fit best: between anchors in the valleys of a roll the
+/// lines would else be far too low.
+Curve fewPoints(const Curve& level, const std::vector<Transient>& events, const EmphasisPlayer* player,
+                const AnchoredCurveParams& params)
 {
+    std::vector<double> weights = timeShares(level), times;
+    std::size_t i = 0;
     for (const Transient& event : events)
-        if (event.amplitude <= 0.0)
-            losses.add(LossKind::event, event.time, 0.0, 0.0,
-                       "events that the amplitude reaches by itself are left out");
-    std::erase_if(events, [](const Transient& event) { return event.amplitude <= 0.0; });
+    {
+        times.push_back(event.time);
+        while (i < level.size() && level[i].time <= event.time)
+            ++i;
+        for (; player && i < level.size() && level[i].time < event.time + player->lengthOf(event.sharpness); ++i)
+            weights[i] *= player->ducking * player->ducking;
+    }
+    Curve curve = anchoredCurve(level, times, params, weights);
+    if (curve.size() < params.count)
+        return curve; // all is said
+    curve = refit(level, curve, weights, {.lowest = 0.0});
+    for (Breakpoint& point : curve)
+        point.value = std::min(point.value, 1.0);
+    return curve;
+}
+
+/// An emphasis may not be weaker than its point.
+void lowerToEvents(Curve& level, const std::vector<Transient>& events)
+{
+    auto point = level.begin();
+    for (const Transient& event : events)
+    {
+        while (point != level.end() && point->time < event.time)
+            ++point;
+        for (; point != level.end() && point->time == event.time; ++point)
+            point->value = std::min(point->value, event.amplitude);
+    }
 }
 
 std::size_t pointCount(double perSecond, double duration)
@@ -103,37 +106,14 @@ std::size_t pointCount(double perSecond, double duration)
 }
 } // namespace
 
-Curve rootOf(const Curve& amplitude)
-{
-    return bent(
-        amplitude, [](double a) { return std::sqrt(std::max(a, 0.0)); },
-        [](double r, const Breakpoint& from, const Breakpoint& to)
-        {
-            const double rise = to.value - from.value;
-            const double place = rise != 0.0 ? std::clamp((r * r - from.value) / rise, 0.0, 1.0) : 0.0;
-            return Breakpoint{from.time + place * (to.time - from.time), r};
-        });
-}
-
-Curve squareOf(const Curve& level)
-{
-    return bent(
-        level, [](double r) { return r; },
-        [](double r, const Breakpoint& from, const Breakpoint& to)
-        {
-            const double rise = to.value - from.value;
-            const double place = rise != 0.0 ? std::clamp((r - from.value) / rise, 0.0, 1.0) : 0.0;
-            return Breakpoint{from.time + place * (to.time - from.time), r * r};
-        });
-}
-
 ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
     constexpr double tolerance = 0.5 * leastAmplitude;
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
-    SingleVoice voice = params.profile
-                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0.0, {}}).clip)
-                            : singleVoiceOf(clip);
+    SingleVoice voice =
+        params.profile
+            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0.0, {}}).clip, range.low, range.high)
+            : singleVoiceOf(clip, range.low, range.high);
     ExportVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);
@@ -154,19 +134,14 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     const Curve level = format.scale == LevelScale::root ? rootOf(voice.amplitude) : voice.amplitude;
     const Curve frequency = whole(normalised(voice, range, result.losses), 0.5);
     const bool keepsPoints = isSingleVoice(clip);
-    if (!keepsPoints)
-        dropReached(voice.events, result.losses);
-    result.events = std::move(voice.events);
+    const EmphasisPlayer* player = keepsPoints || format.events.ducking == 1.0 ? nullptr : &format.events;
+    for (Transient& event : voice.events)
+        event.time = std::clamp(event.time, 0.0, result.duration);
+    result.events = keepsPoints ? std::move(voice.events)
+                                : emphasesOf(std::move(voice.events), voice.amplitude, format.events, result.losses);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
     {
-        event.time = std::clamp(event.time, 0.0, result.duration);
-        if (!keepsPoints)
-        {
-            // Players must not show an event weaker than the voice around it.
-            event.amplitude = std::max(event.amplitude, valueAt(voice.amplitude, event.time));
-            event.sharpness = format.events.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
-        }
         if (format.scale == LevelScale::root)
             event.amplitude = std::sqrt(event.amplitude);
         eventTimes.push_back(event.time);
@@ -177,8 +152,9 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     else
     {
         const double rate = params.amplitudePoints.value_or(format.amplitudePoints);
-        result.level =
-            anchoredCurve(level, eventTimes, {pointCount(rate, result.duration), tolerance}, timeShares(level));
+        result.level = fewPoints(level, result.events, player, {pointCount(rate, result.duration), tolerance});
+        if (player)
+            lowerToEvents(result.level, result.events);
         LossTrack track(LossKind::points, fmt::format("{:g} points per second of amplitude do not say all", rate));
         compare(level, result.level,
                 [&](double time, double exact, double kept)

@@ -2,6 +2,7 @@
 
 // A clip as the formats with one voice write it: levels and frequencies of 0 to 1, and events.
 
+#include "io/formats/EmphasisFit.h"
 #include "io/formats/ForeignFormat.h"
 #include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
@@ -25,7 +26,7 @@ struct VoiceFormat
 {
     LevelScale scale = LevelScale::amplitude;
     NormalisedRange range;         ///< without a profile
-    NormalisedRange events;        ///< what players play the dullest and the crispest event at
+    EmphasisPlayer events;         ///< how players show events
     double amplitudePoints = 40.0; ///< per second, the density of Meta's analysis
     double frequencyPoints = 30.0; ///< per second
 };
@@ -44,16 +45,12 @@ struct ExportVoice
 
 /// The one voice of a valid clip (see singleVoiceOf), fitted to the range of the format (see adaptClip for what a
 /// profile changes; frequencies outside become its ends, amplitudes above 1 become 1) and simplified: as few points as
-/// keep each level within half a step of 8 bits, at most params.amplitudePoints per second, or else the format's, and
-/// likewise for frequencies, where the loud parts count most. A clip that is one voice already keeps its points unless
-/// the params ask for a density, and its events their sharpness. Those of other clips mean 100 Hz (dull) to 280 Hz
-/// (crisp, see makePulse) and get the sharpness that is played at their frequency; those that the voice reaches by
-/// itself are left out. A clip without any duration gets 10 ms.
+/// keep each level within half a step of 8 bits, at most params.amplitudePoints per second, or else the format's, whose
+/// levels then fit best; and likewise for frequencies, where the loud parts count most. A clip that is one voice
+/// already keeps its points unless the params ask for a density, and its events their sharpness. Those of other clips
+/// mean 100 Hz (dull) to 280 Hz (crisp, see makePulse) and get the sharpness that is played at their frequency. Where
+/// players play them on top of the voice, those that the voice reaches by itself are left out; where players duck the
+/// voice see emphasesOf. A clip without any duration gets 10 ms.
 [[nodiscard]] ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format);
-
-/// Adds points to a curve so that its square root, or square, taken point by point, is within 1/255 of that of the
-/// lines: a straight line of one is a parabola of the other. Values of 0 or more.
-[[nodiscard]] Curve rootOf(const Curve& amplitude);
-[[nodiscard]] Curve squareOf(const Curve& level);
 
 } // namespace pacini

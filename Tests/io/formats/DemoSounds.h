@@ -26,36 +26,39 @@ struct DemoSound
     HtsFeatures source;
 };
 
-/// Every demo sound, translated with the usual parameters.
+/// Every sound of a folder, translated with the usual parameters.
+inline std::vector<DemoSound> soundsIn(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".flac" || entry.path().extension() == ".wav")
+            paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    std::vector<DemoSound> all;
+    Encoder encoder({});
+    HtsAnalyzer analyzer;
+    for (const auto& path : paths)
+    {
+        const auto audio = readAudio(path);
+        REQUIRE(audio);
+        encoder.start(audio->sampleRate, audio->channels);
+        encoder.push(audio->samples);
+        std::vector<float> mono(audio->samples.size() / static_cast<std::size_t>(audio->channels));
+        for (std::size_t i = 0; i < audio->samples.size(); ++i)
+            mono[i / static_cast<std::size_t>(audio->channels)] +=
+                audio->samples[i] / static_cast<float>(audio->channels);
+        auto source = htsSourceFeatures(analyzer, std::span<const float>(mono), audio->sampleRate);
+        REQUIRE(source);
+        all.push_back({path.stem().string(), encoder.finish(), std::move(source).value()});
+    }
+    return all;
+}
+
+/// Every demo sound.
 inline const std::vector<DemoSound>& demoSounds()
 {
-    static const std::vector<DemoSound> sounds = []
-    {
-        std::vector<std::filesystem::path> paths;
-        for (const auto& entry : std::filesystem::directory_iterator(PACINI_SOURCE_DIR "/Resources/demo"))
-            if (entry.path().extension() == ".flac")
-                paths.push_back(entry.path());
-        std::sort(paths.begin(), paths.end());
-        std::vector<DemoSound> all;
-        Encoder encoder({});
-        HtsAnalyzer analyzer;
-        for (const auto& path : paths)
-        {
-            const auto audio = readAudio(path);
-            REQUIRE(audio);
-            encoder.start(audio->sampleRate, audio->channels);
-            encoder.push(audio->samples);
-            std::vector<float> mono(audio->samples.size() / static_cast<std::size_t>(audio->channels));
-            for (std::size_t i = 0; i < audio->samples.size(); ++i)
-                mono[i / static_cast<std::size_t>(audio->channels)] +=
-                    audio->samples[i] / static_cast<float>(audio->channels);
-            auto source = htsSourceFeatures(analyzer, std::span<const float>(mono), audio->sampleRate);
-            REQUIRE(source);
-            all.push_back({path.stem().string(), encoder.finish(), std::move(source).value()});
-        }
-        REQUIRE(all.size() >= 8);
-        return all;
-    }();
+    static const std::vector<DemoSound> sounds = soundsIn(PACINI_SOURCE_DIR "/Resources/demo");
+    REQUIRE(sounds.size() >= 8);
     return sounds;
 }
 

@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -92,4 +93,37 @@ TEST_CASE("Events nearer than they can be played are named each", "[formats]")
     CHECK(losses[0].error == 0.6);
     CHECK(losses[1].time == 0.507);
     CHECK(losses[1].error == 0.4);
+}
+
+TEST_CASE("Noise is lost where it sounds, as strong as it is, each band for itself", "[formats]")
+{
+    Clip clip;
+    clip.duration = 4.0;
+    clip.noise = {{100.0, 200.0, {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {2.0, 0.3}, {2.0, 0.0}, {4.0, 0.0}}},
+                  {200.0, 400.0, {{2.5, 0.0}, {3.0, 0.2}, {3.5, 0.0}}},
+                  {400.0, 800.0, {{0.0, 0.001}}}}; // too weak to be told from silence
+    const auto losses = lossesOf([&](LossList& list) { list.addNoise(clip); });
+    REQUIRE(losses.size() == 2);
+    CHECK(losses[0].kind == LossKind::noise);
+    CHECK(losses[0].time == 1.0);
+    CHECK(losses[0].duration == 1.0);
+    CHECK(losses[0].error == 0.3);
+    CHECK(losses[0].message.find("100 to 200 Hz") != std::string::npos);
+    CHECK(losses[1].time == 2.5);
+    CHECK(losses[1].duration == 1.0);
+    CHECK(losses[1].error == 0.2);
+}
+
+TEST_CASE("Events that lose the same are one loss, from the first to the last", "[formats]")
+{
+    SingleVoice voice;
+    voice.duration = 1.0;
+    voice.amplitude = {{0.0, 0.5}, {1.0, 0.5}};
+    voice.events = {{0.25, 1.0, 0.5}, {0.5, 0.6, 0.5}, {0.75, 1.0, 0.5}};
+    const auto losses = lossesOf([&](LossList& list) { list.addStrengthOnly({}, voice); });
+    REQUIRE(losses.size() == 1);
+    CHECK(losses[0].kind == LossKind::event);
+    CHECK(losses[0].time == 0.25);
+    CHECK(losses[0].duration == 0.5);
+    CHECK(losses[0].error == 0.0);
 }
