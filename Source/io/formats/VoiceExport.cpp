@@ -104,11 +104,58 @@ std::size_t pointCount(double perSecond, double duration)
 {
     return std::max<std::size_t>(2, static_cast<std::size_t>(std::floor(perSecond * duration)));
 }
+
+constexpr double halfStep = 0.5 * leastAmplitude; // of 8 bits
+
+/// Sets the level to few points of a dense one, and adds what that loses.
+void fewLevels(ExportVoice& result, const Curve& level, const EmphasisPlayer* player, LevelScale scale,
+               double pointsPerSecond)
+{
+    result.level = fewPoints(level, result.events, player, {pointCount(pointsPerSecond, result.duration), halfStep});
+    if (player)
+        lowerToEvents(result.level, result.events);
+    LossTrack track(LossKind::points,
+                    fmt::format("{:g} points per second of amplitude do not say all", pointsPerSecond));
+    compare(level, result.level,
+            [&](double time, double exact, double kept)
+            {
+                const double error =
+                    scale == LevelScale::root ? std::abs(kept * kept - exact * exact) : std::abs(kept - exact);
+                track.add(time, error > leastAmplitude ? error : 0.0);
+            });
+    result.losses.append(track);
+}
+
+/// Likewise the frequency, of which the loud parts count most.
+void fewFrequencies(ExportVoice& result, const Curve& frequency, const Curve& amplitude, const NormalisedRange& range,
+                    double pointsPerSecond)
+{
+    std::vector<double> weights = timeShares(frequency);
+    CurveReader level(amplitude);
+    for (std::size_t i = 0; i < frequency.size(); ++i)
+    {
+        const double a = level.at(frequency[i].time);
+        const double hertz = std::max(range.hertzOf(frequency[i].value), 1.0);
+        weights[i] *= (a * a + 1e-6) / (hertz * hertz);
+    }
+    result.frequency = anchoredCurve(frequency, {}, {pointCount(pointsPerSecond, result.duration), halfStep}, weights);
+    LossTrack track(LossKind::frequency,
+                    fmt::format("{:g} points per second of frequency do not say all", pointsPerSecond));
+    CurveReader loudness(amplitude);
+    compare(frequency, result.frequency,
+            [&](double time, double exact, double kept)
+            {
+                constexpr double semitone = 1.0 / 12.0; // of an octave
+                const double error =
+                    std::abs(std::log2(std::max(range.hertzOf(kept), 1.0) / std::max(range.hertzOf(exact), 1.0)));
+                track.add(time, error > semitone && loudness.at(time) > leastAmplitude ? error : 0.0);
+            });
+    result.losses.append(track);
+}
 } // namespace
 
 ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
-    constexpr double tolerance = 0.5 * leastAmplitude;
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
     SingleVoice voice =
         params.profile
@@ -150,47 +197,12 @@ ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const Voic
     if (keepsPoints && !params.amplitudePoints)
         result.level = detail::withAnchors(level, eventTimes).curve;
     else
-    {
-        const double rate = params.amplitudePoints.value_or(format.amplitudePoints);
-        result.level = fewPoints(level, result.events, player, {pointCount(rate, result.duration), tolerance});
-        if (player)
-            lowerToEvents(result.level, result.events);
-        LossTrack track(LossKind::points, fmt::format("{:g} points per second of amplitude do not say all", rate));
-        compare(level, result.level,
-                [&](double time, double exact, double kept)
-                {
-                    const double error = format.scale == LevelScale::root ? std::abs(kept * kept - exact * exact)
-                                                                          : std::abs(kept - exact);
-                    track.add(time, error > leastAmplitude ? error : 0.0);
-                });
-        result.losses.append(track);
-    }
+        fewLevels(result, level, player, format.scale, params.amplitudePoints.value_or(format.amplitudePoints));
     if (keepsPoints && !params.frequencyPoints)
         result.frequency = frequency;
     else
-    {
-        const double rate = params.frequencyPoints.value_or(format.frequencyPoints);
-        std::vector<double> weights = timeShares(frequency);
-        CurveReader amplitude(voice.amplitude);
-        for (std::size_t i = 0; i < frequency.size(); ++i)
-        {
-            const double a = amplitude.at(frequency[i].time);
-            const double hertz = std::max(range.hertzOf(frequency[i].value), 1.0);
-            weights[i] *= (a * a + 1e-6) / (hertz * hertz);
-        }
-        result.frequency = anchoredCurve(frequency, {}, {pointCount(rate, result.duration), tolerance}, weights);
-        LossTrack track(LossKind::frequency, fmt::format("{:g} points per second of frequency do not say all", rate));
-        CurveReader loudness(voice.amplitude);
-        compare(frequency, result.frequency,
-                [&](double time, double exact, double kept)
-                {
-                    constexpr double semitone = 1.0 / 12.0; // of an octave
-                    const double error =
-                        std::abs(std::log2(std::max(range.hertzOf(kept), 1.0) / std::max(range.hertzOf(exact), 1.0)));
-                    track.add(time, error > semitone && loudness.at(time) > leastAmplitude ? error : 0.0);
-                });
-        result.losses.append(track);
-    }
+        fewFrequencies(result, frequency, voice.amplitude, range,
+                       params.frequencyPoints.value_or(format.frequencyPoints));
     return result;
 }
 
