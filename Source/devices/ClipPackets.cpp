@@ -11,6 +11,14 @@
 namespace pacini::devices
 {
 
+namespace
+{
+bool isStronger(const EventPulse& a, const EventPulse& b) noexcept
+{
+    return a.tone.amplitude != b.tone.amplitude ? a.tone.amplitude > b.tone.amplitude : a.level > b.level;
+}
+} // namespace
+
 ClipPackets::ClipPackets(Clip clipToPlay, const PlayRange& rangeToPlay, double gainToPlay, Seconds packetInterval)
     : clip(std::move(clipToPlay)),
       range(rangeToPlay),
@@ -83,7 +91,7 @@ std::optional<EventPulse> ClipPackets::strongestBetween(double start, double end
             if (event->time >= to || (range.loop ? event->time >= range.to.value : event->time > range.to.value))
                 break;
             const EventPulse pulse = pulseOf(static_cast<std::size_t>(event - events.begin()));
-            if (pulse.tone.amplitude > (strongest ? strongest->tone.amplitude : 0.0))
+            if (pulse.level > 0.0 && (!strongest || isStronger(pulse, *strongest)))
                 strongest = pulse;
         }
     }
@@ -101,6 +109,7 @@ EventPulse ClipPackets::pulseOf(std::size_t event) const
     constexpr double fs = 48000.0; // any: only the frequency is used
     const Pulse pulse = makePulse({}, events[event].sharpness, gap, fs, 1.0);
     return {{Hertz(pulse.cyclesPerFrame * fs), gain * pulseLevel(clip.envelope, events[event])},
+            gain * events[event].amplitude,
             events[event].sharpness};
 }
 

@@ -25,7 +25,8 @@ struct PlayRange
 /// An event as a controller can play it.
 struct EventPulse
 {
-    RumbleTone tone;
+    RumbleTone tone;        ///< on top of the bands: 0 where they reach the event by themselves
+    double level = 0.0;     ///< of the event as a whole
     double sharpness = 0.0; ///< 0 dull, 1 crisp
 };
 
@@ -49,9 +50,9 @@ public:
     ///
     /// Bands: see bandTones(); the packet in which a loop starts anew plays the longer of its two parts. Events go into
     /// the packet that starts nearest to them, so that they come at most half an interval early or late; those of
-    /// packets that were left out go into the next. Of several events in one packet the strongest is played. Its
-    /// frequency is that of the pulse by which a decoder plays it (makePulse()), its amplitude that by which the event
-    /// rises above the bands (pulseLevel()), so that no energy is played twice. [worker]
+    /// packets that were left out go into the next. Of several events in one packet the one is played that rises most
+    /// above the bands. Its frequency is that of the pulse by which a decoder plays it (makePulse()), its amplitude
+    /// that by which it rises above them (pulseLevel()), so that no energy is played twice. [worker]
     [[nodiscard]] PacketContent at(std::int64_t packet);
 
 private:

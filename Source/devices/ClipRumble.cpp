@@ -44,7 +44,7 @@ MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept
 
 MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept
 {
-    const double amplitude = std::min(pulse.tone.amplitude, 1.0);
+    const double amplitude = std::min(pulse.level, 1.0);
     return {std::max(motors.strong, amplitude * std::sqrt(1.0 - pulse.sharpness)),
             std::max(motors.weak, amplitude * std::sqrt(pulse.sharpness))};
 }
@@ -99,7 +99,7 @@ WaveformState ClipRumble::waveformFor(std::int64_t packet, const PacketContent& 
         return lastingFor(packet, motorsFor(packet, content));
     if (content.event)
     {
-        played = {Waveform::event, content.event->tone.amplitude, true};
+        played = {Waveform::event, content.event->level, true};
         playedEnd = packet + packetsIn(std::ceil(model.trigger.eventTime.value / interval.value - packetRounding));
         return played;
     }

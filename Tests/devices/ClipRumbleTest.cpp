@@ -120,11 +120,20 @@ TEST_CASE("An event has the pulse of the decoder and does not play the energy of
     clip.envelope = {{0.0, 0.3}, {1.0, 0.3}}; // bands reach twice as much, 0.6
     ClipPackets masked(clip, wholeClip, 1.0, 15_ms);
     const auto first = masked.at(35).event;
-    CHECK_FALSE(first);
+    REQUIRE(first);
+    CHECK(first->tone.amplitude == 0.0);
+    CHECK(first->level == 0.5);
     const auto second = masked.at(45).event;
     REQUIRE(second);
     CHECK(second->tone.frequency.value == Approx(280.0));
     CHECK(second->tone.amplitude == Approx(0.8)); // 0.6, 0.8, 1
+    CHECK(second->level == 1.0);
+
+    // Of two in one packet, the one that the bands do not reach.
+    clip.transients = {{0.5, 0.58, 0.0}, {0.505, 0.6, 0.5}, {0.51, 0.65, 1.0}};
+    const auto strongest = ClipPackets(clip, wholeClip, 1.0, 30_ms).at(20).event;
+    REQUIRE(strongest);
+    CHECK(strongest->sharpness == 1.0);
 }
 
 TEST_CASE("A pulse joins the carrier that it is nearest to and is over with its packet", "[devices]")
@@ -161,6 +170,28 @@ TEST_CASE("Motors share energy at the border of the carriers and are held up for
         CHECK(levels.strong == Approx(held ? 0.8 * 0.8 : 0.1));
         CHECK(levels.weak == Approx(held ? 0.8 * 0.6 : 0.0));
     }
+}
+
+TEST_CASE("An event that the bands reach is still a click, and holds motors up; HD rumble has it already", "[devices]")
+{
+    Clip clip = steadyClip({{0.32, 0.5, 0.36}}, 0.1);
+    clip.envelope = {{0.0, 0.3}, {1.0, 0.3}};
+    const auto atEvent = [&](const ControllerModel& model)
+    {
+        ClipRumble rumble(clip, wholeClip, 0_dB, model);
+        const double packet = std::round(0.32 / pacingOf(model.haptics).interval.value);
+        std::optional<RumbleState> state;
+        for (std::int64_t n = 0; n <= static_cast<std::int64_t>(packet); ++n)
+            state = rumble.at(n);
+        return state;
+    };
+    CHECK(motorsOf(atEvent({ControllerHaptics::xbox})).strong == Approx(0.5 * 0.8));
+    const WaveformState clicked =
+        waveformOf(atEvent({ControllerHaptics::waveforms, Transport::usb, standardTrigger()}));
+    CHECK(clicked == WaveformState{Waveform::event, 0.5, true});
+    const auto tones = decodeRumble(sidesOf(atEvent({ControllerHaptics::hdRumble})).left);
+    REQUIRE(tones);
+    CHECK(tones->high.amplitude == 0.0);
 }
 
 TEST_CASE("What a clip plays fades out and ends", "[devices]")
