@@ -187,10 +187,9 @@ void UnfittingList::paint(juce::Graphics& g)
     g.setFont(smallFont());
     const auto item = session.item();
     const std::size_t count = item ? item->edits.size() : 0;
-    g.drawFittedText(tr(count == 0 ? "Hand edits stay when the sound is analysed again. Those that no longer fit are "
-                                     "listed here."
-                                   : "All hand edits have a place over this analysis."),
-                     getLocalBounds(), juce::Justification::topLeft, 4, 1.0f);
+    constexpr auto hint = "Hand edits stay when the sound is analysed again. Those that no longer fit are listed here.";
+    g.drawFittedText(tr(count == 0 ? hint : "All hand edits have a place over this analysis."), getLocalBounds(),
+                     juce::Justification::topLeft, 4, 1.0f);
 }
 
 void UnfittingList::resized()
