@@ -2,6 +2,7 @@
 #include "editor/Meters.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ void LevelMeter::paint(juce::Graphics& g)
     const auto labels = area.removeFromTop(labelHeight);
     g.setFont(smallFont());
     g.setColour(p.dim);
-    g.drawText(title, labels, juce::Justification::centredLeft, true);
+    g.drawText(tr(title), labels, juce::Justification::centredLeft, true);
     g.setColour(p.text);
     g.drawText(text, labels, juce::Justification::centredRight, false);
     const auto bar = area.removeFromTop(barHeight).toFloat();

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
@@ -26,8 +27,7 @@ juce::String share(std::span<const Loss> losses, Loss wanted, const char* name)
     const double percent = losses.empty() ? 0.0 : 100.0 * count / static_cast<double>(losses.size());
     if (percent <= 0.0)
         return {};
-    return juce::String(name) + " " + (percent < 1.0 ? juce::String("< 1") : juce::String(juce::roundToInt(percent))) +
-           " %";
+    return tr(name) + " " + (percent < 1.0 ? juce::String("< 1") : juce::String(juce::roundToInt(percent))) + " %";
 }
 } // namespace
 

@@ -122,7 +122,7 @@ void ActuatorRow::paintHead(juce::Graphics& g)
         };
         auto second = line;
         swatch(item.loss);
-        g.drawFittedText(item.name, line.withWidth(72), juce::Justification::centredLeft, 1, 0.8f);
+        g.drawFittedText(tr(item.name), line.withWidth(72), juce::Justification::centredLeft, 1, 0.8f);
         if (item.loss == Loss::belowTouch)
         {
             line = second.withTrimmedLeft(74);
@@ -175,7 +175,7 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     }
     g.setColour(p.dim);
     g.fillRect(visible.getX(), touch, visible.getWidth(), 1);
-    const auto text = "touch " + juce::String(juce::roundToInt(shown->touch)) + " dB";
+    const auto text = tr("touch") + " " + juce::String(juce::roundToInt(shown->touch)) + " dB";
     const juce::Rectangle<int> label(plot.getX() + 3, touch - 14, 84, 13);
     g.setColour(p.well.withAlpha(0.75f));
     g.fillRect(label);

@@ -45,7 +45,7 @@ PlotLane::Style EventLane::style() const
 {
     const auto colour = paletteFor(*this).warning;
     if (shows == Shows::sharpness)
-        return {"Sharpness", "0 to 100 %", colour};
+        return {"Sharpness", "0 " + tr("to") + " 100 %", colour};
     return {"Transients", counted(count(), "event", "events"), colour};
 }
 

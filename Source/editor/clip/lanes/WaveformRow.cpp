@@ -82,9 +82,9 @@ void WaveformRow::showOptions()
     const juce::String name = options.sound == SoundView::waveform   ? "Waveform"
                               : options.sound == SoundView::spectrum ? "Spectrum"
                                                                      : "Both";
-    viewButton.setButtonText(name);
+    viewButton.setButtonText(tr(name));
     viewButton.setTitle("View of the sound: " + name.toLowerCase());
-    rangeButton.setButtonText(options.wholeSpectrum ? "All" : "2 kHz");
+    rangeButton.setButtonText(options.wholeSpectrum ? tr("All") : juce::String("2 kHz"));
     rangeButton.setTitle(juce::String("Highest frequency: ") + (options.wholeSpectrum ? "all" : "2 kHz"));
     rangeButton.setVisible(spectral);
     spectrum.show(spectral ? session.soundOfClip() : nullptr, options.wholeSpectrum);

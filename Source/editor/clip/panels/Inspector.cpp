@@ -227,7 +227,7 @@ void Inspector::showSelection()
             field.setText(shown ? text : juce::String(), juce::dontSendNotification);
     };
     set(timeLabel, timeField, first.has_value(), first ? juce::String(first->time, 4) + " s" : "");
-    valueLabel.setText(first && first->hertz ? "Frequency" : "Level", juce::dontSendNotification);
+    valueLabel.setText(tr(first && first->hertz ? "Frequency" : "Level"), juce::dontSendNotification);
     set(valueLabel, valueField, first.has_value(),
         first ? first->hertz ? hertzText(first->value) : amplitudeText(first->value) : juce::String());
     const bool sharp = first && first->sharpness;
