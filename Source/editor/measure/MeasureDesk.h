@@ -7,6 +7,7 @@
 #include "document/measure/MeasureRig.h"
 #include "editor/clip/session/Session.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -28,6 +29,8 @@ public:
         double simulatedSpeed = 8.0;         ///< see SimulatedMeasureRig
         bool inPlace = false;                ///< work is done at once instead of in the background
     };
+
+    static constexpr std::size_t mostInputs = 3; ///< one sensor of three axes
 
     MeasureDesk(Session& shared, Surroundings around);
     ~MeasureDesk();
