@@ -227,9 +227,10 @@ void Inspector::showSelection()
             field.setText(shown ? text : juce::String(), juce::dontSendNotification);
     };
     set(timeLabel, timeField, first.has_value(), first ? juce::String(first->time, 4) + " s" : "");
-    valueLabel.setText(tr(first && first->hertz ? "Frequency" : "Level"), juce::dontSendNotification);
-    set(valueLabel, valueField, first.has_value(),
-        first ? first->hertz ? hertzText(first->value) : amplitudeText(first->value) : juce::String());
+    const bool hertz = first.has_value() && first->hertz;
+    const double value = first.has_value() ? first->value : 0.0;
+    valueLabel.setText(tr(hertz ? "Frequency" : "Level"), juce::dontSendNotification);
+    set(valueLabel, valueField, first.has_value(), hertz ? hertzText(value) : amplitudeText(value));
     const bool sharp = first && first->sharpness;
     set(sharpLabel, sharpField, sharp,
         sharp ? juce::String(juce::roundToInt(100.0 * *first->sharpness)) + " %" : juce::String());
