@@ -176,7 +176,7 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     g.setColour(p.dim);
     g.fillRect(visible.getX(), touch, visible.getWidth(), 1);
     const auto text = tr("touch") + " " + juce::String(juce::roundToInt(shown->touch)) + " dB";
-    const juce::Rectangle<int> label(plot.getX() + 3, touch - 14, 84, 13);
+    const juce::Rectangle<int> label(plot.getX() + 3, touch - 14, smallFont().getStringWidth(text) + 8, 13);
     g.setColour(p.well.withAlpha(0.75f));
     g.fillRect(label);
     g.setColour(p.text);
