@@ -22,7 +22,11 @@ public:
 
     void initialise(const juce::String&) override
     {
-        wishes = wishesOf(getCommandLineParameterArray());
+        if (const auto code = readWishes(wishes, getCommandLineParameterArray()))
+        {
+            setApplicationReturnValue(*code);
+            return quit();
+        }
         if (!wishes.fresh)
             settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
         processor = std::make_unique<plugin::PluginProcessor>();
@@ -52,7 +56,7 @@ public:
 
     void shutdown() override
     {
-        if (settings)
+        if (settings && rig)
         {
             remember(*settings, rig->routing());
             if (const auto devices = rig->devices().createStateXml())

@@ -1,33 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/Settings.h"
 
+#include "app/CommandLine.h"
+#include "editor/Text.h"
+
 namespace pacini::app
 {
 
-CommandLineWishes wishesOf(const juce::StringArray& arguments)
+std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray& arguments)
 {
-    CommandLineWishes wishes;
-    for (int i = 0; i < arguments.size(); ++i)
-    {
-        const auto& name = arguments[i];
-        const auto value = [&]
-        {
-            return arguments[++i].unquoted();
-        };
-        if (name == "--fresh")
-            wishes.fresh = true;
-        else if (name == "--test-signal")
-            wishes.testSignal = true;
-        else if (name == "--device-type")
-            wishes.deviceType = value();
-        else if (name == "--play")
-            wishes.file = juce::File::getCurrentWorkingDirectory().getChildFile(value());
-        else if (name == "--haptic-output")
-            wishes.hapticOutput = value().getIntValue() - 1;
-        else if (name == "--sound-output")
-            wishes.soundOutput = value().getIntValue() - 1;
-    }
-    return wishes;
+    CLI::App options("Pacini: live sound to touch. A window with the plugin, and its ways to the sound devices.",
+                     "Pacini");
+    std::string deviceType, file;
+    int hapticOutput = -1, soundOutput = -1;
+    options.add_flag("--fresh", wishes.fresh, "Remember nothing of earlier runs, and leave it as it is");
+    options.add_flag("--test-signal", wishes.testSignal, "Listen to a test signal");
+    options.add_option("--play", file, "Listen to a sound file")->type_name("FILE");
+    options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")->type_name("TYPE");
+    const CLI::Range channels(0, 1024);
+    options.add_option("--haptic-output", hapticOutput, "Output of the haptic signal, from 1; 0: none")
+        ->type_name("N")
+        ->check(channels);
+    options.add_option("--sound-output", soundOutput, "First output of the sound, from 1; 0: none")
+        ->type_name("N")
+        ->check(channels);
+    if (const auto code = readCommandLine(options, JucePlugin_VersionString, arguments))
+        return code;
+    wishes.deviceType = editor::toText(deviceType);
+    if (!file.empty())
+        wishes.file = juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(file));
+    if (hapticOutput >= 0)
+        wishes.hapticOutput = hapticOutput - 1;
+    if (soundOutput >= 0)
+        wishes.soundOutput = soundOutput - 1;
+    return std::nullopt;
 }
 
 Routing routingOf(juce::PropertiesFile& settings)

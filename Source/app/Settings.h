@@ -12,8 +12,7 @@
 namespace pacini::app
 {
 
-/// `--fresh` remembers nothing and forgets nothing; `--device-type JACK`; `--test-signal`; `--play FILE`;
-/// `--haptic-output N` and `--sound-output N`, channels from 1, 0 for none.
+/// See the help of the program, `--help`.
 struct CommandLineWishes
 {
     bool fresh = false;
@@ -23,7 +22,8 @@ struct CommandLineWishes
     std::optional<int> hapticOutput, soundOutput; ///< from 0, -1: none
 };
 
-[[nodiscard]] CommandLineWishes wishesOf(const juce::StringArray& arguments);
+/// Returns the code to end with where the program is not to start: see readCommandLine().
+[[nodiscard]] std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray& arguments);
 
 /// Reads what was remembered; defaults where nothing was.
 [[nodiscard]] Routing routingOf(juce::PropertiesFile& settings);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The clip editor as a program of its own: PaciniEditor [--fresh] [--device-type TYPE] [--language CODE] [FILE...]
+// The clip editor as a program of its own.
 
+#include "app/CommandLine.h"
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
@@ -52,6 +53,10 @@ std::vector<std::filesystem::path> demoSounds()
         }
     return {};
 }
+std::string languageCodes()
+{
+    return editor::languages().joinIntoString(", ").toStdString();
+}
 } // namespace
 
 class EditorApplication final : public juce::JUCEApplication
@@ -63,19 +68,25 @@ public:
 
     void initialise(const juce::String&) override
     {
+        CLI::App options("Pacini Editor: sounds become clips that can be reshaped, felt and exported.", "PaciniEditor");
         bool fresh = false;
-        juce::String deviceType, language;
+        std::string deviceType, language;
+        std::vector<std::string> names;
+        options.add_option("files", names, "Sounds, clips of any known format, folders of them, or a project")
+            ->type_name("FILE");
+        options.add_flag("--fresh", fresh, "Remember nothing of earlier runs, and leave it as it is");
+        options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")
+            ->type_name("TYPE");
+        options.add_option("--language", language, "Of menus and controls: en or " + languageCodes())
+            ->type_name("CODE");
+        if (const auto code = readCommandLine(options, PACINI_VERSION, getCommandLineParameterArray()))
+        {
+            setApplicationReturnValue(*code);
+            return quit();
+        }
         std::vector<std::filesystem::path> files;
-        const auto arguments = getCommandLineParameterArray();
-        for (int i = 0; i < arguments.size(); ++i)
-            if (arguments[i] == "--fresh")
-                fresh = true;
-            else if (arguments[i] == "--device-type")
-                deviceType = arguments[++i].unquoted();
-            else if (arguments[i] == "--language")
-                language = arguments[++i].unquoted();
-            else if (!arguments[i].startsWith("-"))
-                files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(arguments[i].unquoted())));
+        for (const std::string& name : names)
+            files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(name))));
         const auto home = settingsFolder();
         if (!fresh)
         {
@@ -97,9 +108,11 @@ public:
             devices = settings->devices();
             settings->apply(*rig);
         }
-        if (const auto error = rig->open(devices.get(), deviceType); error.isNotEmpty())
+        if (const auto error = rig->open(devices.get(), editor::toText(deviceType)); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        editor::useLanguage(language.isNotEmpty() ? language : settings ? settings->language() : juce::String("en"));
+        editor::useLanguage(!language.empty() ? editor::toText(language)
+                            : settings        ? settings->language()
+                                              : juce::String("en"));
         editor::Surroundings around;
         around.demoSounds = demoSounds();
         if (settings)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The command line of a program with a window.
+
+#include <CLI/CLI.hpp>
+#include <juce_core/juce_core.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pacini::app
+{
+
+/// Sets what `options` describes. Where the user asked for help or the version, or made a mistake, that is told on the
+/// terminal, and the program is to end with the code that is returned: 0, or 2 for wrong usage. [message]
+[[nodiscard]] inline std::optional<int> readCommandLine(CLI::App& options, const std::string& version,
+                                                        const juce::StringArray& arguments)
+{
+    options.set_version_flag("--version", version, "Print the version and exit");
+#if JUCE_MAC
+    options.allow_extras(); // the system adds some of its own
+#endif
+    std::vector<std::string> words;
+    for (const juce::String& argument : arguments)
+        words.push_back(argument.unquoted().toStdString());
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    try
+    {
+        options.parse(std::move(words));
+        return std::nullopt;
+    }
+    catch (const CLI::ParseError& problem)
+    {
+        return options.exit(problem) == 0 ? 0 : 2;
+    }
+}
+
+} // namespace pacini::app
