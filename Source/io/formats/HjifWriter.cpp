@@ -76,6 +76,7 @@ double highestSum(const Clip& clip)
         for (const Breakpoint& point : band.amplitude)
             times.push_back(point.time);
     std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end()); // bands often have them in common
     std::vector<CurveReader> readers;
     for (const Band& band : clip.bands)
         readers.emplace_back(band.amplitude);
