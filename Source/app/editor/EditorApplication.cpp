@@ -53,6 +53,7 @@ std::vector<std::filesystem::path> demoSounds()
         }
     return {};
 }
+
 std::string languageCodes()
 {
     return editor::languages().joinIntoString(", ").toStdString();
