@@ -5,7 +5,7 @@
 #include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
-#include <pacini/clip/Curve.h>
+#include <pacini/synthesis/CurvePieces.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DelayTap.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -336,70 +336,30 @@ private:
         }
     }
 
-    /// A straight piece of a curve. Values follow from the frame alone, so that they do not depend on blocks.
-    struct Piece
-    {
-        double value = 0.0; // at `origin`
-        double slope = 0.0; // per s
-        double origin = 0.0;
-        double fs = 1.0;
-        [[nodiscard]] double at(std::int64_t frame) const noexcept
-        {
-            return value + slope * (static_cast<double>(frame) / fs - origin);
-        }
-    };
-
-    /// Calls use(i, end, piece) for the straight pieces of a curve over frames [now, now + n).
-    template <typename Use>
-    void forPieces(const Curve& curve, std::size_t& next, std::int64_t now, std::size_t n, Use&& use) const noexcept
-    {
-        for (std::size_t i = 0; i < n;)
-        {
-            const double t = static_cast<double>(now + static_cast<std::int64_t>(i)) / fs;
-            while (next < curve.size() && curve[next].time <= t)
-                ++next;
-            std::size_t end = n;
-            if (next < curve.size())
-            {
-                const double until = std::ceil(curve[next].time * fs) - static_cast<double>(now);
-                end = until < static_cast<double>(n) ? std::max(i + 1, static_cast<std::size_t>(until)) : n;
-            }
-            if (next == 0 || next == curve.size() || curve[next - 1].value == curve[next].value)
-                use(i, end, Piece{next == 0 ? curve.front().value : curve[next - 1].value, 0.0, 0.0, fs});
-            else
-            {
-                const Breakpoint& a = curve[next - 1];
-                const Breakpoint& b = curve[next];
-                use(i, end, Piece{a.value, (b.value - a.value) / (b.time - a.time), a.time, fs});
-            }
-            i = end;
-        }
-    }
-
     void mix(const Curve& gains, std::size_t& next, std::int64_t now, std::span<const float> in,
              std::span<float> out) const noexcept
     {
-        forPieces(gains, next, now, in.size(),
-                  [&](std::size_t i, std::size_t end, const Piece& piece)
-                  {
-                      if (piece.slope != 0.0)
-                          for (; i < end; ++i)
-                              out[i] += static_cast<float>(piece.at(now + static_cast<std::int64_t>(i)) *
-                                                           static_cast<double>(in[i]));
-                      else if (piece.value != 0.0)
-                          for (; i < end; ++i)
-                              out[i] += static_cast<float>(piece.value * static_cast<double>(in[i]));
-                  });
+        forCurvePieces(gains, next, now, in.size(), fs,
+                       [&](std::size_t i, std::size_t end, const CurvePiece& piece)
+                       {
+                           if (piece.slope != 0.0)
+                               for (; i < end; ++i)
+                                   out[i] += static_cast<float>(piece.at(now + static_cast<std::int64_t>(i)) *
+                                                                static_cast<double>(in[i]));
+                           else if (piece.value != 0.0)
+                               for (; i < end; ++i)
+                                   out[i] += static_cast<float>(piece.value * static_cast<double>(in[i]));
+                       });
     }
 
     void read(const Curve& curve, std::size_t& next, std::int64_t now, std::span<double> values) const noexcept
     {
-        forPieces(curve, next, now, values.size(),
-                  [&](std::size_t i, std::size_t end, const Piece& piece)
-                  {
-                      for (; i < end; ++i)
-                          values[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
-                  });
+        forCurvePieces(curve, next, now, values.size(), fs,
+                       [&](std::size_t i, std::size_t end, const CurvePiece& piece)
+                       {
+                           for (; i < end; ++i)
+                               values[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
+                       });
     }
 
     RenderPlan plan;
