@@ -2,6 +2,7 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Golden.h"
+#include "support/Paths.h"
 
 #include <pacini/actuator/Profile.h>
 
@@ -9,7 +10,7 @@ using namespace pacini;
 
 TEST_CASE("The wristband profile's equaliser is that of the thesis' Table 3.2", "[actuator][golden]")
 {
-    const auto profile = readProfile(std::string(PACINI_SOURCE_DIR) + "/profiles/l5-wristband.json");
+    const auto profile = readProfile(sourceFolder() / "profiles/l5-wristband.json");
     REQUIRE(profile.ok());
     const auto golden = test::golden("eq_table_3_2");
     int compared = 0;

@@ -2,6 +2,7 @@
 
 #include "io/ProfileFile.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <pacini/actuator/Profile.h>
 
@@ -21,13 +22,12 @@ using namespace pacini;
 
 namespace
 {
-const std::filesystem::path sourceFolder = PACINI_SOURCE_DIR;
 
 template <typename Check>
 void forEachProfile(Check check)
 {
     int count = 0;
-    for (const ShippedProfile& shipped : shippedProfiles(sourceFolder))
+    for (const ShippedProfile& shipped : shippedProfiles(sourceFolder()))
     {
         CAPTURE(shipped.name);
         const auto profile = readProfile(shipped.path);
@@ -137,7 +137,7 @@ TEST_CASE("Shipped resonant actuators rise and fall as their frequency and Q say
 
 TEST_CASE("The jig's profile has the plateau and the peak that the thesis measured", "[actuator]")
 {
-    const auto profile = readProfile(sourceFolder / "profiles" / "l5-test-jig.json");
+    const auto profile = readProfile(sourceFolder() / "profiles" / "l5-test-jig.json");
     REQUIRE(profile.ok());
     REQUIRE(profile->body.has_value());
     const BodyParams& body = *profile->body;

@@ -1,5 +1,6 @@
 #include "io/AudioReader.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <pacini/analysis/OnsetDetector.h>
 
@@ -39,7 +40,7 @@ std::size_t hits(const std::vector<double>& annotated, const std::vector<Onset>&
 
 TEST_CASE("The annotated onsets of the demo sounds are found", "[analysis][onsets]")
 {
-    std::ifstream file(PACINI_TEST_DIR "/analysis/demo_onsets.json");
+    std::ifstream file(testFolder() / "analysis/demo_onsets.json");
     REQUIRE(file);
     const auto annotations = nlohmann::json::parse(file);
     std::size_t matched = 0;
@@ -47,7 +48,7 @@ TEST_CASE("The annotated onsets of the demo sounds are found", "[analysis][onset
     std::size_t detected = 0;
     for (const auto& [name, times] : annotations["onsets"].items())
     {
-        const auto sound = readAudio(std::string(PACINI_SOURCE_DIR "/Resources/demo/") + name);
+        const auto sound = readAudio(sourceFolder() / "Resources/demo" / name);
         REQUIRE(sound);
         const auto found = detectOnsets(sound->samples, static_cast<std::size_t>(sound->channels), sound->sampleRate);
         const auto annotated = times.get<std::vector<double>>();

@@ -1,5 +1,6 @@
 #include "io/AudioWriter.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
 #include <nlohmann/json.hpp>
@@ -39,8 +40,8 @@ void writeSound(const std::filesystem::path& path)
 /// Runs `pacini bench` in the folder; what it says lands in `log`. Returns its exit code.
 int bench(const TempFolder& folder, const std::string& arguments)
 {
-    const std::string line =
-        "cd \"" + folder.path().string() + "\" && \"" PACINI_COMMAND "\" bench " + arguments + " > log 2>&1";
+    const std::string line = "cd \"" + folder.path().string() + "\" && \"" + paciniCommand().string() + "\" bench " +
+                             arguments + " > log 2>&1";
     const int status = std::system(line.c_str());
     return status > 255 ? status / 256 : status;
 }

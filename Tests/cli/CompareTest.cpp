@@ -4,6 +4,7 @@
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
 #include <nlohmann/json.hpp>
@@ -33,8 +34,8 @@ struct Outcome
 /// Runs `pacini compare` in `folder`. Arguments must not need quoting.
 Outcome compareIn(const TempFolder& folder, const std::string& arguments)
 {
-    const std::string command = "cd \"" + folder.path().string() + "\" && \"" PACINI_COMMAND "\" compare " + arguments +
-                                " > out.txt 2> messages.txt";
+    const std::string command = "cd \"" + folder.path().string() + "\" && \"" + paciniCommand().string() +
+                                "\" compare " + arguments + " > out.txt 2> messages.txt";
     const int status = std::system(command.c_str());
     return {status > 255 ? status >> 8 : status, bytesOf(folder / "out.txt"), bytesOf(folder / "messages.txt")};
 }

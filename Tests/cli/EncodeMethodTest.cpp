@@ -4,6 +4,7 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
 #include <pacini/analysis/methods/Method.h>
@@ -27,8 +28,8 @@ struct MethodOutcome
 MethodOutcome encode(const TempFolder& folder, const std::string& arguments)
 {
     const auto log = folder / "log";
-    const std::string command =
-        "cd \"" + folder.path().string() + "\" && \"" PACINI_COMMAND "\" encode " + arguments + " > log 2>&1";
+    const std::string command = "cd \"" + folder.path().string() + "\" && \"" + paciniCommand().string() +
+                                "\" encode " + arguments + " > log 2>&1";
     const int status = std::system(command.c_str());
     MethodOutcome outcome{status > 255 ? status >> 8 : status, bytesOf(log)};
     std::filesystem::remove(log);

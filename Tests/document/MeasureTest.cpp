@@ -6,6 +6,7 @@
 #include "io/ProfileJson.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
+#include "support/Paths.h"
 
 #include <pacini/linearize/SweepSchedule.h>
 
@@ -114,7 +115,7 @@ TEST_CASE("An actuator is measured, flattened and proved flat within 1 dB, and b
 
 TEST_CASE("The sweep that proves an equaliser begins a little below the range that was asked for", "[measure]")
 {
-    const auto jig = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles/l5-test-jig.json").value();
+    const auto jig = readProfile(sourceFolder() / "profiles/l5-test-jig.json").value();
     SimulatedMeasureRig rig(SimulatedMeasureRig::paramsOf(jig), 0.0);
     MeasureSettings settings;
     settings.duration = 8.0;

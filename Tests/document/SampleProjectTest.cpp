@@ -4,6 +4,7 @@
 #include "document/AudioReference.h"
 #include "document/Document.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <pacini/clip/edits/RangeEdits.h>
 
@@ -17,7 +18,7 @@ namespace
 {
 std::filesystem::path demoFolder()
 {
-    return std::filesystem::path(PACINI_SOURCE_DIR) / "Resources/demo";
+    return sourceFolder() / "Resources/demo";
 }
 
 int addDemo(Document& document, const std::string& file, const std::string& name)

@@ -5,6 +5,7 @@
 #include "editor/clip/EditorView.h"
 #include "io/ProfileFile.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <filesystem>
 #include <functional>
@@ -16,7 +17,7 @@ namespace pacini::test
 
 inline std::filesystem::path demoSound(const std::string& name)
 {
-    return std::filesystem::path(PACINI_SOURCE_DIR) / "Resources/demo" / (name + ".flac");
+    return sourceFolder() / "Resources/demo" / (name + ".flac");
 }
 
 /// A session with one clip in a window of 1280 x 800.

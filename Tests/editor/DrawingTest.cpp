@@ -1,6 +1,7 @@
 // How the editor draws, and how fast.
 
 #include "editor/Bench.h"
+#include "support/Paths.h"
 
 #include <pacini/foundation/Random.h>
 
@@ -165,7 +166,7 @@ TEST_CASE("Every control has a name and can be reached by keys")
 TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrogram and an actuator stays within 16 ms",
           "[.bench]")
 {
-    const auto profile = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles/l5-wristband.json");
+    const auto profile = readProfile(sourceFolder() / "profiles/l5-wristband.json");
     REQUIRE(profile.ok());
     EditorBench bench({{"l5-wristband", std::make_shared<const Profile>(*profile)}});
     bench.session.setProfile("l5-wristband");

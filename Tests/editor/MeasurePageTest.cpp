@@ -6,6 +6,7 @@
 #include "io/AudioFile.h"
 #include "io/ProfileFile.h"
 #include "io/SweepFile.h"
+#include "support/Paths.h"
 
 #include <pacini/linearize/SimulatedRig.h>
 
@@ -33,7 +34,7 @@ struct MeasureBench
     explicit MeasureBench(RigParams params = {})
     {
         std::filesystem::create_directories(folder);
-        const auto wristband = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles/l5-wristband.json");
+        const auto wristband = readProfile(sourceFolder() / "profiles/l5-wristband.json");
         REQUIRE(wristband.ok());
         session.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
         desk = std::make_shared<MeasureDesk>(session, MeasureDesk::Surroundings{nullptr, folder, 0.0, true});

@@ -3,6 +3,7 @@
 #include "editor/Translation.h"
 
 #include "editor/Bench.h"
+#include "support/Paths.h"
 
 #include <filesystem>
 #include <fstream>
@@ -70,14 +71,12 @@ TEST_CASE("Every line of a translation is for a text that there is")
 {
     std::string sources;
     for (const char* room : {"Source/editor", "Source/app/editor"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(std::filesystem::path(PACINI_SOURCE_DIR) / room))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder() / room))
             if (entry.path().extension() == ".cpp")
                 sources += contentOf(entry.path());
     for (const auto& code : editor::languages())
     {
-        const auto file =
-            std::filesystem::path(PACINI_SOURCE_DIR) / "Resources/translations" / (code.toStdString() + ".txt");
+        const auto file = sourceFolder() / "Resources/translations" / (code.toStdString() + ".txt");
         std::istringstream lines(contentOf(file));
         std::set<std::string> seen;
         std::size_t count = 0;

@@ -1,6 +1,7 @@
 // What the rows of the sound and of the actuator show, and how the view follows.
 
 #include "editor/Bench.h"
+#include "support/Paths.h"
 
 #include <array>
 
@@ -11,7 +12,7 @@ namespace
 {
 editor::NamedProfile shipped(const std::string& name)
 {
-    auto read = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles" / (name + ".json"));
+    auto read = readProfile(sourceFolder() / "profiles" / (name + ".json"));
     REQUIRE(read.ok());
     return {name, std::make_shared<const Profile>(std::move(read).value())};
 }

@@ -2,6 +2,7 @@
 
 #include "io/AudioBytes.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-const fs::path fixtures = fs::path(PACINI_TEST_DIR) / "io/audio";
+const fs::path fixtures = testFolder() / "io/audio";
 
 constexpr AudioReadOptions truncatedAllowed{.allowTruncated = true, .allowNan = false};
 constexpr AudioReadOptions nanAllowed{.allowTruncated = false, .allowNan = true};

@@ -1,5 +1,6 @@
 #include "io/ClipJson.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/TempFolder.h"
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-const fs::path folder = fs::path(PACINI_TEST_DIR) / "io/broken";
+const fs::path folder = testFolder() / "io/broken";
 
 const std::map<std::string, ErrorCode> codes{
     {"invalidData", ErrorCode::invalidData},

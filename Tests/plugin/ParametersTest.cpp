@@ -4,6 +4,7 @@
 #include "plugin/ParameterText.h"
 #include "plugin/ProfileShelf.h"
 #include "plugin/Rig.h"
+#include "support/Paths.h"
 
 #include <pacini/realtime/TranslatorPresets.h>
 
@@ -129,12 +130,12 @@ TEST_CASE("Every shipped profile has a slot with its content, and only those")
         if (!profile)
             continue;
         shelved.insert(name + ".json");
-        const auto file = readProfile(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles" / (name + ".json"));
+        const auto file = readProfile(sourceFolder() / "profiles" / (name + ".json"));
         REQUIRE(file);
         CHECK(*file == *profile);
     }
     std::set<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(PACINI_SOURCE_DIR) / "profiles"))
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / "profiles"))
         files.insert(entry.path().filename().string());
     CHECK(shelved == files);
 }

@@ -3,6 +3,7 @@
 #include "io/ProfileFile.h"
 #include "plugin/ProfileShelf.h"
 #include "plugin/Rig.h"
+#include "support/Paths.h"
 #include "support/RandomProfile.h"
 #include "support/TempFolder.h"
 
@@ -37,7 +38,7 @@ std::unique_ptr<PluginProcessor> turned(std::uint64_t seed)
     return plugin;
 }
 
-const std::filesystem::path fixture = std::filesystem::path(PACINI_TEST_DIR) / "plugin" / "state-v1.json";
+const std::filesystem::path fixture = testFolder() / "plugin" / "state-v1.json";
 } // namespace
 
 TEST_CASE("A state brings every parameter, the actuator, the program and the size of the window back")

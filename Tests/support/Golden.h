@@ -2,6 +2,8 @@
 
 // Reads the golden vectors of Tests/golden (made by an independent SciPy reference).
 
+#include "support/Paths.h"
+
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -13,7 +15,7 @@ namespace pacini::test
 
 inline nlohmann::json golden(const std::string& name)
 {
-    const std::string path = std::string(PACINI_TEST_DIR) + "/golden/" + name + ".json";
+    const std::string path = (testFolder() / "golden" / (name + ".json")).string();
     std::ifstream file(path);
     if (!file)
         throw std::runtime_error("missing golden file " + path);

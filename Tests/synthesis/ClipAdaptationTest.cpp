@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 #include "support/Measure.h"
+#include "support/Paths.h"
 #include "support/Render.h"
 
 #include <pacini/actuator/FeltModel.h>
@@ -21,7 +22,7 @@ namespace
 {
 Profile shipped(const std::string& name)
 {
-    const auto profile = readProfile(std::string(PACINI_SOURCE_DIR) + "/profiles/" + name + ".json");
+    const auto profile = readProfile(sourceFolder() / "profiles" / (name + ".json"));
     REQUIRE(profile.ok());
     return *profile;
 }
@@ -48,7 +49,7 @@ std::size_t riseFrames(const std::vector<float>& y)
 
 TEST_CASE("An adapted clip lies within the actuator's range and voices, and is a valid clip", "[adaptation]")
 {
-    for (const auto& entry : shippedProfiles(PACINI_SOURCE_DIR))
+    for (const auto& entry : shippedProfiles(sourceFolder()))
     {
         const Profile profile = shipped(entry.name);
         if (profile.technology == Technology::pcm)
@@ -206,7 +207,7 @@ TEST_CASE("A motor gets a voltage, not a vibration", "[adaptation]")
 
 TEST_CASE("No scene drives an actuator beyond full scale", "[adaptation]")
 {
-    for (const auto& entry : shippedProfiles(PACINI_SOURCE_DIR))
+    for (const auto& entry : shippedProfiles(sourceFolder()))
     {
         const Profile profile = shipped(entry.name);
         for (std::uint64_t seed = 1; seed < 5; ++seed)

@@ -2,6 +2,7 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 #include "support/Render.h"
 
 #include <pacini/actuator/FeltModel.h>
@@ -41,7 +42,7 @@ TEST_CASE("Adapting beats playing it as it is by 5 points of HTS on every narrow
     };
     HtsAnalyzer analyzer;
     std::vector<Sound> sounds;
-    for (const auto& entry : std::filesystem::directory_iterator(std::string(PACINI_SOURCE_DIR) + "/Resources/demo"))
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / "Resources/demo"))
     {
         if (entry.path().extension() != ".flac")
             continue;
@@ -63,7 +64,7 @@ TEST_CASE("Adapting beats playing it as it is by 5 points of HTS on every narrow
     REQUIRE(sounds.size() >= 6);
     for (const char* name : {"lra-175", "lra-235-narrow", "erm-coin", "phone-taptic", "joycon-hd-rumble"})
     {
-        const auto profile = readProfile(std::string(PACINI_SOURCE_DIR) + "/profiles/" + name + ".json");
+        const auto profile = readProfile(sourceFolder() / "profiles" / (name + ".json"));
         REQUIRE(profile.ok());
         double gained = 0.0;
         for (const Sound& sound : sounds)

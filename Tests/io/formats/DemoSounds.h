@@ -4,6 +4,7 @@
 
 #include "io/AudioReader.h"
 #include "support/Catch.h"
+#include "support/Paths.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/evaluate/Hts.h>
@@ -57,7 +58,7 @@ inline std::vector<DemoSound> soundsIn(const std::filesystem::path& folder)
 /// Every demo sound.
 inline const std::vector<DemoSound>& demoSounds()
 {
-    static const std::vector<DemoSound> sounds = soundsIn(PACINI_SOURCE_DIR "/Resources/demo");
+    static const std::vector<DemoSound> sounds = soundsIn(sourceFolder() / "Resources/demo");
     REQUIRE(sounds.size() >= 8);
     return sounds;
 }
