@@ -153,13 +153,16 @@ private:
         Designs::Parcel* parcel = designs->receive();
         if (!parcel)
             return;
+        const TranslatorDesign& design = parcel->content;
+        // Only another actuator is at rest and cold: the same one goes on moving while the drive fades.
+        const bool same = held && held->content.protection == design.protection;
         designs->giveBack(held.release());
         held.reset(parcel);
-        const TranslatorDesign& design = parcel->content;
         engine.adopt(design);
         if (design.protection)
             protection.setParams(*design.protection);
-        protection.reset();
+        if (!same)
+            protection.reset();
         readings->setBands(design.bands.size(), design.feltRange);
     }
 

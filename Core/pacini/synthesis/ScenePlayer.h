@@ -193,18 +193,16 @@ private:
         {
             output.motor = std::make_unique<MotorDrive>();
             output.motor->prepare({fs, blockFrames});
-            output.motor->setParams(motorDriveParams(profile));
+            MotorDriveParams motor = motorDriveParams(profile);
+            if (!params.protect)
+                motor.heat.reset();
+            output.motor->setParams(motor);
         }
         else if (params.protect)
         {
-            ProtectionParams limits = protectionParams(profile, params.lookAhead);
-            if (limits.excursion)
-                limits.excursion->excursion *= profile.drive.overdrive;
-            if (limits.heat)
-                limits.heat->fullDrivePower *= profile.drive.overdrive * profile.drive.overdrive;
             output.protection = std::make_unique<Protection>();
             output.protection->prepare({fs, blockFrames});
-            output.protection->setParams(limits);
+            output.protection->setParams(protectionParams(profile, params.lookAhead));
             output.protection->reset();
         }
         return output;
