@@ -126,7 +126,7 @@ struct Profile
 };
 
 /// Checks every number of a profile. Errors name the path as in the file, such as `body.skinMass`. Frequencies are 1 to
-/// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 100; the rest as the messages say.
+/// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 1000; the rest as the messages say.
 [[nodiscard]] inline Result<void> validate(const Profile& profile)
 {
     std::optional<Error> error;
@@ -148,7 +148,7 @@ struct Profile
             check(where, *value, low, high, message);
     };
     check("resonance.frequency", profile.resonance.frequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
-    check("resonance.q", profile.resonance.q, 0.01, 100.0, "must be 0.01 to 100");
+    check("resonance.q", profile.resonance.q, 0.01, 1000.0, "must be 0.01 to 1000");
     check("range.lowFrequency", profile.range.lowFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
     check("range.highFrequency", profile.range.highFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
     if (!(profile.range.lowFrequency < profile.range.highFrequency))
