@@ -83,7 +83,6 @@ CLI::App* BenchCommand::declare(CLI::App& app)
         ->capture_default_str()
         ->check(CLI::IsMember({"svg", "png"}));
     command->add_option("--markdown", markdown, "Also write all tables into one Markdown page")->type_name("FILE");
-    command->add_flag("--json", json, "Print everything as one JSON object instead of tables");
     command->footer("Errors and times come from the same runs, one at a time on one processor. Times differ between\n"
                     "computers; compare ratios.\n"
                     "Examples:\n  pacini bench simplify                         the demo sounds, into pacini-bench/\n"
@@ -154,8 +153,7 @@ Exit BenchCommand::run(Console& console)
     for (BenchReport& report : reports)
     {
         report.means = report.rows.overSounds();
-        if (!json)
-            console.print(fmt::format("{}, {}\n{}", report.bench.title, overText(report), report.means.aligned()));
+        console.print(fmt::format("{}, {}\n{}", report.bench.title, overText(report), report.means.aligned()));
         object["benches"].push_back(toJson(report));
         page += "\n" + toMarkdown(report);
         auto files = writeReport(report, output, format);
@@ -175,13 +173,9 @@ Exit BenchCommand::run(Console& console)
         }
         written.push_back(markdown);
     }
+    console.addToReport(object);
     for (const fs::path& path : written)
-        object["files"].push_back(path.string());
-    if (json)
-        console.print(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-        for (const fs::path& path : written)
-            console.print("wrote " + path.string());
+        console.wrote(path);
     return failed ? Exit::failed : Exit::ok;
 }
 

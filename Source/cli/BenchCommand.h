@@ -24,7 +24,6 @@ private:
     std::string markdown;
     std::string format = "svg";
     BenchSettings settings;
-    bool json = false;
 };
 
 } // namespace pacini::cli

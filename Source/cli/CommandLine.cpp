@@ -79,19 +79,46 @@ std::string usageText(const CLI::ParseError& error, const CLI::App& app)
     return (path.empty() ? "" : path + ": ") + what + "; try '" + called + " --help'";
 }
 
-/// `exit`, unless something could not be printed.
-int exitCode(Console& console, Exit exit)
+/// The command that was chosen, such as "measure fit".
+std::string commandPath(const CLI::App& app)
 {
-    if (const auto failure = console.printFailure())
+    std::string path;
+    for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();)
     {
-        console.error("standard output", *failure);
-        exit = Exit::failed;
+        chosen = chosen->get_subcommands().front();
+        path += (path.empty() ? "" : " ") + chosen->get_name();
     }
-    return static_cast<int>(exit);
+    return path;
 }
-} // namespace
 
-int runCommandLine(int argc, const char* const* argv)
+/// Whether --json is given, found without the parser, which may have stopped before it.
+bool asksForJson(int argc, const char* const* argv)
+{
+    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i)
+        if (std::string_view(argv[i]) == "--json")
+            return true;
+    return false;
+}
+
+Exit runCommand(Command& command, Console& console)
+{
+    try
+    {
+        return command.run(console);
+    }
+    catch (const std::bad_alloc&)
+    {
+        console.error("", {ErrorCode::tooLarge, "", "ran out of memory; try shorter files, one at a time (-j 1)"});
+    }
+    catch (const std::exception& error)
+    {
+        console.error("", {ErrorCode::io, "", error.what()});
+    }
+    return Exit::failed;
+}
+
+/// Parses and runs; what is to be printed at the end is not yet.
+Exit parseAndRun(Console& console, int argc, const char* const* argv)
 {
     CLI::App app(
         "Pacini turns sound into touch: it encodes recordings as haptic clips and renders clips as drive signals.",
@@ -106,21 +133,21 @@ int runCommandLine(int argc, const char* const* argv)
                "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
                "'pacini COMMAND --help' explains a command.");
 
-    Console console;
     auto commands = allCommands();
     std::vector<CLI::App*> declared;
-    bool quiet = false;
-    const auto addQuiet = [&](CLI::App& where)
+    bool quiet = false, json = false;
+    const auto addCommon = [&](CLI::App& where)
     {
         where.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+        where.add_flag("--json", json, "Print one JSON object instead of text, also when something fails");
     };
-    addQuiet(app);
+    addCommon(app);
     for (auto& command : commands)
     {
         declared.push_back(command->declare(app));
-        addQuiet(*declared.back());
+        addCommon(*declared.back());
         for (CLI::App* step : declared.back()->get_subcommands(nullptr))
-            addQuiet(*step);
+            addCommon(*step);
     }
     try
     {
@@ -132,33 +159,41 @@ int runCommandLine(int argc, const char* const* argv)
         app.exit(asked, text, text);
         std::string lines = text.str();
         lines.erase(lines.find_last_not_of('\n') + 1);
+        if (asksForJson(argc, argv))
+            console.beJson(commandPath(app));
+        console.addToReport({{"text", lines}});
         console.print(lines);
-        return exitCode(console, Exit::ok);
+        return Exit::ok;
     }
     catch (const CLI::ParseError& error)
     {
+        if (asksForJson(argc, argv))
+            console.beJson(commandPath(app));
         console.error("", {ErrorCode::invalidArgument, "", usageText(error, app)});
-        return static_cast<int>(Exit::usage);
+        return Exit::usage;
     }
     if (quiet)
         console.beQuiet();
-    try
+    if (json)
+        console.beJson(commandPath(app));
+    for (std::size_t i = 0; i < commands.size(); ++i)
+        if (declared[i]->parsed())
+            return runCommand(*commands[i], console);
+    return Exit::usage;
+}
+} // namespace
+
+int runCommandLine(int argc, const char* const* argv)
+{
+    Console console;
+    Exit exit = parseAndRun(console, argc, argv);
+    console.endReport(exit == Exit::ok);
+    if (const auto failure = console.printFailure())
     {
-        for (std::size_t i = 0; i < commands.size(); ++i)
-            if (declared[i]->parsed())
-                return exitCode(console, commands[i]->run(console));
+        console.error("standard output", *failure);
+        exit = exit == Exit::ok ? Exit::failed : exit;
     }
-    catch (const std::bad_alloc&)
-    {
-        console.error("", {ErrorCode::tooLarge, "", "ran out of memory; try shorter files, one at a time (-j 1)"});
-        return static_cast<int>(Exit::failed);
-    }
-    catch (const std::exception& error)
-    {
-        console.error("", {ErrorCode::io, "", error.what()});
-        return static_cast<int>(Exit::failed);
-    }
-    return static_cast<int>(Exit::usage);
+    return static_cast<int>(exit);
 }
 
 } // namespace pacini::cli

@@ -139,7 +139,6 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     command->add_option("-j,--jobs", jobs, "Pairs to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
@@ -195,14 +194,10 @@ Exit CompareCommand::run(Console& console)
     const bool anyDone = std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.result; });
     const bool anyFailed = !paired->failures.empty() ||
                            std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.failure; });
-    if (json)
-        console.print(compareJson(tasks, paired->failures));
-    else
-    {
-        if (anyDone)
-            console.print(compareTable(tasks));
-        console.print(compareSummary(tasks, paired->failures.size()));
-    }
+    console.addToReport(compareJson(tasks));
+    if (anyDone)
+        console.print(compareTable(tasks));
+    console.print(compareSummary(tasks, paired->failures.size()));
     return anyFailed ? Exit::failed : Exit::ok;
 }
 

@@ -21,7 +21,6 @@ private:
     std::string events;
     unsigned jobs = 0;
     bool allowTruncated = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

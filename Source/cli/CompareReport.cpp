@@ -208,7 +208,7 @@ std::string compareTable(const std::vector<CompareTask>& tasks)
     return aligned(rows);
 }
 
-std::string compareJson(const std::vector<CompareTask>& tasks, const std::vector<InputFailure>& failures)
+nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks)
 {
     const Totals totals(tasks);
     Json report{{"files", Json::array()}, {"mean", Json::object()}};
@@ -219,20 +219,10 @@ std::string compareJson(const std::vector<CompareTask>& tasks, const std::vector
     report["duration"] = totals.duration;
     report["seconds"] = totals.seconds;
     report["timesRealTime"] = totals.timesRealTime();
-    report["failures"] = Json::array();
-    const auto addFailure = [&](const InputFailure& failure)
-    {
-        report["failures"].push_back(
-            {{"input", failure.path.string()}, {"where", failure.error.where}, {"message", failure.error.message}});
-    };
     for (const CompareTask& task : tasks)
         if (task.result)
             report["files"].push_back(toJson(task));
-        else if (task.failure)
-            addFailure(*task.failure);
-    for (const InputFailure& failure : failures)
-        addFailure(failure);
-    return report.dump(2, ' ', false, Json::error_handler_t::replace);
+    return report;
 }
 
 std::string compareSummary(const std::vector<CompareTask>& tasks, std::size_t failures)

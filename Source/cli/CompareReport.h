@@ -4,6 +4,8 @@
 
 #include "cli/CompareJob.h"
 
+#include <nlohmann/json.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +25,9 @@ struct CompareTask
 /// says nothing. The column of F1 is there when any pair has one.
 [[nodiscard]] std::string compareTable(const std::vector<CompareTask>& tasks);
 
-/// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime", "failures": [...]}: the same figures
-/// and more. What says nothing is null and not in the means; "events" counts over all files.
-[[nodiscard]] std::string compareJson(const std::vector<CompareTask>& tasks, const std::vector<InputFailure>& failures);
+/// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime"}: the same figures and more. What says
+/// nothing is null and not in the means; "events" counts over all files.
+[[nodiscard]] nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks);
 
 /// One line about the whole work.
 [[nodiscard]] std::string compareSummary(const std::vector<CompareTask>& tasks, std::size_t failures);

@@ -17,18 +17,38 @@ namespace pacini::cli
 namespace
 {
 // What a stream refuses must not end the work on the files.
-void put(std::FILE* stream, std::string_view text)
+void write(std::FILE* stream, std::string_view text)
 {
     std::fwrite(text.data(), 1, text.size(), stream);
 }
 } // namespace
 
+void Console::addToReport(const JsonReport::Json& members)
+{
+    const std::lock_guard lock(mutex);
+    if (report)
+        report->add(members);
+}
+
+void Console::endReport(bool ok)
+{
+    const std::lock_guard lock(mutex);
+    if (report)
+        put(report->text(ok));
+}
+
 void Console::print(std::string_view line)
 {
     const std::lock_guard lock(mutex);
+    if (!report)
+        put(line);
+}
+
+void Console::put(std::string_view line)
+{
     clearLine();
     errno = 0;
-    put(stdout, fmt::format("{}\n", line));
+    write(stdout, fmt::format("{}\n", line));
     if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && printErrno == 0)
         printErrno = errno != 0 ? errno : EIO;
 }
@@ -39,13 +59,24 @@ void Console::note(std::string_view line)
         print(line);
 }
 
+void Console::wrote(const std::filesystem::path& path, std::string_view details)
+{
+    if (const std::lock_guard lock(mutex); report)
+        report->addWritten(path);
+    note(fmt::format("wrote {}{}{}", printable(path.string()), details.empty() ? "" : ": ", details));
+}
+
 void Console::error(std::string_view file, const Error& error)
 {
+    if (const std::lock_guard lock(mutex); report)
+        report->addFailure(file, error);
     message(file.empty() ? error.text() : fmt::format("{}: {}", file, error.text()));
 }
 
 void Console::warning(std::string_view file, std::string_view what)
 {
+    if (const std::lock_guard lock(mutex); report)
+        report->addWarning(file, what);
     message(fmt::format("{}: warning: {}", file, what));
 }
 
@@ -53,7 +84,7 @@ void Console::message(std::string_view line)
 {
     const std::lock_guard lock(mutex);
     clearLine();
-    put(stderr, fmt::format("pacini: {}\n", printable(line)));
+    write(stderr, fmt::format("pacini: {}\n", printable(line)));
 }
 
 void Console::progress(double share, std::string_view text)
@@ -73,7 +104,7 @@ void Console::progress(double share, std::string_view text)
     const auto bar = fmt::format("[{}{}] {:3.0f} %  {}", std::string(filled, '#'), std::string(width - filled, '-'),
                                  100.0 * done, printable(text));
     // A line that wraps could not be taken back.
-    put(stderr, "\r\x1b[K" + terminal::cutToWidth(bar, terminal::columns() - 1));
+    write(stderr, "\r\x1b[K" + terminal::cutToWidth(bar, terminal::columns() - 1));
     std::fflush(stderr);
     lineShown = true;
 }
@@ -98,7 +129,7 @@ void Console::clearLine()
 {
     if (!lineShown)
         return;
-    put(stderr, "\r\x1b[K");
+    write(stderr, "\r\x1b[K");
     std::fflush(stderr);
     lineShown = false;
 }

@@ -1,13 +1,18 @@
 #pragma once
 
-// What the command line says, and where: results on stdout, messages and progress on stderr.
+// What the command line says, and where: results on stdout, messages and progress on stderr; with --json one object on
+// stdout and no other text.
+
+#include "cli/JsonReport.h"
 
 #include <pacini/foundation/Result.h>
 
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -28,11 +33,26 @@ public:
     /// No notes and no progress from now on; results, warnings and errors stay.
     void beQuiet() { quiet = true; }
 
-    /// A result: a line on stdout.
+    /// From now on everything is collected for one JSON object, and no text goes to stdout.
+    void beJson(std::string command) { report.emplace(std::move(command)); }
+
+    /// Whether text would not be seen, as a program asked.
+    [[nodiscard]] bool isJson() const { return report.has_value(); }
+
+    /// Members of the JSON object; nothing unless one is wanted.
+    void addToReport(const JsonReport::Json& members);
+
+    /// Prints the JSON object, if one is wanted; nothing may follow.
+    void endReport(bool ok);
+
+    /// A result for people: a line on stdout.
     void print(std::string_view line);
 
     /// A line on stdout about what was done, for people.
     void note(std::string_view line);
+
+    /// Notes that the file at `path` was written, and `details` of it.
+    void wrote(const std::filesystem::path& path, std::string_view details = "");
 
     /// `pacini: FILE: where: what` on stderr, always one line; `file` may be empty.
     void error(std::string_view file, const Error& error);
@@ -51,10 +71,12 @@ public:
     [[nodiscard]] std::optional<Error> printFailure();
 
 private:
+    void put(std::string_view line);
     void message(std::string_view line);
     void clearLine();
 
     std::mutex mutex;
+    std::optional<JsonReport> report;
     bool quiet = false;
     bool lineShown = false;
     double nextProgress = -1.0; ///< s of the steady clock; negative before the first call

@@ -42,20 +42,19 @@ nlohmann::ordered_json toJson(const ConvertTask& task)
             {"bytes", bytes},
             {"duration", result.entry.duration},
             {"outputs", outputs},
-            {"warnings", result.entry.warnings},
             {"losses", losses},
             {"upToDate", result.upToDate}};
 }
 
-/// "door.haptic: 8.2 kB; loses bands (0.31), text"
-std::string line(const ConvertTask& task)
+/// "8.2 kB; loses bands (0.31), text"
+std::string details(const ConvertResult& result)
 {
     double bytes = 0.0;
-    for (const ManifestOutput& output : task.result->entry.outputs)
+    for (const ManifestOutput& output : result.entry.outputs)
         bytes += static_cast<double>(output.bytes);
-    std::string text = fmt::format("{}: {}", printable(task.output.string()), bytesText(bytes));
+    std::string text = bytesText(bytes);
     const char* separator = "; loses ";
-    for (const FormatLoss& loss : task.result->entry.losses)
+    for (const FormatLoss& loss : result.entry.losses)
     {
         text += separator + std::string(lossName(loss.kind));
         if (loss.error > 0.0)
@@ -63,6 +62,15 @@ std::string line(const ConvertTask& task)
         separator = ", ";
     }
     return text;
+}
+
+/// The outputs of a task: of the first, which was named, also what it loses.
+void sayWritten(Console& console, const ConvertTask& task, const std::filesystem::path& folder)
+{
+    const auto& outputs = task.result->entry.outputs;
+    console.wrote(task.output, details(*task.result));
+    for (std::size_t i = 1; i < outputs.size(); ++i)
+        console.wrote(folder / outputs[i].file);
 }
 
 std::string summary(const std::vector<ConvertTask>& tasks)
@@ -127,7 +135,6 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
                     "  pacini convert door.pacb door.haptic           for Lofelt's and Meta's players\n"
                     "  pacini convert door.haptic door.ahap --split   from one to another, through a clip\n"
@@ -212,12 +219,9 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     for (const std::string& warning : warnings)
         console.warning(input, warning);
-    if (json)
-        console.print(
-            nlohmann::ordered_json{{"input", input}, {"output", output}, {"bytes", *written}, {"warnings", warnings}}
-                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-        console.note(fmt::format("{}: {}", printable(output), bytesText(static_cast<double>(*written))));
+    auto files = nlohmann::ordered_json::array({{{"input", input}, {"output", output}, {"bytes", *written}}});
+    console.addToReport(fileList(std::move(files), true));
+    console.wrote(output, bytesText(static_cast<double>(*written)));
     return Exit::ok;
 }
 
@@ -308,10 +312,14 @@ Exit ConvertCommand::convertClips(Console& console)
                                                     entry == before.end() ? nullptr : &entry->second);
                              });
                      if (task.error)
+                     {
                          console.error(task.input.string(), *task.error);
-                     else
-                         for (const std::string& warning : task.result->entry.warnings)
-                             console.warning(task.input.string(), warning);
+                         return;
+                     }
+                     if (!task.result->upToDate)
+                         sayWritten(console, task, settings->folder);
+                     for (const std::string& warning : task.result->entry.warnings)
+                         console.warning(task.input.string(), warning);
                  };
              });
     bool failed = anyFailed(tasks);
@@ -322,14 +330,10 @@ Exit ConvertCommand::convertClips(Console& console)
             failed = true;
         }
 
-    if (json && several)
-        console.print(jsonReport(tasks, [](const ConvertTask& task) { return toJson(task); }));
-    else if (json && !failed)
-        console.print(toJson(tasks.front()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else if (!json && several)
+    console.addToReport(jsonReport(
+        tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
+    if (several)
         console.note(summary(tasks));
-    else if (!failed)
-        console.note(line(tasks.front()));
     return failed ? Exit::failed : Exit::ok;
 }
 

@@ -40,7 +40,6 @@ private:
     int quantise = 0;
     unsigned jobs = 0;
     bool force = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

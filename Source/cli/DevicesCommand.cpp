@@ -16,7 +16,6 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
 {
     auto* command =
         app.add_subcommand("devices", "List the connected game controllers and other devices that can play haptics");
-    command->add_flag("--json", json, "Print one JSON object");
     command->footer(
         "'pacini play CLIP --device N' plays on the one with that number.\n"
         "Known are Joy-Con, Switch Pro, DualShock 4, DualSense and, on Bluetooth, Xbox controllers, and as\n"
@@ -48,10 +47,8 @@ Exit DevicesCommand::run(Console& console)
         lines += fmt::format("{}{:>2}  {}  {:<11}  {:<9}  {}", lines.empty() ? "" : "\n", number,
                              printable(controller.path), haptics, transport, printable(controller.name));
     }
-    if (json)
-        console.print(Json{{"controllers", list}}.dump(2, ' ', false, Json::error_handler_t::replace));
-    else
-        console.print(lines.empty() ? "No known game controller is connected" : lines);
+    console.addToReport({{"controllers", list}});
+    console.print(lines.empty() ? "No known game controller is connected" : lines);
     return Exit::ok;
 }
 

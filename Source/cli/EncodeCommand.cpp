@@ -97,6 +97,16 @@ std::string methodList()
     return lines;
 }
 
+nlohmann::ordered_json methodsJson()
+{
+    auto methods = nlohmann::ordered_json::array();
+    for (const MethodInfo& info : methodTable)
+        methods.push_back({{"name", info.name},
+                           {"description", info.description},
+                           {"output", info.output == MethodOutput::signal ? "signal" : "clip"}});
+    return {{"methods", methods}};
+}
+
 Error wrongUsage(std::string where, std::string message)
 {
     return {ErrorCode::invalidArgument, std::move(where), std::move(message)};
@@ -162,7 +172,6 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
@@ -222,6 +231,7 @@ Exit EncodeCommand::run(Console& console)
 {
     if (listMethods)
     {
+        console.addToReport(methodsJson());
         console.print(methodList());
         return Exit::ok;
     }
@@ -273,18 +283,21 @@ Exit EncodeCommand::run(Console& console)
                      EncodeTask& task = tasks[i];
                      attempt(task, [&] { return job.run(task.input, task.output, progress); });
                      if (task.error)
+                     {
                          console.error(task.input.string(), *task.error);
-                     else if (task.result->replacedSamples > 0)
+                         return;
+                     }
+                     if (!task.result->upToDate)
+                         console.wrote(task.output, bytesText(static_cast<double>(task.result->bytes)));
+                     if (task.result->replacedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} samples were no numbers or absurdly large and were taken as 0",
                                                      task.result->replacedSamples));
                  };
              });
 
-    if (json)
-        console.print(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
-    else
-        console.note(summary(tasks));
+    console.addToReport(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
+    console.note(summary(tasks));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }
 

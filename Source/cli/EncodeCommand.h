@@ -37,7 +37,6 @@ private:
     bool allowNan = false;
     bool allowTruncated = false;
     bool force = false;
-    bool json = false;
     unsigned jobs = 0;
 };
 

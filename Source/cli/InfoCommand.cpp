@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -124,13 +125,17 @@ CLI::App* InfoCommand::declare(CLI::App& app)
     command->add_option("inputs", inputs, "Clips, audio files, profiles or names of shipped profiles")
         ->required()
         ->type_name("FILE");
-    command->add_flag("--json", json, "Print one JSON object (a list of them for several files)");
     return command;
 }
 
 Exit InfoCommand::run(Console& console)
 {
-    Json reports = Json::array();
+    Json files = Json::array();
+    const auto add = [&files](const std::string& file, const Json& described)
+    {
+        files.push_back({{"input", file}});
+        files.back().update(described);
+    };
     bool failed = false;
     for (const std::string& file : inputs)
     {
@@ -141,10 +146,11 @@ Exit InfoCommand::run(Console& console)
                 console.error(file, profile->error());
                 failed = true;
             }
-            else if (json)
-                reports.push_back(describe(**profile));
             else
+            {
+                add(file, describe(**profile));
                 console.print(profileText(file, **profile));
+            }
             continue;
         }
         const auto clip = readAnyClip(file);
@@ -152,10 +158,8 @@ Exit InfoCommand::run(Console& console)
         {
             for (const std::string& warning : clip->warnings)
                 console.warning(file, warning);
-            if (json)
-                reports.push_back(describe(*clip));
-            else
-                console.print(text(file, *clip));
+            add(file, describe(*clip));
+            console.print(text(file, *clip));
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
@@ -166,17 +170,13 @@ Exit InfoCommand::run(Console& console)
             failed = true;
             continue;
         }
-        if (json)
-            reports.push_back(*audio);
-        else
-            console.print(fmt::format("{}: sound, {}, {} Hz, {} channel{}, peak {:.3f}", printable(file),
-                                      durationText((*audio)["duration"].get<double>()),
-                                      (*audio)["sampleRate"].get<int>(), (*audio)["channels"].get<int>(),
-                                      (*audio)["channels"] == 1 ? "" : "s", (*audio)["peak"].get<double>()));
+        add(file, *audio);
+        console.print(fmt::format("{}: sound, {}, {} Hz, {} channel{}, peak {:.3f}", printable(file),
+                                  durationText((*audio)["duration"].get<double>()), (*audio)["sampleRate"].get<int>(),
+                                  (*audio)["channels"].get<int>(), (*audio)["channels"] == 1 ? "" : "s",
+                                  (*audio)["peak"].get<double>()));
     }
-    if (json && !reports.empty())
-        console.print(
-            (inputs.size() == 1 ? reports.front() : reports).dump(2, ' ', false, Json::error_handler_t::replace));
+    console.addToReport(fileList(std::move(files), inputs.size() == 1));
     return failed ? Exit::failed : Exit::ok;
 }
 

@@ -17,7 +17,6 @@ public:
 
 private:
     std::vector<std::string> inputs;
-    bool json = false;
 };
 
 } // namespace pacini::cli

@@ -27,6 +27,17 @@ std::string targetList()
     return lines;
 }
 
+Json targetsJson()
+{
+    Json targets = Json::array();
+    for (const ForeignFormat& format : foreignFormats())
+        targets.push_back({{"name", format.name},
+                           {"extension", format.extension},
+                           {"title", format.title},
+                           {"readOnly", format.write == nullptr}});
+    return {{"targets", targets}};
+}
+
 std::vector<std::string> kindNames()
 {
     std::vector<std::string> names;
@@ -75,7 +86,6 @@ CLI::App* LintCommand::declare(CLI::App& app)
     command->add_option("--fail-on", forbidden, "Fail on any loss of these kinds")
         ->check(CLI::IsMember(kindNames()))
         ->delimiter(',');
-    command->add_flag("--json", json, "Print one JSON object");
     command->footer("Examples:\n  pacini lint door.json --target ahap\n"
                     "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 when a clip loses more");
     return command;
@@ -92,6 +102,7 @@ Exit LintCommand::run(Console& console)
 {
     if (listTargets)
     {
+        console.addToReport(targetsJson());
         console.print(targetList());
         return Exit::ok;
     }
@@ -108,11 +119,12 @@ Exit LintCommand::run(Console& console)
     const ForeignFormat& format = *foreignFormatNamed(target);
 
     const InputFiles found = findInputs(inputs, anyClipExtensions());
-    Json files = Json::array(), failures = Json::array();
+    Json files = Json::array();
+    bool failed = false;
     const auto fail = [&](const std::string& file, const Error& error)
     {
         console.error(file, error);
-        failures.push_back({{"input", file}, {"where", error.where}, {"message", error.message}});
+        failed = true;
     };
     for (const InputFailure& failure : found.failures)
         fail(failure.path.string(), failure.error);
@@ -137,14 +149,12 @@ Exit LintCommand::run(Console& console)
             beyond += over ? 1u : 0u;
             losses.push_back(toJson(loss));
             losses.back()["tooMuch"] = over;
-            if (!json)
-                console.print(fmt::format("{}: {:8.3f} s {:>7}  {:<10}{:>13}  {}{}", printable(name), loss.time,
-                                          loss.duration > 0.0 ? fmt::format("+{:.3f}", loss.duration) : "",
-                                          lossName(loss.kind), errorText(loss), loss.message,
-                                          over ? "  TOO MUCH" : ""));
+            console.print(fmt::format("{}: {:8.3f} s {:>7}  {:<10}{:>13}  {}{}", printable(name), loss.time,
+                                      loss.duration > 0.0 ? fmt::format("+{:.3f}", loss.duration) : "",
+                                      lossName(loss.kind), errorText(loss), loss.message, over ? "  TOO MUCH" : ""));
         }
         tooMuch += beyond;
-        if (!json && exported->losses.empty())
+        if (exported->losses.empty())
             console.note(fmt::format("{}: loses nothing", printable(name)));
         files.push_back({{"input", name},
                          {"format", read->format},
@@ -153,12 +163,10 @@ Exit LintCommand::run(Console& console)
                          {"ok", beyond == 0},
                          {"losses", losses}});
     }
-    if (json)
-        console.print(Json{{"files", files}, {"failures", failures}}.dump(2, ' ', false,
-                                                                          nlohmann::json::error_handler_t::replace));
+    console.addToReport({{"files", files}});
     if (tooMuch > 0)
         console.error("", {ErrorCode::invalidData, "lint", fmt::format("{} losses are more than is allowed", tooMuch)});
-    return tooMuch > 0 || !failures.empty() ? Exit::failed : Exit::ok;
+    return tooMuch > 0 || failed ? Exit::failed : Exit::ok;
 }
 
 } // namespace pacini::cli

@@ -28,7 +28,6 @@ private:
     double maxTime = -1.0;
     std::vector<std::string> forbidden;
     bool listTargets = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

@@ -88,7 +88,6 @@ CLI::App* PlayCommand::declare(CLI::App& app)
     command->add_flag("--dry-run", dryRun, "Only print what would be sent: seconds and bytes");
     command->add_option("--like", like, "With --dry-run: for this kind of controller, whatever is connected")
         ->check(CLI::IsMember(modelNames()));
-    command->add_flag("--json", json, "Print one JSON object");
     command->footer("The controller stands still when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
@@ -230,12 +229,11 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
     static_cast<void>(player.finish());
     Json packets = Json::array();
     for (const auto& [time, report] : sink.packets)
-        if (json)
-            packets.push_back({{"time", time.value}, {"bytes", hexText(report)}});
-        else
-            console.print(fmt::format("{:9.4f}  {}", time.value, hexText(report)));
-    if (json)
-        console.print(Json{{"input", input}, {"packets", packets}}.dump(2, ' ', false, Json::error_handler_t::replace));
+    {
+        packets.push_back({{"time", time.value}, {"bytes", hexText(report)}});
+        console.print(fmt::format("{:9.4f}  {}", time.value, hexText(report)));
+    }
+    console.addToReport({{"input", input}, {"packets", packets}});
     return Exit::ok;
 }
 
@@ -275,19 +273,16 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     }
     if (ended)
         return Exit::failed; // the signal ends the program
-    if (json)
-        console.print(Json{{"input", input},
-                           {"controller", controller.name},
-                           {"path", controller.path},
-                           {"seconds", length},
-                           {"packets", result->sent},
-                           {"leftOut", result->leftOut},
-                           {"latest", result->latest.value}}
-                          .dump(2, ' ', false, Json::error_handler_t::replace));
-    else
-        console.note(fmt::format("{} played on {}: {}, {} packets, at most {:.1f} ms late{}", printable(input),
-                                 shownName(controller), durationText(length), result->sent, 1e3 * result->latest.value,
-                                 result->leftOut > 0 ? fmt::format(", {} left out", result->leftOut) : ""));
+    console.addToReport({{"input", input},
+                         {"controller", controller.name},
+                         {"path", controller.path},
+                         {"seconds", length},
+                         {"packets", result->sent},
+                         {"leftOut", result->leftOut},
+                         {"latest", result->latest.value}});
+    console.note(fmt::format("{} played on {}: {}, {} packets, at most {:.1f} ms late{}", printable(input),
+                             shownName(controller), durationText(length), result->sent, 1e3 * result->latest.value,
+                             result->leftOut > 0 ? fmt::format(", {} left out", result->leftOut) : ""));
     return Exit::ok;
 }
 

@@ -56,7 +56,6 @@ private:
     bool loop = false;
     bool wait = false;
     bool dryRun = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

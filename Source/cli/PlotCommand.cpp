@@ -144,7 +144,6 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     command->add_option("--from", from, "Start of what is shown, s")->check(CLI::Range(0.0, limits::duration));
     command->add_option("--to", to, "End of what is shown, s")->check(CLI::Range(0.0, limits::duration));
     command->add_flag("--dark", dark, "On a dark ground");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                     "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
                     "  pacini plot l5-wristband -o l5.png");
@@ -240,17 +239,13 @@ Exit PlotCommand::write(Console& console, const std::filesystem::path& target, c
         console.error(target.string(), written.error());
         return Exit::failed;
     }
-    if (json)
-        console.print(nlohmann::ordered_json{
-            {"input", input},
-            {"output", target.string()},
-            {"width", style.size.width},
-            {"height", style.size.height},
-            {"bytes",
-             *written}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-        console.print(fmt::format("{}: {} x {} pixels, {}", target.string(), style.size.width, style.size.height,
-                                  bytesText(static_cast<double>(*written))));
+    console.addToReport({{"input", input},
+                         {"output", target.string()},
+                         {"width", style.size.width},
+                         {"height", style.size.height},
+                         {"bytes", *written}});
+    console.wrote(target, fmt::format("{} x {} pixels, {}", style.size.width, style.size.height,
+                                      bytesText(static_cast<double>(*written))));
     return Exit::ok;
 }
 

@@ -29,7 +29,6 @@ private:
     std::optional<double> from;
     std::optional<double> to;
     bool dark = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

@@ -17,7 +17,6 @@ namespace pacini::cli
 CLI::App* ProfilesCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("profiles", "List the actuator profiles that come with Pacini");
-    command->add_flag("--json", json, "Print one JSON object");
     command->footer("'pacini info NAME' shows one of them, 'pacini render --profile NAME' renders for it.");
     return command;
 }
@@ -59,11 +58,8 @@ Exit ProfilesCommand::run(Console& console)
                              profile->range.lowFrequency, profile->range.highFrequency, voicesText(profile->polyphony));
     }
     const auto folder = shipped.front().path.parent_path();
-    if (json)
-        console.print(
-            Json{{"folder", folder.string()}, {"profiles", list}}.dump(2, ' ', false, Json::error_handler_t::replace));
-    else
-        console.print(lines + "They are in " + printable(folder.string()));
+    console.addToReport({{"folder", folder.string()}, {"profiles", list}});
+    console.print(lines + "They are in " + printable(folder.string()));
     return failed ? Exit::failed : Exit::ok;
 }
 

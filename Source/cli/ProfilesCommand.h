@@ -13,7 +13,6 @@ public:
     Exit run(Console& console) override;
 
 private:
-    bool json = false;
 };
 
 } // namespace pacini::cli

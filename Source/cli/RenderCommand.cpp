@@ -198,7 +198,6 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
                     "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
@@ -235,7 +234,7 @@ Exit RenderCommand::run(Console& console)
     decoder.pulseCycles = pulseCycles;
     settings.clipFolder = clipFolder;
     explain = explain || measured;
-    settings.describe = explain || json;
+    settings.describe = explain || console.isJson();
     settings.measure = measured;
     settings.encoding = encoding == "pcm16"   ? SampleEncoding::pcm16
                         : encoding == "pcm24" ? SampleEncoding::pcm24
@@ -271,24 +270,24 @@ Exit RenderCommand::run(Console& console)
                      RenderTask& task = tasks[i];
                      attempt(task, [&] { return render(task.input, task.output, settings, progress); });
                      if (task.error)
+                     {
                          console.error(task.input.string(), *task.error);
-                     else if (task.result->clippedSamples > 0)
+                         return;
+                     }
+                     console.wrote(task.output, durationText(task.result->duration));
+                     if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} samples were clipped; {}", task.result->clippedSamples,
                                                      clippingAdvice(task.result->peak, gain, settings.felt)));
                  };
              });
 
-    if (json)
-        console.print(jsonReport(tasks, [&](const RenderTask& task) { return toJson(task, settings, explain); }));
-    else
-    {
-        for (const RenderTask& task : tasks)
-            if (explain && task.result)
-                console.print(
-                    fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
-        console.note(summary(tasks, settings.felt));
-    }
+    console.addToReport(jsonReport(tasks, [&](const RenderTask& task) { return toJson(task, settings, explain); }));
+    for (const RenderTask& task : tasks)
+        if (explain && task.result)
+            console.print(
+                fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
+    console.note(summary(tasks, settings.felt));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }
 

@@ -49,7 +49,6 @@ private:
     bool noProtection = false;
     bool explain = false;
     bool measured = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

@@ -98,18 +98,17 @@ template <typename ResultType>
     return std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.error.has_value(); });
 }
 
-/// {"files": [...], "failures": [...]}: toJson(task) for each result, the place and the message of each error.
+/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). The console knows the
+/// failures.
 template <typename ResultType, typename ToJson>
-[[nodiscard]] std::string jsonReport(const std::vector<Task<ResultType>>& tasks, ToJson&& toJson)
+[[nodiscard]] nlohmann::ordered_json jsonReport(const std::vector<Task<ResultType>>& tasks, ToJson&& toJson,
+                                                bool alone = false)
 {
-    nlohmann::ordered_json report{{"files", nlohmann::json::array()}, {"failures", nlohmann::json::array()}};
+    auto files = nlohmann::ordered_json::array();
     for (const auto& task : tasks)
         if (task.result)
-            report["files"].push_back(toJson(task));
-        else
-            report["failures"].push_back(
-                {{"input", task.input.string()}, {"where", task.error->where}, {"message", task.error->message}});
-    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+            files.push_back(toJson(task));
+    return fileList(std::move(files), alone);
 }
 
 } // namespace pacini::cli

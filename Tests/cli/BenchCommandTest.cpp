@@ -64,7 +64,7 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
     CHECK(printed["benches"].size() == 13);
-    for (const auto& file : printed["files"])
+    for (const auto& file : printed["written"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
     for (const std::string name : {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",

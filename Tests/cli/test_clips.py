@@ -22,7 +22,7 @@ class Info(CommandTest):
         # The thesis counts 12 bits for a value: each point has a time and an amplitude, each event a time too.
         self.assertGreater(report["bytes"]["thesisBits"], 8 * 3)
         both = self.report("info", "clip.json", "clip.pacb")
-        self.assertEqual([entry["duration"] for entry in both], [2.0, 2.0])
+        self.assertEqual([entry["duration"] for entry in both["files"]], [2.0, 2.0])
 
     def test_the_json_size_is_that_of_the_written_file(self):
         self.put("a.wav", wav(sine(100, 0.5)))

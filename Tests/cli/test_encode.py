@@ -15,7 +15,7 @@ class Encode(CommandTest):
         self.put("door.wav", wav(sine(100, 0.5)))
         text = self.succeeds("encode", "door.wav")
         self.assertEqual(self.names(), ["door.json", "door.wav"])
-        self.assertRegex(text, r"^1 encoded: 0\.50 s of sound in [\d.]+ k?B, \d+ B/s, \d+ times real time\n$")
+        self.assertRegex(text, r"^wrote door\.json: [\d.]+ k?B\n1 encoded: 0\.50 s of sound in [\d.]+ k?B, \d+ B/s, \d+ times real time\n$")
         clip = json.loads((self.folder / "door.json").read_text())
         self.assertEqual((clip["format"], clip["version"], clip["name"]), ("pacini.clip", 1, "door"))
         self.assertEqual(clip["duration"], 0.5)
@@ -96,7 +96,7 @@ class Encode(CommandTest):
         self.assertTrue(all(failure["message"] for failure in report["failures"]))
         self.assertTrue((self.folder / "c.json").exists())
         done = self.run_command("encode", "a.wav", "b.wav", "c.wav", "--force")
-        self.assertTrue(done.stdout.decode().startswith("2 encoded, 1 failed: "), done.stdout)
+        self.assertTrue(done.stdout.decode().splitlines()[-1].startswith("2 encoded, 1 failed: "), done.stdout)
 
     def test_quiet_leaves_only_results_and_errors(self):
         self.put("a.wav", wav(sine(100, 0.2)))

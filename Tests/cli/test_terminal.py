@@ -63,7 +63,7 @@ class Terminal(CommandTest):
         for environment in ({}, {"NO_COLOR": "1"}):
             shown, printed = self.on_terminal("encode", "a.wav", "--force", **environment)
             self.assertEqual(shown, "")
-            self.assertRegex(printed, "^1 encoded[^\x1b]*\n$")
+            self.assertRegex(printed, "^wrote a.json[^\x1b]*\n1 encoded[^\x1b]*\n$")
 
 
 if __name__ == "__main__":

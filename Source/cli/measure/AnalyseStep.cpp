@@ -137,7 +137,6 @@ CLI::App* AnalyseStep::declare(CLI::App& app)
         ->capture_default_str()
         ->check(numberFrom(0.01, 100.0))
         ->type_name("%");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
         "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
@@ -196,14 +195,12 @@ Exit AnalyseStep::run(Console& console)
         if (const auto drawn = drawPicture(*analysed, findings->features); !drawn)
             return fail(picture, drawn.error());
 
-    if (json)
-        console.print(report(*analysed, *findings, output).dump(2, ' ', false, Json::error_handler_t::replace));
-    else
-    {
-        console.print(text(*analysed, *findings, distortionLimit));
-        if (!output.empty())
-            console.note(fmt::format("written to {}", printable(output)));
-    }
+    console.addToReport(report(*analysed, *findings, output));
+    console.print(text(*analysed, *findings, distortionLimit));
+    if (!output.empty())
+        console.wrote(output);
+    if (!picture.empty())
+        console.wrote(picture);
     return Exit::ok;
 }
 

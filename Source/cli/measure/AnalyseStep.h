@@ -26,7 +26,6 @@ private:
     std::string name;
     std::string picture;
     double distortionLimit = 10.0;
-    bool json = false;
 };
 
 } // namespace pacini::cli

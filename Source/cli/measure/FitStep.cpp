@@ -172,7 +172,6 @@ CLI::App* FitStep::declare(CLI::App& app)
     command->add_flag("--boost-outside", boostOutside,
                       "Allow boost outside of the range; below it that costs much power and excursion");
     command->add_flag("--peaks-only", peaksOnly, "Use no shelves");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Examples:\n  pacini measure fit response.csv --sections 5 --json\n"
                     "  pacini measure fit mine.json -o mine.json --plot mine.png");
     return command;
@@ -236,30 +235,28 @@ Exit FitStep::run(Console& console)
     std::optional<EqualizerCost> cost;
     if (profile)
         cost = equalizerCost(*profile, fit->sections, rate);
-    if (json)
-    {
-        Json list = Json::array();
-        for (const EqualizerSection& section : fit->sections)
-            list.push_back(sectionJson(section));
-        Json report{{"input", input},        {"sections", std::move(list)},   {"rms", fit->rms},
-                    {"max", fit->max},       {"level", fit->level},           {"boost", fit->boost},
-                    {"points", fit->points}, {"dropouts", fit->dropouts},     {"reachedGoal", fit->reachedGoal},
-                    {"rate", rate},          {"iterations", fit->iterations}, {"milliseconds", milliseconds}};
-        if (cost)
-            report["cost"] = costJson(*cost);
-        console.print(report.dump(2, ' ', false, Json::error_handler_t::replace));
-        return Exit::ok;
-    }
-    std::string text =
-        fmt::format("{}: {} section{} at {:.0f} Hz leave {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms", printable(input),
-                    fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate, fit->rms, fit->max, milliseconds);
+    Json list = Json::array();
+    for (const EqualizerSection& section : fit->sections)
+        list.push_back(sectionJson(section));
+    Json report{{"input", input},        {"sections", std::move(list)},   {"rms", fit->rms},
+                {"max", fit->max},       {"level", fit->level},           {"boost", fit->boost},
+                {"points", fit->points}, {"dropouts", fit->dropouts},     {"reachedGoal", fit->reachedGoal},
+                {"rate", rate},          {"iterations", fit->iterations}, {"milliseconds", milliseconds}};
+    if (cost)
+        report["cost"] = costJson(*cost);
+    console.addToReport(report);
+    std::string text = fmt::format("{}: {} section{} at {:.0f} Hz leave{} {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms",
+                                   printable(input), fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate,
+                                   fit->sections.size() == 1 ? "s" : "", fit->rms, fit->max, milliseconds);
     for (const EqualizerSection& section : fit->sections)
         text += "\n" + sectionText(section);
     if (cost)
         text += "\n" + costText(*cost);
     console.print(text);
     if (!output.empty())
-        console.note(fmt::format("written to {}", printable(output)));
+        console.wrote(output);
+    if (!picture.empty())
+        console.wrote(picture);
     return Exit::ok;
 }
 

@@ -34,7 +34,6 @@ private:
     std::optional<double> highpass;
     bool boostOutside = false;
     bool peaksOnly = false;
-    bool json = false;
 };
 
 } // namespace pacini::cli

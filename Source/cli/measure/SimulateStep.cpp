@@ -9,6 +9,7 @@
 #include <pacini/linearize/SimulatedRig.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <utility>
@@ -102,6 +103,7 @@ Exit SimulateStep::run(Console& console)
 
     const unsigned first = wearers > 0 ? 1 : wearer;
     const unsigned last = wearers > 0 ? wearers : wearer;
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (unsigned who = first; who <= last; ++who)
     {
         const std::string target = wearers > 0 ? numbered(output, who) : output;
@@ -131,11 +133,12 @@ Exit SimulateStep::run(Console& console)
         writing.encoding = SampleEncoding::pcm24;
         if (const auto written = writeAudio(target, interleaved, writing); !written)
             return fail(target, written.error());
+        console.wrote(target);
+        files.push_back({{"input", input}, {"output", target}, {"wearer", who}});
     }
     console.endProgress();
-    console.print(wearers > 0 ? fmt::format("{} to {}: analyse with --full-scale 5g", printable(numbered(output, 1)),
-                                            printable(numbered(output, wearers)))
-                              : fmt::format("{}: analyse with --full-scale 5g", printable(output)));
+    console.addToReport({{"files", files}, {"fullScale", sensorRange * standardGravity}});
+    console.note(fmt::format("analyse with --full-scale {:g}g", sensorRange));
     return Exit::ok;
 }
 

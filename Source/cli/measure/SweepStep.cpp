@@ -47,7 +47,6 @@ CLI::App* SweepStep::declare(CLI::App& app)
     command->add_option("--rate", rate, "Sample rate, Hz")->capture_default_str()->type_name("HZ");
     command->add_option("--profile", profile, "Play through the equaliser of this profile, to verify it")
         ->type_name("P");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     return command;
 }
 
@@ -112,22 +111,20 @@ Exit SweepStep::run(Console& console)
         return fail(description, described.error());
 
     const double seconds = static_cast<double>(signal.size()) / params.sampleRate;
-    if (json)
-        console.print(nlohmann::ordered_json{{"output", output},
-                                             {"sweep", description},
-                                             {"duration", seconds},
-                                             {"sampleRate", rate},
-                                             {"sweeps", levels.size() * static_cast<std::size_t>(repeats)},
-                                             {"equalizedFor", file.equalizedFor}}
-                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    else
-        console.print(fmt::format("{}: {} sweep{} from {:g} to {:g} Hz{}, {} in all; keep {} for the analysis",
-                                  printable(output), levels.size() * static_cast<std::size_t>(repeats),
-                                  levels.size() * static_cast<std::size_t>(repeats) == 1 ? "" : "s", low, high,
-                                  file.equalizedFor.empty()
-                                      ? std::string()
-                                      : fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor)),
-                                  durationText(seconds), printable(description)));
+    const std::size_t sweeps = levels.size() * static_cast<std::size_t>(repeats);
+    console.addToReport({{"output", output},
+                         {"sweep", description},
+                         {"duration", seconds},
+                         {"sampleRate", rate},
+                         {"sweeps", sweeps},
+                         {"equalizedFor", file.equalizedFor}});
+    console.wrote(output,
+                  fmt::format("{} sweep{} from {:g} to {:g} Hz{}, {} in all", sweeps, sweeps == 1 ? "" : "s", low, high,
+                              file.equalizedFor.empty()
+                                  ? std::string()
+                                  : fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor)),
+                              durationText(seconds)));
+    console.wrote(description, "keep it for the analysis");
     return Exit::ok;
 }
 

@@ -25,7 +25,6 @@ private:
     int repeats = 1;
     std::vector<double> levels{-6.0};
     int rate = 48000;
-    bool json = false;
 };
 
 } // namespace pacini::cli

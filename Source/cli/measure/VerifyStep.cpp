@@ -89,7 +89,6 @@ CLI::App* VerifyStep::declare(CLI::App& app)
     command->add_option("--high", high, "End of the range to judge, Hz [of the profile]")
         ->check(numberFrom(0.1, 200000.0))
         ->type_name("HZ");
-    command->add_flag("--json", json, "Print a report as one JSON object");
     command->footer("Ends with 1 when the actuator is not flat.");
     return command;
 }
@@ -131,6 +130,7 @@ Exit VerifyStep::run(Console& console)
     const std::string target = output.empty() ? profile : output;
     if (const auto written = writeProfile(target, *actuator); !written)
         return fail(target, written.error());
+    console.wrote(target);
 
     if (!picture.empty())
     {
@@ -155,26 +155,25 @@ Exit VerifyStep::run(Console& console)
         const plot::FigureStyle style;
         if (const auto drawn = plot::writeFigure(picture, makeResponseFigure(content, style), style); !drawn)
             return fail(picture, drawn.error());
+        console.wrote(picture);
     }
 
-    if (json)
-    {
-        Json each = Json::array();
-        for (const AnalysedRecording& recording : analysed->recordings)
-            if (const auto one = judgeLinearity(recording.measurement.response(), params))
-                each.push_back({{"input", recording.file},
-                                {"meanDeviation", one->meanDeviation},
-                                {"worstDeviation", one->worstDeviation},
-                                {"worstFrequency", one->worstFrequency}});
-        Json report{{"profile", target}};
-        report.update(linearityJson(*linearity));
-        report["recordings"] = std::move(each);
-        console.print(report.dump(2, ' ', false, Json::error_handler_t::replace));
-    }
-    else
-        console.print(fmt::format("{}: {} within \u00b1{:.3g} dB: {}", printable(target),
-                                  linearity->passed() ? "PASS" : "FAIL", tolerance, linearityText(*linearity)));
-    return linearity->passed() ? Exit::ok : Exit::failed;
+    Json each = Json::array();
+    for (const AnalysedRecording& recording : analysed->recordings)
+        if (const auto one = judgeLinearity(recording.measurement.response(), params))
+            each.push_back({{"input", recording.file},
+                            {"meanDeviation", one->meanDeviation},
+                            {"worstDeviation", one->worstDeviation},
+                            {"worstFrequency", one->worstFrequency}});
+    Json report{{"profile", target}};
+    report.update(linearityJson(*linearity));
+    report["recordings"] = std::move(each);
+    console.addToReport(report);
+    console.print(fmt::format("{}: {} within \u00b1{:.3g} dB: {}", printable(target),
+                              linearity->passed() ? "PASS" : "FAIL", tolerance, linearityText(*linearity)));
+    if (linearity->passed())
+        return Exit::ok;
+    return fail(target, {ErrorCode::invalidData, "", fmt::format("is not flat within \u00b1{:.3g} dB", tolerance)});
 }
 
 } // namespace pacini::cli

@@ -24,7 +24,6 @@ private:
     std::optional<double> low;
     std::optional<double> high;
     double tolerance = 4.0;
-    bool json = false;
 };
 
 } // namespace pacini::cli

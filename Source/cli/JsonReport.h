@@ -1,0 +1,56 @@
+#pragma once
+
+// What a command tells a program with --json: one object of the same shape whether it went well or not.
+
+#include <pacini/foundation/Result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pacini::cli
+{
+
+/// The object: {"pacini", "version", "command", "ok", the command's own members, "written", "failures", "warnings"};
+/// Resources/schema/pacini.report.schema.json describes it.
+class JsonReport
+{
+public:
+    using Json = nlohmann::ordered_json;
+
+    /// Version of the shape: it changes when a program that reads reports would have to.
+    static constexpr int version = 1;
+
+    /// `command` as the user calls it, such as "measure fit"; empty when none was chosen.
+    explicit JsonReport(std::string commandToReport) : command(std::move(commandToReport)) {}
+
+    /// Adds members of the command's own; none may be called like one of every report.
+    void add(const Json& members);
+
+    void addWritten(const std::filesystem::path& path);
+    void addFailure(std::string_view input, const Error& error);
+    void addWarning(std::string_view input, std::string_view message);
+
+    /// All of it; failures and warnings in order of their input, whichever thread came first.
+    [[nodiscard]] std::string text(bool ok) const;
+
+private:
+    std::string command;
+    Json own = Json::object();
+    Json written = Json::array();
+    Json failures = Json::array();
+    Json warnings = Json::array();
+};
+
+/// {"files": [...]}; of a file that was the only one to ask for, its members stand beside the list as well.
+[[nodiscard]] inline nlohmann::ordered_json fileList(nlohmann::ordered_json files, bool alone)
+{
+    nlohmann::ordered_json list = alone && files.size() == 1 ? files.front() : nlohmann::ordered_json::object();
+    list["files"] = std::move(files);
+    return list;
+}
+
+} // namespace pacini::cli
