@@ -35,8 +35,13 @@ void Console::print(std::string_view line)
 
 void Console::note(std::string_view line)
 {
-    if (!quiet)
-        print(line);
+    if (quiet)
+        return;
+    if (!stdoutFree)
+        return print(line);
+    const std::lock_guard lock(mutex);
+    clearLine();
+    put(stderr, fmt::format("{}\n", line));
 }
 
 void Console::error(std::string_view file, const Error& error)

@@ -28,6 +28,9 @@ public:
     /// No notes and no progress from now on; results, warnings and errors stay.
     void beQuiet() { quiet = true; }
 
+    /// Standard output takes a result of another kind: notes go to stderr from now on.
+    void keepStdoutFree() { stdoutFree = true; }
+
     /// A result: a line on stdout.
     void print(std::string_view line);
 
@@ -56,6 +59,7 @@ private:
 
     std::mutex mutex;
     bool quiet = false;
+    bool stdoutFree = false;
     bool lineShown = false;
     double nextProgress = -1.0; ///< s of the steady clock; negative before the first call
     int printErrno = 0;

@@ -35,7 +35,7 @@ class Render(CommandTest):
         self.clip(seconds=1.5)
         text = self.succeeds("render", "clip.json")
         self.assertRegex(text, r"^1 rendered: 1\.50 s, \d+ times real time\n$")
-        rate, samples = read_float_wav(self.folder / "clip.wav")
+        rate, samples = read_float_wav(self.folder / "clip.haptic.wav")
         self.assertEqual((rate, len(samples)), (48000, 72000))
         self.assertGreater(rms(samples), 0.05)
 

@@ -64,7 +64,7 @@ TEST_CASE("Adapting beats playing it as it is by 5 points of HTS on every narrow
     REQUIRE(sounds.size() >= 6);
     for (const char* name : {"lra-175", "lra-235-narrow", "erm-coin", "phone-taptic", "joycon-hd-rumble"})
     {
-        const auto profile = readProfile(sourceFolder() / "profiles" / (name + ".json"));
+        const auto profile = readProfile(sourceFolder() / "profiles" / (std::string(name) + ".json"));
         REQUIRE(profile.ok());
         double gained = 0.0;
         for (const Sound& sound : sounds)
