@@ -88,15 +88,15 @@ demo)
     build release pacini -DPACINI_BUILD_TESTS=OFF -DPACINI_BUILD_PLUGIN=OFF
     pacini=build/release/bin/pacini
     say "Encoding Resources/demo to build/demo/clips"
-    "$pacini" encode Resources/demo -o build/demo/clips --format packed --force
+    "$pacini" encode Resources/demo -o build/demo/clips --format packed --force --overwrite
     say "Rendering the clips for the L5 wristband to build/demo/wristband"
-    "$pacini" render build/demo/clips -o build/demo/wristband --profile l5-wristband
+    "$pacini" render build/demo/clips -o build/demo/wristband --profile l5-wristband --force --overwrite
     say "Rendering a scene of the clips for three actuators to build/demo/workshop.wav"
     "$pacini" render Resources/demo/workshop.scene.json --clips build/demo/clips -o build/demo/workshop.wav --explain
     say "What the clips hold"
     "$pacini" info build/demo/clips/*.pacb
     say "How close their drive signals are to the sounds"
-    "$pacini" render build/demo/clips -o build/demo/flat >/dev/null
+    "$pacini" render build/demo/clips -o build/demo/flat --overwrite >/dev/null
     "$pacini" compare Resources/demo build/demo/flat
     ;;
 plugin)

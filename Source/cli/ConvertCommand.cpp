@@ -4,8 +4,8 @@
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
 #include "io/AnyClip.h"
-#include "io/AtomicFile.h"
 #include "io/ProfileFile.h"
+#include "io/ProfileJson.h"
 #include "io/Sha256.h"
 
 #include <fmt/format.h>
@@ -22,8 +22,6 @@ namespace pacini::cli
 namespace
 {
 using ConvertTask = Task<ConvertResult>;
-
-constexpr const char* manifestName = "pacini.manifest.json";
 
 nlohmann::ordered_json toJson(const ConvertTask& task)
 {
@@ -89,24 +87,20 @@ std::string summary(const std::vector<ConvertTask>& tasks)
     std::string text = fmt::format("{} converted", done);
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
+    if (const auto skipped = countSkipped(tasks); skipped > 0)
+        text += fmt::format(", {} exist and were left", skipped);
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     return text + fmt::format(": {}", bytesText(bytes));
 }
 
-ConvertManifest manifestOf(const std::vector<ConvertTask>& tasks, const std::vector<std::string>& keys)
+ManifestEntry entryOf(const ConvertTask& task)
 {
-    ConvertManifest manifest;
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-    {
-        ManifestEntry entry;
-        if (tasks[i].result)
-            entry = tasks[i].result->entry;
-        else
-            entry.error = tasks[i].error->text();
-        manifest.insert_or_assign(keys[i], std::move(entry));
-    }
-    return manifest;
+    if (task.result)
+        return task.result->entry;
+    ManifestEntry entry;
+    entry.error = task.error->text();
+    return entry;
 }
 } // namespace
 
@@ -114,10 +108,15 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
         "convert", "Convert clips between formats, Pacini's own and others', or a profile between JSON and ACF");
-    command->add_option("inputs", inputs, "Clips or folders of them, or a profile, then what to write unless -o does")
+    command
+        ->add_option("inputs", inputs,
+                     "Clips or folders of them, - for standard input, or a profile; then what to write unless -o says "
+                     "it; a file "
+                     "there is replaced only if it was the same anyway")
         ->required()
         ->type_name("IN... OUT");
-    command->add_option("-o,--output", output, "File, or folder for several inputs")->type_name("OUT|DIR");
+    command->add_option("-o,--output", output, "File, folder for several inputs, or - for standard output")
+        ->type_name("OUT|DIR");
     std::vector<std::string> names;
     for (const ClipTarget& target : clipTargets())
         names.emplace_back(target.name);
@@ -132,6 +131,7 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
         "--manifest", manifest,
         fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName));
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
+    overwriting.declare(*command);
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
@@ -152,6 +152,7 @@ Exit ConvertCommand::run(Console& console)
                                "a file to work on is missing; try 'pacini convert --help'"});
             return Exit::usage;
         }
+        byName = false;
         output = std::move(inputs.back());
         inputs.pop_back();
     }
@@ -203,15 +204,27 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     if (overwritesInput(console))
         return Exit::failed;
-    const auto write = [&]
+    if (overwriting.keepsAll() && isOccupied(output))
+    {
+        console.note(fmt::format("{} exists and was left", printable(output)));
+        return Exit::ok;
+    }
+    const auto textOf = [&]() -> std::string
     {
         if (!toAcf)
-            return writeProfile(output, *profile);
+            return profileJson(*profile);
         const auto exported = acfOfProfile(*profile);
         warnings.insert(warnings.end(), exported.warnings.begin(), exported.warnings.end());
-        return writeAcfFile(output, exported.acf);
+        return acfText(exported.acf);
     };
-    const auto written = write();
+    const std::string text = textOf();
+    const auto existing = mayReplace(output, text, replaceable());
+    if (!existing)
+    {
+        console.error("", existing.error());
+        return Exit::failed;
+    }
+    const auto written = writeFileAtomically(output, text, *existing);
     if (!written)
     {
         console.error(output, written.error());
@@ -269,7 +282,7 @@ InputFiles ConvertCommand::findClips() const
                   [&](const InputFile& file)
                   {
                       const bool named = std::find(inputs.begin(), inputs.end(), file.path.string()) != inputs.end();
-                      return !named && (file.path.filename() == manifestName || !companionOf(file.path).empty());
+                      return !named && !companionOf(file.path).empty();
                   });
     return found;
 }
@@ -279,61 +292,94 @@ Exit ConvertCommand::convertClips(Console& console)
     const InputFiles found = findClips();
     std::error_code ignored;
     const bool several = found.several || output.ends_with('/') || std::filesystem::is_directory(output, ignored);
+    if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
+    {
+        console.error("", fits.error());
+        return Exit::usage;
+    }
     auto settings = settingsFor(console, several);
     if (!settings)
         return Exit::usage;
     if (!several && overwritesInput(console))
         return Exit::failed;
 
-    auto tasks =
-        makeTasks<ConvertResult>(found, several ? output + "/" : output, std::string(settings->target.extension));
+    if (isStandardOutput(output))
+        console.keepStdoutFree();
+
+    const std::string extension(settings->target.extension);
+    auto tasks = makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting);
+    for (ConvertTask& task : tasks)
+        if (task.replaceable == Replaceable::named)
+            task.replaceable = replaceable();
     std::vector<std::string> keys(tasks.size());
     for (std::size_t i = 0; i < tasks.size(); ++i)
         keys[i] = i < found.failures.size() ? found.failures[i].path.generic_string()
                                             : found.files[i - found.failures.size()].relative.generic_string();
-    const std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
-                                         : several         ? std::filesystem::path(output) / manifestName
-                                                           : std::filesystem::path();
-    const ConvertManifest before = record.empty() ? ConvertManifest() : readManifest(record);
+    std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
+                                   : several         ? std::filesystem::path(output) / manifestName
+                                                     : std::filesystem::path();
+    if (!std::filesystem::is_directory(settings->folder, ignored) && several)
+        record.clear(); // nothing could be written
+    const auto fail = [&](const Error& error)
+    {
+        console.error(record.string(), error);
+        return Exit::failed;
+    };
+    const auto before = readManifest(record);
+    if (!before && !overwriting.replacesAll())
+        return fail(
+            {ErrorCode::invalidData, "", "exists and is no record of conversions; name another with --manifest"});
+    GrowingManifest growing;
+    if (const auto started = growing.start(record, before.value_or(ConvertManifest())); !started)
+        return fail(started.error());
+    const auto entryBefore = [&](const std::string& key) -> const ManifestEntry*
+    {
+        const auto entry = before ? before->find(key) : ConvertManifest::const_iterator();
+        return before && entry != before->end() ? &entry->second : nullptr;
+    };
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
     };
+    BatchEnd end;
     runTasks(console, tasks.size(), jobs, nameOf,
              [&]
              {
                  return [&](std::size_t i, const std::function<void(double)>&)
                  {
                      ConvertTask& task = tasks[i];
-                     const auto entry = before.find(keys[i]);
-                     attempt(task,
-                             [&] {
-                                 return convertClip(task.input, task.output, *settings,
-                                                    entry == before.end() ? nullptr : &entry->second);
-                             });
-                     if (task.error)
-                     {
+                     const ManifestEntry* earlier = entryBefore(keys[i]);
+                     attempt(task, end,
+                             [&]
+                             { return convertClip(task.input, task.output, task.replaceable, *settings, earlier); });
+                     if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
-                         return;
+                     else if (task.result)
+                     {
+                         if (!task.result->upToDate)
+                             sayWritten(console, task, settings->folder);
+                         for (const std::string& warning : task.result->entry.warnings)
+                             console.warning(task.input.string(), warning);
                      }
-                     if (!task.result->upToDate)
-                         sayWritten(console, task, settings->folder);
-                     for (const std::string& warning : task.result->entry.warnings)
-                         console.warning(task.input.string(), warning);
+                     // What was not replaced is still what it was made from before.
+                     if (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty())))
+                         growing.add(keys[i], entryOf(task));
                  };
              });
     bool failed = anyFailed(tasks);
-    if (!record.empty() && std::filesystem::is_directory(settings->folder, ignored))
-        if (const auto written = writeFileAtomically(record, manifestText(manifestOf(tasks, keys))); !written)
-        {
-            console.error(record.string(), written.error());
-            failed = true;
-        }
+    if (const auto finished = growing.finish(); !finished)
+    {
+        if (end.isNews(finished.error()))
+            console.error(record.string(), finished.error());
+        failed = true;
+    }
 
     console.addToReport(jsonReport(
         tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
     if (several)
         console.note(summary(tasks));
+    else if (tasks.front().skipped)
+        console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
     return failed ? Exit::failed : Exit::ok;
 }
 

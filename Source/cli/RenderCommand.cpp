@@ -8,6 +8,7 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
+#include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
 
@@ -28,6 +29,14 @@ using RenderTask = Task<RenderResult>;
 nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
 {
     const RenderResult& r = *task.result;
+    if (r.upToDate)
+        return {{"input", task.input.string()},
+                {"output", task.output.string()},
+                {"bytes", r.bytes},
+                {"duration", r.duration},
+                {"seconds", 0.0},
+                {"timesRealTime", 0.0},
+                {"upToDate", true}};
     nlohmann::ordered_json report{{"input", task.input.string()},
                                   {"output", task.output.string()},
                                   {"kind", r.isScene ? "scene" : "clip"},
@@ -37,6 +46,7 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
                                   {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
                                   {"peak", r.peak},
                                   {"clippedSamples", r.clippedSamples},
+                                  {"upToDate", false},
                                   {"plan", planJson(r, settings.compile)}};
     if (explain)
         report["plan"].update(planLists(r));
@@ -51,10 +61,13 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
 
 std::string summary(const std::vector<RenderTask>& tasks, const std::optional<FeltSettings>& felt)
 {
-    std::size_t done = 0;
+    std::size_t done = 0, fresh = 0;
+    const std::size_t skipped = countSkipped(tasks);
     double duration = 0.0, seconds = 0.0, peak = 0.0;
     for (const RenderTask& task : tasks)
-        if (task.result)
+        if (task.result && task.result->upToDate)
+            ++fresh;
+        else if (task.result)
         {
             ++done;
             duration += task.result->duration;
@@ -62,8 +75,12 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
             peak = std::max(peak, task.result->peak);
         }
     std::string text = fmt::format("{} rendered", done);
-    if (done < tasks.size())
-        text += fmt::format(", {} failed", tasks.size() - done);
+    if (fresh > 0)
+        text += fmt::format(", {} up to date", fresh);
+    if (skipped > 0)
+        text += fmt::format(", {} exist and were left", skipped);
+    if (done + fresh + skipped < tasks.size())
+        text += fmt::format(", {} failed", tasks.size() - done - fresh - skipped);
     if (seconds > 0.0)
         text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
     if (felt && done > 0)
@@ -90,15 +107,17 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    auto* command =
-        app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
-    command->add_option("inputs", inputs, "Clips (JSON or packed) and scenes (JSON), or folders of them")
+    command = app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
+    command
+        ->add_option("inputs", inputs,
+                     "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input")
         ->required()
         ->type_name("CLIP|SCENE");
     command
         ->add_option(
             "-o,--output", output,
-            "Sound file (.wav or .flac) with a channel for each actuator, or folder for several [beside each input]")
+            "Sound file (.wav or .flac) with a channel for each actuator, folder for several, or - for WAV on standard "
+            "output [beside each input, as .haptic.wav]")
         ->type_name("OUT|DIR");
     command
         ->add_option("--profile", profile,
@@ -195,6 +214,8 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
     command->add_flag("--measured", measured,
                       "Like --explain, and play everything too, to measure what leaving out costs");
+    command->add_flag("-f,--force", force, "Render also what is up to date");
+    overwriting.declare(*command);
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(CLI::Range(1u, 256u))
         ->type_name("N");
@@ -204,6 +225,18 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                     "  pacini render hall.scene.json -o hall.wav --explain\n"
                     "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
     return command;
+}
+
+std::string RenderCommand::record() const
+{
+    std::string text = "Pacini " PACINI_VERSION;
+    const std::vector<std::string> without = {"inputs", "output", "profile",      "clips",     "explain", "measured",
+                                              "jobs",   "force",  "no-overwrite", "overwrite", "json",    "quiet"};
+    for (const CLI::Option* option : command->get_options())
+        if (const auto name = option->get_single_name();
+            option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
+            text += fmt::format(", {} {}", name, fmt::join(option->results(), " "));
+    return text;
 }
 
 Exit RenderCommand::run(Console& console)
@@ -256,8 +289,21 @@ Exit RenderCommand::run(Console& console)
         settings.felt = *chosenFelt;
     }
 
+    settings.record = record();
+    if (settings.profile)
+        settings.record += ", " + profileJson(*settings.profile);
+    settings.resume = !force && !explain;
+
     const InputFiles found = findInputs(inputs, clipExtensions());
-    auto tasks = makeTasks<RenderResult>(found, output, ".wav");
+    if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
+    {
+        console.error("", fits.error());
+        return Exit::usage;
+    }
+    if (isStandardOutput(output))
+        console.keepStdoutFree();
+    auto tasks = makeTasks<RenderResult>(found, {output, ".wav", felt ? ".felt.wav" : ".haptic.wav"}, overwriting);
+    BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
@@ -268,13 +314,14 @@ Exit RenderCommand::run(Console& console)
                  return [&](std::size_t i, const std::function<void(double)>& progress)
                  {
                      RenderTask& task = tasks[i];
-                     attempt(task, [&] { return render(task.input, task.output, settings, progress); });
-                     if (task.error)
-                     {
+                     attempt(task, end,
+                             [&] { return render(task.input, task.output, task.replaceable, settings, progress); });
+                     if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
+                     if (!task.result)
                          return;
-                     }
-                     console.wrote(task.output, durationText(task.result->duration));
+                     if (!task.result->upToDate)
+                         console.wrote(task.output, durationText(task.result->duration));
                      if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} samples were clipped; {}", task.result->clippedSamples,

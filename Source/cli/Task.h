@@ -4,10 +4,13 @@
 
 #include "cli/Console.h"
 #include "cli/InputFiles.h"
+#include "cli/Overwrite.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -20,7 +23,7 @@
 namespace pacini::cli
 {
 
-/// One file: has an error, or a result once it is done.
+/// One file: has an error, or a result once it is done, unless its output was there and is to be kept.
 template <typename ResultType>
 struct Task
 {
@@ -28,15 +31,38 @@ struct Task
     std::filesystem::path output;
     std::optional<ResultType> result;
     std::optional<Error> error;
+    Replaceable replaceable = Replaceable::own;
+    bool skipped = false; ///< for the sake of -n
 };
 
-/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already. What it throws becomes the task's
-/// error: one file must not stop the others.
-template <typename ResultType, typename Work>
-void attempt(Task<ResultType>& task, Work&& work)
+/// Ends a list of tasks early: on a full disk all that are left would fail.
+class BatchEnd
 {
-    if (task.error)
+public:
+    [[nodiscard]] bool come() const noexcept { return full.load(); }
+
+    /// Whether `error` is still to be reported: of those of a full disk only the first.
+    [[nodiscard]] bool isNews(const Error& error) noexcept
+    {
+        return error.code != ErrorCode::diskFull || !full.exchange(true);
+    }
+
+private:
+    std::atomic<bool> full = false;
+};
+
+/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already or is skipped. What it throws
+/// becomes the task's error: one file must not stop the others.
+template <typename ResultType, typename Work>
+void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
+{
+    if (task.error || task.skipped)
         return;
+    if (end.come())
+    {
+        task.error = Error{ErrorCode::diskFull, "", "was not tried, since the disk is full"};
+        return;
+    }
     try
     {
         auto result = work();
@@ -63,30 +89,48 @@ void attempt(Task<ResultType>& task, Work&& work)
 }
 
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
-/// folders.
+/// folders, and one that would be written to any of the inputs.
 template <typename ResultType>
-[[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const std::string& output,
-                                                      const std::string& extension)
+[[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const OutputNames& names,
+                                                      const OverwriteOptions& overwriting)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
-        tasks.push_back({failure.path, {}, {}, failure.error});
+        tasks.push_back({failure.path, {}, {}, failure.error, {}, {}});
+    std::error_code ignored;
+    std::map<std::filesystem::path, std::filesystem::path> inputs; // by where they really are
+    for (const InputFile& file : found.files)
+        inputs.emplace(std::filesystem::weakly_canonical(file.path, ignored), file.path);
     std::map<std::filesystem::path, std::filesystem::path> taken;
     for (const InputFile& file : found.files)
     {
-        Task<ResultType> task{file.path, {}, {}, {}};
-        const auto target = outputFor(file, output, found.several, extension);
-        if (!target)
-            task.error = target.error();
-        else if (const auto [other, first] = taken.emplace(sameFileKey(*target), file.path); !first)
-            task.error = Error{ErrorCode::invalidArgument, "",
-                               "would be written to " + target->string() + ", as " + other->second.string() +
-                                   " is; rename one of them"};
-        else if (std::error_code ignored; std::filesystem::equivalent(*target, file.path, ignored))
-            task.error = Error{ErrorCode::invalidArgument, "",
-                               "would be overwritten by its own result; name another output with -o"};
+        Task<ResultType> task{file.path, {}, {}, {}, {}, {}};
+        const auto fail = [&task](std::string message)
+        {
+            task.error = Error{ErrorCode::invalidArgument, "", std::move(message)};
+        };
+        const auto place = outputFor(file, names, found.several);
+        if (!place)
+            task.error = place.error();
+        else if (isStream(place->path))
+        {
+            task.output = place->path;
+            task.replaceable = Replaceable::named;
+        }
+        else if (const auto [other, first] = taken.emplace(sameFileKey(place->path), file.path); !first)
+            fail("would be written to " + place->path.string() + ", as " + other->second.string() +
+                 " is; rename one of them");
+        else if (std::filesystem::equivalent(place->path, file.path, ignored))
+            fail("would be overwritten by its own result; name another output with -o");
+        else if (const auto input = inputs.find(std::filesystem::weakly_canonical(place->path, ignored));
+                 input != inputs.end())
+            fail("would overwrite " + input->second.string() + ", which is an input too; name another output with -o");
         else
-            task.output = *target;
+        {
+            task.output = place->path;
+            task.replaceable = overwriting.of(place->named);
+            task.skipped = overwriting.keepsAll() && isOccupied(place->path);
+        }
         tasks.push_back(std::move(task));
     }
     return tasks;
@@ -98,17 +142,29 @@ template <typename ResultType>
     return std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.error.has_value(); });
 }
 
-/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). The console knows the
-/// failures.
+template <typename ResultType>
+[[nodiscard]] std::size_t countSkipped(const std::vector<Task<ResultType>>& tasks)
+{
+    return static_cast<std::size_t>(
+        std::count_if(tasks.begin(), tasks.end(), [](const auto& task) { return task.skipped; }));
+}
+
+/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). Outputs that were kept stand
+/// under "skipped". The console knows the failures.
 template <typename ResultType, typename ToJson>
 [[nodiscard]] nlohmann::ordered_json jsonReport(const std::vector<Task<ResultType>>& tasks, ToJson&& toJson,
                                                 bool alone = false)
 {
     auto files = nlohmann::ordered_json::array();
+    auto skipped = nlohmann::ordered_json::array();
     for (const auto& task : tasks)
         if (task.result)
             files.push_back(toJson(task));
-    return fileList(std::move(files), alone);
+        else if (task.skipped)
+            skipped.push_back({{"input", task.input.string()}, {"output", task.output.string()}});
+    auto list = fileList(std::move(files), alone);
+    list["skipped"] = std::move(skipped);
+    return list;
 }
 
 } // namespace pacini::cli

@@ -39,9 +39,10 @@ inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be s
 class AudioReader
 {
 public:
-    /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
-    /// channels outside 1-64, rate below options.lowestSampleRate or above 384 kHz), truncated (the header promises
-    /// more than is there; FLAC, Ogg and MP3 show this only at their end, in read()).
+    /// Opens `path`; what comes from a pipe or standard input (`-`) is taken in first. Errors: io (missing, folder,
+    /// device, unreadable), invalidData (empty, no audio, damaged header, channels outside 1-64, rate below
+    /// options.lowestSampleRate or above 384 kHz), truncated (the header promises more than is there; FLAC, Ogg and MP3
+    /// show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;

@@ -34,8 +34,8 @@ class Render(CommandTest):
     def test_the_result_lies_beside_the_clip_and_is_as_long(self):
         self.clip(seconds=1.5)
         text = self.succeeds("render", "clip.json")
-        self.assertRegex(text, r"^wrote clip\.wav: 1\.50 s\n1 rendered: 1\.50 s, \d+ times real time\n$")
-        rate, samples = read_float_wav(self.folder / "clip.wav")
+        self.assertRegex(text, r"^wrote clip\.haptic\.wav: 1\.50 s\n1 rendered: 1\.50 s, \d+ times real time\n$")
+        rate, samples = read_float_wav(self.folder / "clip.haptic.wav")
         self.assertEqual((rate, len(samples)), (48000, 72000))
         self.assertGreater(rms(samples), 0.05)
 
