@@ -10,6 +10,7 @@
 #include "cli/TaskRunner.h"
 
 #include <pacini/actuator/Wearer.h>
+#include <pacini/foundation/DspBlock.h>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,8 @@ namespace
 {
 using RenderTask = Task<RenderResult>;
 
+constexpr double noticed = 0.5; // dB: a gain that was asked for and is reduced by more is worth a word
+
 nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
 {
     const RenderResult& r = *task.result;
@@ -36,6 +39,7 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
                                   {"seconds", r.seconds},
                                   {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
                                   {"peak", r.peak},
+                                  {"gainReduction", r.reduction},
                                   {"clippedSamples", r.clippedSamples},
                                   {"plan", planJson(r, settings.compile)}};
     if (explain)
@@ -106,11 +110,16 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("P");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
-        ->check(numberFrom(2000.0, 192000.0));
+        ->check(numberFrom(limits::lowestRate, limits::highestRate));
     command->add_option("--encoding", encoding, "Samples as float32, pcm24 or pcm16")
         ->capture_default_str()
         ->check(CLI::IsMember({"float32", "pcm24", "pcm16"}));
-    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(numberFrom(-120.0, 60.0));
+    command
+        ->add_option("--gain", gain,
+                     "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
+                     "it does")
+        ->capture_default_str()
+        ->check(numberFrom(-120.0, 60.0));
     command->add_option("--transpose", transpose, "Semitones up or down; time stays")
         ->capture_default_str()
         ->check(numberFrom(-96.0, 96.0))
@@ -172,7 +181,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                      "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
         ->capture_default_str()
         ->check(numberFrom(0.0, 40.0));
-    command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
+    command->add_flag("--no-protection", noProtection,
+                      "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
+                      "as they are, or clipped as PCM");
     auto* asFelt =
         command->add_flag("--felt", felt,
                           "Write the acceleration of the skin that the profile's body model predicts instead "
@@ -272,6 +283,11 @@ Exit RenderCommand::run(Console& console)
                      attempt(task, [&] { return render(task.input, task.output, settings, progress); });
                      if (task.error)
                          console.error(task.input.string(), *task.error);
+                     else if (gain > 0.0 && task.result->reduction > noticed)
+                         console.warning(task.input.string(),
+                                         fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
+                                                     "to keep within what the actuator bears",
+                                                     std::min(task.result->reduction, gain), gain));
                      else if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} samples were clipped; {}", task.result->clippedSamples,
