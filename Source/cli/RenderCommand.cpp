@@ -11,6 +11,7 @@
 #include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
+#include <pacini/foundation/DspBlock.h>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,8 @@ namespace pacini::cli
 namespace
 {
 using RenderTask = Task<RenderResult>;
+
+constexpr double noticed = 0.5; // dB: a gain that was asked for and is reduced by more is worth a word
 
 nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
 {
@@ -45,6 +48,7 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
                                   {"seconds", r.seconds},
                                   {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
                                   {"peak", r.peak},
+                                  {"gainReduction", r.reduction},
                                   {"clippedSamples", r.clippedSamples},
                                   {"upToDate", false},
                                   {"plan", planJson(r, settings.compile)}};
@@ -125,11 +129,16 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("P");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
-        ->check(numberFrom(2000.0, 192000.0));
+        ->check(numberFrom(limits::lowestRate, limits::highestRate));
     command->add_option("--encoding", encoding, "Samples as float32, pcm24 or pcm16")
         ->capture_default_str()
         ->check(CLI::IsMember({"float32", "pcm24", "pcm16"}));
-    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(numberFrom(-120.0, 60.0));
+    command
+        ->add_option("--gain", gain,
+                     "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
+                     "it does")
+        ->capture_default_str()
+        ->check(numberFrom(-120.0, 60.0));
     command->add_option("--transpose", transpose, "Semitones up or down; time stays")
         ->capture_default_str()
         ->check(numberFrom(-96.0, 96.0))
@@ -191,7 +200,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                      "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
         ->capture_default_str()
         ->check(numberFrom(0.0, 40.0));
-    command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
+    command->add_flag("--no-protection", noProtection,
+                      "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
+                      "as they are, or clipped as PCM");
     auto* asFelt =
         command->add_flag("--felt", felt,
                           "Write the acceleration of the skin that the profile's body model predicts instead "
@@ -322,7 +333,12 @@ Exit RenderCommand::run(Console& console)
                          return;
                      if (!task.result->upToDate)
                          console.wrote(task.output, durationText(task.result->duration));
-                     if (task.result->clippedSamples > 0)
+                     if (gain > 0.0 && task.result->reduction > noticed)
+                         console.warning(task.input.string(),
+                                         fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
+                                                     "to keep within what the actuator bears",
+                                                     std::min(task.result->reduction, gain), gain));
+                     else if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} samples were clipped; {}", task.result->clippedSamples,
                                                      clippingAdvice(task.result->peak, gain, settings.felt)));

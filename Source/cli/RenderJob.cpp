@@ -270,6 +270,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     if (whole)
         result.measured = error.decibels();
     result.mostSounding = player->mostSounding();
+    result.reduction = player->mostReduction();
     if (settings.describe)
         result.plays = describe(player->decodedPlays(), names);
     const auto report = writer->finish();

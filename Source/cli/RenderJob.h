@@ -33,7 +33,7 @@ struct RenderSettings
     CompileParams compile;
     std::optional<Profile> profile;
     std::optional<FeltSettings> felt; ///< write what is felt instead of the drive signal
-    bool protect = true;              ///< keep within the limits of the profile
+    bool protect = true;              ///< keep within full drive and the limits of the profile
     std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
     std::string record;    ///< all that the output depends on besides the input
@@ -55,9 +55,10 @@ struct PlayReport
 struct RenderResult
 {
     std::uint64_t bytes = 0;
-    double duration = 0.0; ///< s of the output
-    double seconds = 0.0;  ///< s of work, without access to files
-    double peak = 0.0;     ///< largest magnitude of a sample
+    double duration = 0.0;  ///< s of the output
+    double seconds = 0.0;   ///< s of work, without access to files
+    double peak = 0.0;      ///< largest magnitude of a sample
+    double reduction = 0.0; ///< dB, the most that was taken to keep within full drive and the limits of the profile
     std::uint64_t clippedSamples = 0;
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;

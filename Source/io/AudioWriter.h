@@ -26,7 +26,7 @@ enum class SampleEncoding
 
 struct AudioWriteParams
 {
-    int sampleRate = 48000; ///< Hz, 2000 to 384000
+    int sampleRate = 48000; ///< Hz, 2000 to 768000
     int channels = 1;       ///< 1 to 64 (FLAC: to 8)
     SampleEncoding encoding = SampleEncoding::float32;
 

@@ -41,7 +41,7 @@ class Render(CommandTest):
 
     def test_every_rate_of_the_range_gives_the_same_signal(self):
         self.steady()
-        for rate in (2000, 8000, 44100, 48000, 192000):
+        for rate in (2000, 8000, 44100, 48000, 192000, 768000):
             got, samples = self.rendered("--rate", str(rate))
             self.assertEqual((got, len(samples)), (rate, rate))
             self.assertAlmostEqual(level_at(samples, rate, 100.0), 0.5, delta=0.02)
@@ -98,8 +98,25 @@ class Render(CommandTest):
         self.assertEqual((self.folder / "out.flac").read_bytes()[:4], b"fLaC")
         sound = self.report("info", "out.flac")
         self.assertEqual((sound["frames"], sound["sampleRate"]), (48000, 48000))
-        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--encoding", "pcm16", "--gain", "20"],
-                   "warning: ", "samples were clipped", "--gain")
+        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--encoding", "pcm16", "--gain", "20",
+                       "--no-protection"], "warning: ", "samples were clipped", "--gain")
+
+    def test_nothing_exceeds_full_drive_unasked(self):
+        self.steady()
+        _, plain = self.rendered()
+        _, loud = self.rendered("--gain", "20", "--no-protection")
+        self.assertAlmostEqual(max(map(abs, loud)), 5.0, delta=0.2)
+        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--gain", "20"],
+                   "warning: ", "up to 14.", "of the 20.0 dB of --gain are taken away again")
+        _, kept = read_float_wav(self.folder / "out.wav")
+        self.assertLessEqual(max(map(abs, kept)), 1.0)
+        self.assertAlmostEqual(level_at(kept[24000:], 48000, 100.0), 1.0, delta=0.03)
+        report = json.loads(self.succeeds("render", "clip.json", "-o", "out.wav", "--gain", "20", "--json"))
+        self.assertAlmostEqual(report["files"][0]["gainReduction"], 14.0, delta=0.5)
+        report = json.loads(self.succeeds("render", "clip.json", "-o", "out.wav", "--json"))
+        self.assertEqual(report["files"][0]["gainReduction"], 0.0)
+        self.assertEqual(read_float_wav(self.folder / "out.wav")[1], plain)
+        self.assertEqual(plain, self.rendered("--no-protection")[1])
 
     def test_explain_names_what_is_left_out(self):
         self.clip()
@@ -137,8 +154,8 @@ class Render(CommandTest):
 
     def test_wrong_options_are_usage_errors_that_name_the_range(self):
         self.clip()
-        for option, value, says in (("--rate", "1999", "2000 to 192000"), ("--rate", "192001", "2000 to 192000"),
-                                    ("--rate", "nan", "2000 to 192000"), ("--stretch", "nan", "0.01 to 100"),
+        for option, value, says in (("--rate", "1999", "2000 to 768000"), ("--rate", "768001", "2000 to 768000"),
+                                    ("--rate", "nan", "2000 to 768000"), ("--stretch", "nan", "0.01 to 100"),
                                     ("--stretch", "0", "0.01 to 100"), ("--gain", "inf", "-120 to 60"),
                                     ("--transpose", "nan", "-96 to 96"), ("--delay", "-1", "0 to 3600"),
                                     ("--variation", "1.01", "0 to 1"), ("--seed", "-1", "0 to 18446744073709551615"),

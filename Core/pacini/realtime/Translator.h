@@ -77,13 +77,14 @@ public:
         return translatorPlan(designTranslator(setup, fs), wanted);
     }
 
-    /// Takes effect on the next point of the control grid, about 1 ms, smoothly; right after reset() at once. [audio]
+    /// Takes effect on the next point of the control grid, about 1 ms, smoothly; right after reset() at once. Values
+    /// that are not finite leave the ones before. [audio]
     void setParams(const Params& wanted) noexcept
     {
-        if (wanted == current)
+        const Params valid = clamped(wanted, current);
+        if (valid == current)
             return;
-        current = wanted;
-        const Params valid = clamped(wanted);
+        current = valid;
         engine.setParams(valid);
         bypassTarget = valid.bypass ? 1.0f : 0.0f;
         if (!begun)
