@@ -144,9 +144,10 @@ Exit BenchCommand::run(Console& console)
                                   {"build", buildText()},
                                   {"repeat", settings.repeats},
                                   {"benches", nlohmann::ordered_json::array()}};
-    std::string page = fmt::format("# Measurements\n\nMade by\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
-                                   "with {}, {}. Times are of one processor and differ between computers; ratios "
-                                   "hardly do.\n",
+    std::string page = fmt::format("# Measurements\n\nMade by Pacini " PACINI_VERSION
+                                   " with\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
+                                   "Compiled by {}, {}. Times are of one processor and differ between computers; "
+                                   "ratios hardly do.\n",
                                    what, demo ? "" : fmt::format(" {}", fmt::join(inputs, " ")), settings.repeats,
                                    settings.sweep ? " --sweep" : "", fs::path(markdown).filename().string(),
                                    compilerText(), buildText());
