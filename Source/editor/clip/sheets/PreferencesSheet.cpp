@@ -72,7 +72,7 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
          {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
           std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})
         addSwitch(name, "What is dragged sticks to what is near; Alt: not this time", targets.*member,
-                  [target, member = member](bool on) { target(member, on); });
+                  [target, which = member](bool on) { target(which, on); });
     setAnswers({{"Close", {}}});
 }
 
