@@ -3,6 +3,7 @@
 #include "io/AudioBytes.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
+#include "support/Skip.h"
 #include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
@@ -91,7 +92,7 @@ TEST_CASE("Lossy formats deliver a tone of the right level and length", "[io][au
         if (!audio.ok() && std::string(name) == "tone.mp3" &&
             audio.error().message.starts_with("is not audio in a known format"))
         {
-            WARN("this libsndfile reads no MP3");
+            test::skip("this libsndfile reads no MP3");
             continue;
         }
         REQUIRE(audio.ok());
