@@ -72,7 +72,7 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
          {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
           std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})
         addSwitch(name, "What is dragged sticks to what is near; Alt: not this time", targets.*member,
-                  [target, which = member](bool on) { target(which, on); });
+                  [target, member = member](bool on) { target(member, on); });
     setAnswers({{"Close", {}}});
 }
 
@@ -104,11 +104,11 @@ void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Compo
     rows.push_back(std::move(row));
 }
 
-void PreferencesSheet::addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& choices,
+void PreferencesSheet::addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& offered,
                                  int chosen, std::function<void(int)> choose)
 {
     auto box = std::make_unique<juce::ComboBox>();
-    box->addItemList(choices, 1);
+    box->addItemList(offered, 1);
     box->setSelectedItemIndex(chosen, juce::dontSendNotification);
     box->setTooltip(help);
     box->onChange = [choose = std::move(choose), now = box.get()]
