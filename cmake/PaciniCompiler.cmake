@@ -17,8 +17,10 @@ endif()
 
 find_program(PACINI_CCACHE ccache)
 if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    # Without these it would not store what includes a precompiled header.
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${PACINI_CCACHE}")
+    # Without the sloppiness it would not store what includes a precompiled header; by the base a second checkout finds
+    # what the first one compiled.
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+        "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${PACINI_CCACHE}")
 endif()
 
 # Which sources are compiled as one where CMAKE_UNITY_BUILD is on: at most `most` of one folder, in alphabetical order. Files
