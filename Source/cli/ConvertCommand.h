@@ -40,6 +40,7 @@ private:
     int quantise = 0;
     unsigned jobs = 0;
     bool force = false;
+    bool dryRun = false;
 };
 
 } // namespace pacini::cli

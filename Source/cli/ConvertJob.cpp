@@ -45,6 +45,8 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
         result.upToDate = true;
         return result;
     }
+    if (settings.dryRun)
+        return result;
     if (settings.quantise > 0)
         setQuantise(read->clip, settings.quantise);
     auto exported = exportClip(read->clip, settings.target, settings.params);

@@ -37,6 +37,7 @@ private:
     bool allowNan = false;
     bool allowTruncated = false;
     bool force = false;
+    bool dryRun = false;
     unsigned jobs = 0;
 };
 

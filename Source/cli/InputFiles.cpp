@@ -82,7 +82,7 @@ const std::vector<std::string>& clipExtensions()
 }
 
 Result<fs::path> outputFor(const InputFile& input, const std::string& output, bool several,
-                           const std::string& extension)
+                           const std::string& extension, bool makeFolders)
 {
     fs::path path;
     std::error_code error;
@@ -98,7 +98,8 @@ Result<fs::path> outputFor(const InputFile& input, const std::string& output, bo
         return fs::path(output);
     path = fs::path(output) / input.relative;
     path.replace_extension(extension);
-    fs::create_directories(path.parent_path(), error);
+    if (makeFolders)
+        fs::create_directories(path.parent_path(), error);
     if (error)
         return Error{ErrorCode::io, "",
                      "the folder " + path.parent_path().string() + " cannot be made (" + error.message() +

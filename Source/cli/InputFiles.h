@@ -44,9 +44,9 @@ struct InputFiles
 
 /// Where the result for `input` goes: beside it without `output`; into the folder `output` when it is one, ends in a
 /// slash or several inputs were named; else to `output` itself. The extension is `extension` except in the last case.
-/// Folders are made as needed. Errors: io.
+/// Folders are made as needed, if `makeFolders`. Errors: io.
 [[nodiscard]] Result<std::filesystem::path> outputFor(const InputFile& input, const std::string& output, bool several,
-                                                      const std::string& extension);
+                                                      const std::string& extension, bool makeFolders = true);
 
 /// The same for all ways of naming one file, whether it exists or not.
 [[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);

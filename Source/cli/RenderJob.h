@@ -26,6 +26,8 @@ struct RenderSettings
     double transposition = 0.0; ///< semitones
     double stretch = 1.0;
     double delay = 0.0;        ///< s
+    double from = 0.0;         ///< s of what comes of it: where the output starts
+    std::optional<double> to;  ///< s, where it ends; nothing: at the end
     VariationParams variation; ///< of plays that have none of their own; its seed moves all seeds
 
     CompileParams compile;
@@ -35,6 +37,7 @@ struct RenderSettings
     std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
     bool describe = false; ///< find out what each decoder plays
+    bool dryRun = false;   ///< only read, write nothing
     bool measure = false;  ///< also play everything, to measure what leaving out costs
 };
 
@@ -56,6 +59,7 @@ struct RenderResult
     double peak = 0.0;     ///< largest magnitude of a sample
     std::uint64_t clippedSamples = 0;
     bool isScene = false;
+    bool upToDate = false; ///< nothing was done
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;

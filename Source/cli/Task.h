@@ -5,6 +5,7 @@
 #include "cli/Console.h"
 #include "cli/InputFiles.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -63,10 +64,10 @@ void attempt(Task<ResultType>& task, Work&& work)
 }
 
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
-/// folders.
+/// folders. Folders for the outputs are made unless nothing is to be written.
 template <typename ResultType>
 [[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const std::string& output,
-                                                      const std::string& extension)
+                                                      const std::string& extension, bool makeFolders)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
@@ -75,7 +76,7 @@ template <typename ResultType>
     for (const InputFile& file : found.files)
     {
         Task<ResultType> task{file.path, {}, {}, {}};
-        const auto target = outputFor(file, output, found.several, extension);
+        const auto target = outputFor(file, output, found.several, extension, makeFolders);
         if (!target)
             task.error = target.error();
         else if (const auto [other, first] = taken.emplace(sameFileKey(*target), file.path); !first)
@@ -96,6 +97,25 @@ template <typename ResultType>
 [[nodiscard]] bool anyFailed(const std::vector<Task<ResultType>>& tasks)
 {
     return std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.error.has_value(); });
+}
+
+/// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.
+template <typename ResultType>
+void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
+{
+    auto files = nlohmann::ordered_json::array();
+    for (const auto& task : tasks)
+    {
+        if (!task.result)
+            continue;
+        std::error_code ignored;
+        const bool fresh = task.result->upToDate;
+        const char* action = fresh ? "skip" : std::filesystem::exists(task.output, ignored) ? "overwrite" : "write";
+        files.push_back({{"input", task.input.string()}, {"output", task.output.string()}, {"action", action}});
+        console.print(fmt::format("would {} {}, {} {}", action, printable(task.output.string()),
+                                  fresh ? "up to date with" : "from", printable(task.input.string())));
+    }
+    console.addToReport({{"dryRun", true}, {"files", files}});
 }
 
 /// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). The console knows the
