@@ -152,8 +152,7 @@ TEST_CASE("Memory does not follow what a header claims", "[io][audio]")
     const auto huge = wavBytes({.bits = 8, .dataBytes = 0x80000000u}, data);
     const auto error = failureOf(folder, huge);
     CHECK(error.code == ErrorCode::truncated);
-    CHECK(error.message ==
-          "is cut off: 2000 frames are there, 2147483648 were promised; get a whole copy");
+    CHECK(error.message == "is cut off: 2000 frames are there, 2147483648 were promised; get a whole copy");
     const auto audio = readAudio(put(folder / "huge", huge), truncatedAllowed);
     REQUIRE(audio.ok());
     CHECK(audio->samples.size() == 2000);
@@ -189,8 +188,7 @@ TEST_CASE("A file that was cut off is told from a whole one", "[io][audio]")
         const auto refused = AudioReader::open(path);
         REQUIRE_FALSE(refused.ok());
         CHECK(refused.error().code == ErrorCode::truncated);
-        CHECK(refused.error().message ==
-              "is cut off: 300 frames are there, 400 were promised; get a whole copy");
+        CHECK(refused.error().message == "is cut off: 300 frames are there, 400 were promised; get a whole copy");
         const auto allowed = readAudio(path, truncatedAllowed);
         REQUIRE(allowed.ok());
         CHECK(allowed->samples.size() == 600);
