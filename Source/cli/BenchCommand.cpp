@@ -1,5 +1,6 @@
 #include "cli/BenchCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/InputFiles.h"
 #include "cli/ProgramFolder.h"
 #include "cli/bench/BenchReport.h"
@@ -68,7 +69,7 @@ CLI::App* BenchCommand::declare(CLI::App& app)
         allowed.push_back(bench.name);
     }
     command->add_option("what", what, "What to measure: " + names)
-        ->check(CLI::IsMember(allowed))
+        ->check(oneOf(allowed))
         ->capture_default_str()
         ->type_name("WHAT");
     command->add_option("inputs", inputs, "Sounds, or folders of them [the demo sounds]")->type_name("IN");
@@ -77,11 +78,11 @@ CLI::App* BenchCommand::declare(CLI::App& app)
         ->type_name("DIR");
     command->add_option("--repeat", settings.repeats, "Runs of which the fastest counts; long ones are not repeated")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
+        ->check(wholeNumberFrom(1, 1000));
     command->add_flag("--sweep", settings.sweep, "methods: also Pacini's own at many settings");
     command->add_option("--format", format, "Format of the charts")
         ->capture_default_str()
-        ->check(CLI::IsMember({"svg", "png"}));
+        ->check(oneOf({"svg", "png"}));
     command->add_option("--markdown", markdown, "Also write all tables into one Markdown page")->type_name("FILE");
     overwriting.declare(*command);
     command->footer("Errors and times come from the same runs, one at a time on one processor. Times differ between\n"

@@ -1,6 +1,9 @@
 #pragma once
 
-// What option values must be. Like CLI::Range, but NaN is refused and the messages read well.
+// What option values must be. Like the checks of CLI11, but NaN is refused, a near name is suggested, and the messages
+// read well.
+
+#include "io/NearestName.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,38 +13,65 @@
 #include <limits>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
 
-/// A number from `lowest` to `highest`; never NaN.
-[[nodiscard]] inline CLI::Validator numberFrom(double lowest, double highest)
+/// A number from `lowest` to `highest`; never NaN. `comment` is said of the range, such as "24 h" of 86400 seconds.
+[[nodiscard]] inline CLI::Validator numberFrom(double lowest, double highest, const std::string& comment = "")
 {
-    const auto range = fmt::format("{} to {}", lowest, highest);
+    const auto range = fmt::format("{} to {}{}", lowest, highest, comment.empty() ? "" : " = " + comment);
     return CLI::Validator(
         [=](std::string& text)
         {
             double value = 0.0;
             const bool good =
                 CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest; // false for NaN
-            return good ? std::string() : fmt::format("{} is not a number from {}", text, range);
+            return good ? std::string() : fmt::format("'{}' is not a number from {}", text, range);
         },
         range);
 }
 
-/// A whole number of 64 bits; a minus sign, which unsigned types would wrap around, is refused.
-[[nodiscard]] inline CLI::Validator countingNumber()
+/// A whole number; a minus sign, which unsigned types would wrap around, is refused unless `lowest` has one.
+template <typename Integer>
+[[nodiscard]] CLI::Validator wholeNumberFrom(Integer lowest, Integer highest, std::string range = "")
 {
-    const auto range = fmt::format("0 to {}", std::numeric_limits<std::uint64_t>::max());
+    if (range.empty())
+        range = fmt::format("{} to {}", lowest, highest);
     return CLI::Validator(
         [=](std::string& text)
         {
-            std::uint64_t value = 0;
+            Integer value{};
             const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool good = failure == std::errc() && end == text.data() + text.size();
-            return good ? std::string() : fmt::format("{} is not a whole number from {}", text, range);
+            const bool good =
+                failure == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest;
+            return good ? std::string() : fmt::format("'{}' is not a whole number from {}", text, range);
         },
         range);
+}
+
+/// Any whole number of 64 bits.
+[[nodiscard]] inline CLI::Validator countingNumber()
+{
+    return wholeNumberFrom(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(), "0 to 2^64 - 1");
+}
+
+/// One of these names; of another, the nearest is said.
+[[nodiscard]] inline CLI::Validator oneOf(std::vector<std::string> names)
+{
+    auto set = fmt::format("{{{}}}", fmt::join(names, ","));
+    return CLI::Validator(
+        [names = std::move(names)](std::string& text)
+        {
+            for (const std::string& name : names)
+                if (text == name)
+                    return std::string();
+            const std::string meant = meantText(text, names);
+            return fmt::format("'{}' is none of {}{}", text, fmt::join(names, ", "), meant);
+        },
+        std::move(set));
 }
 
 } // namespace pacini::cli

@@ -1,22 +1,26 @@
 #include "cli/BenchCommand.h"
 #include "cli/Command.h"
+#include "cli/CommandTree.h"
 #include "cli/CompareCommand.h"
+#include "cli/CompletionsCommand.h"
 #include "cli/ConvertCommand.h"
 #include "cli/DevicesCommand.h"
 #include "cli/EncodeCommand.h"
+#include "cli/HelpCommand.h"
+#include "cli/HelpText.h"
 #include "cli/InfoCommand.h"
 #include "cli/LintCommand.h"
+#include "cli/ManCommand.h"
 #include "cli/PlayCommand.h"
 #include "cli/PlotCommand.h"
 #include "cli/ProfilesCommand.h"
 #include "cli/RenderCommand.h"
+#include "cli/Terminal.h"
+#include "cli/UsageText.h"
 #include "cli/measure/MeasureCommand.h"
-
-#include <fmt/format.h>
 
 #include <exception>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -38,59 +42,14 @@ std::vector<std::unique_ptr<Command>> allCommands()
     commands.push_back(std::make_unique<MeasureCommand>());
     commands.push_back(std::make_unique<PlotCommand>());
     commands.push_back(std::make_unique<BenchCommand>());
+    commands.push_back(std::make_unique<HelpCommand>());
+    commands.push_back(std::make_unique<CompletionsCommand>());
+    commands.push_back(std::make_unique<ManCommand>());
     return commands;
 }
 
 namespace
 {
-/// The names of the subcommands, each after a blank.
-std::string namesOf(const CLI::App& app)
-{
-    std::string names;
-    for (const CLI::App* command : app.get_subcommands(nullptr))
-        names += " " + command->get_name();
-    return names;
-}
-
-/// One line that says what is wrong with the command line and where to read on.
-std::string usageText(const CLI::ParseError& error, const CLI::App& app)
-{
-    const CLI::App* chosen = &app;
-    std::string called = "pacini";
-    std::string path;
-    while (!chosen->get_subcommands().empty())
-    {
-        chosen = chosen->get_subcommands().front();
-        path += (path.empty() ? "" : " ") + chosen->get_name();
-        called += " " + chosen->get_name();
-    }
-    std::string what = error.what();
-    const bool namesAnOption = what.starts_with("--");
-    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !namesAnOption)
-    {
-        const std::string kind = chosen != &app ? "step" : "command";
-        const auto rest = app.remaining(true);
-        if (chosen->get_subcommands(nullptr).empty())
-            what = "a file to work on is missing";
-        else
-            what = (rest.empty() ? "a " + kind + " is missing" : "'" + rest.front() + "' is not a " + kind) +
-                   "; there are" + namesOf(*chosen);
-    }
-    return (path.empty() ? "" : path + ": ") + what + "; try '" + called + " --help'";
-}
-
-/// The command that was chosen, such as "measure fit".
-std::string commandPath(const CLI::App& app)
-{
-    std::string path;
-    for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();)
-    {
-        chosen = chosen->get_subcommands().front();
-        path += (path.empty() ? "" : " ") + chosen->get_name();
-    }
-    return path;
-}
-
 /// Whether --json is given, found without the parser, which may have stopped before it.
 bool asksForJson(int argc, const char* const* argv)
 {
@@ -98,6 +57,16 @@ bool asksForJson(int argc, const char* const* argv)
         if (std::string_view(argv[i]) == "--json")
             return true;
     return false;
+}
+
+/// Prints what was asked for instead of work.
+Exit answer(Console& console, int argc, const char* const* argv, const std::string& command, const std::string& text)
+{
+    if (asksForJson(argc, argv))
+        console.beJson(command);
+    console.addToReport({{"text", text}});
+    console.print(text);
+    return Exit::ok;
 }
 
 Exit runCommand(Command& command, Console& console)
@@ -123,16 +92,10 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     CLI::App app(
         "Pacini turns sound into touch: it encodes recordings as haptic clips and renders clips as drive signals.",
         "pacini");
-    app.set_version_flag("--version", "pacini " PACINI_VERSION);
+    app.set_help_flag("-h,--help", "Print this help");
+    app.set_version_flag("--version", "pacini " PACINI_VERSION, "Print the version");
     app.require_subcommand(1);
     app.fallthrough(false);
-    app.footer("Examples:\n"
-               "  pacini encode impact.wav -o impact.pacb     a recording becomes a clip of a few hundred bytes\n"
-               "  pacini render impact.pacb -o impact.wav     the clip becomes a drive signal for an actuator\n"
-               "  pacini encode sounds/ -o clips/ --format packed\n"
-               "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
-               "'pacini COMMAND --help' explains a command.");
-
     auto commands = allCommands();
     std::vector<CLI::App*> declared;
     bool quiet = false, json = false;
@@ -149,26 +112,32 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
         for (CLI::App* step : declared.back()->get_subcommands(nullptr))
             addCommon(*step);
     }
+    app.footer("Examples:\n"
+               "  pacini encode impact.wav -o impact.pacb     a recording becomes a clip of a few hundred bytes\n"
+               "  pacini render impact.pacb -o impact.wav     the clip becomes a drive signal for an actuator\n"
+               "  pacini encode sounds/ -o clips/ --format packed\n"
+               "  pacini compare sounds/ rendered/           how much of each sound its haptic signal keeps\n"
+               "'pacini help COMMAND' explains a command.");
     try
     {
         app.parse(argc, argv);
     }
-    catch (const CLI::Success& asked) // for help or the version
+    catch (const CLI::CallForVersion& version)
     {
-        std::ostringstream text;
-        app.exit(asked, text, text);
-        std::string lines = text.str();
-        lines.erase(lines.find_last_not_of('\n') + 1);
-        if (asksForJson(argc, argv))
-            console.beJson(commandPath(app));
-        console.addToReport({{"text", lines}});
-        console.print(lines);
-        return Exit::ok;
+        return answer(console, argc, argv, "", version.what());
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        const std::string path = commandPath(app);
+        return answer(console, argc, argv, path,
+                      helpText(*commandNamed(commandTree(app), path), terminal::textWidth()));
     }
     catch (const CLI::ParseError& error)
     {
         if (asksForJson(argc, argv))
             console.beJson(commandPath(app));
+        if (argc < 2)
+            console.print(shortHelp(commandTree(app)));
         console.error("", {ErrorCode::invalidArgument, "", usageText(error, app)});
         return Exit::usage;
     }

@@ -1,7 +1,9 @@
 #include "cli/CompareCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/ComparePairs.h"
 #include "cli/CompareReport.h"
+#include "cli/Counted.h"
 #include "cli/TaskRunner.h"
 
 #include <fmt/format.h>
@@ -104,9 +106,9 @@ void report(Console& console, const CompareTask& task)
                                     "what is missing as silence",
                                     r.candidateDuration, r.duration));
     if (r.notFinite > 0)
-        console.warning(
-            task.pair.candidate.string(),
-            fmt::format("{} samples of it or its reference were not finite and count as silence", r.notFinite));
+        console.warning(task.pair.candidate.string(),
+                        counted(r.notFinite, "sample of it or its reference was not finite and counts as silence",
+                                "samples of it or its reference were not finite and count as silence"));
     if (r.measures.silentReference)
         console.warning(task.pair.reference.string(), "is silent between 30 and 1000 Hz; only HTS says something");
 }
@@ -132,17 +134,20 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     command
         ->add_option("--events", events,
                      "Clip whose transients are the candidate's events, or folder of clips "
-                     "[events are detected in the candidate]")
+                     "[found in the candidate]")
         ->needs(onsetOption)
         ->type_name("CLIP");
     command->add_flag("--allow-truncated", allowTruncated, "Compare what is there of a file that was cut off");
     command->add_option("-j,--jobs", jobs, "Pairs to work on at a time [number of processors]")
-        ->check(CLI::Range(1u, 256u))
+        ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
-        "  HTS-F           the same, comparing only what is felt on both sides\n"
+        "  of REF          the HTS of the sound itself, played as it is: what keeping everything reaches. It is below\n"
+        "                  100 where much of the sound cannot be felt; a translation that brings that within reach\n"
+        "                  can pass it\n"
+        "  HTS-F           as HTS, comparing only what is felt on both sides\n"
         "  LSD             log-spectral distance in third octaves; 0 is equal\n"
         "  wide SNR        of the envelope of the whole band; 60 is equal\n"
         "  band SNR        of the envelopes of 12 bands; 60 is equal\n"

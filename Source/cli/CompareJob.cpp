@@ -72,10 +72,19 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     return sound;
 }
 
+/// The error of reading a sound, with the option that takes it as it is.
+Error withAdvice(Error error)
+{
+    if (error.code == ErrorCode::truncated)
+        error.message += ", or take what is there with --allow-truncated";
+    return error;
+}
+
 /// What both measures need of one sound.
 struct Features
 {
     HtsFeatures hts;
+    HtsFeatures itself; ///< of a source: as its own candidate
     JudgeFeatures judge;
 };
 } // namespace
@@ -95,7 +104,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     {
         const auto sound = readMono(path, reading, work);
         if (!sound)
-            return InputFailure{path, sound.error()};
+            return InputFailure{path, withAdvice(sound.error())};
         (role == HtsRole::source ? result.duration : result.candidateDuration) = sound->duration();
         result.notFinite += sound->notFinite;
         const std::span<const float> samples(sound->samples);
@@ -107,8 +116,10 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
                 if (role == HtsRole::source)
                     judge.emplace(judgeLength(samples.size(), sound->sampleRate));
                 features.judge = judgeFeatures(*judge, samples, sound->sampleRate).value();
-                features.hts = role == HtsRole::source ? htsSourceFeatures(hts, samples, sound->sampleRate).value()
-                                                       : htsCandidateFeatures(hts, samples, sound->sampleRate).value();
+                HtsFeatures& asCandidate = role == HtsRole::source ? features.itself : features.hts;
+                asCandidate = htsCandidateFeatures(hts, samples, sound->sampleRate).value();
+                if (role == HtsRole::source)
+                    features.hts = htsSourceFeatures(hts, samples, sound->sampleRate).value();
             });
         return features;
     };
@@ -136,6 +147,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
         [&]
         {
             result.hts = compare(source.hts, target.hts, HtsMode::translation);
+            result.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
             result.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
             result.measures = compare(source.judge, target.judge);
             const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;

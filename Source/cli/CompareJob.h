@@ -33,6 +33,7 @@ struct CompareResult
     double seconds = 0.0;           ///< s of work, without access to files
     std::uint64_t notFinite = 0;    ///< frames of both files that were NaN or infinite
     HtsScore hts;
+    double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
     JudgeMeasures measures;
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only

@@ -37,11 +37,16 @@ std::optional<double> scored(const CompareResult& r)
     return (r.*member) ? std::optional((r.*member)->f) : std::nullopt;
 }
 
-constexpr std::array<Column, 10> columns{{
+constexpr std::array<Column, 11> columns{{
     {"hts", "HTS", 1,
      [](const CompareResult& r)
      {
          return std::optional(r.hts.score);
+     }},
+    {"ceiling", "of REF", 1,
+     [](const CompareResult& r)
+     {
+         return std::optional(r.ceiling);
      }},
     {"htsF", "HTS-F", 1,
      [](const CompareResult& r)

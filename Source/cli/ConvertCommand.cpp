@@ -1,5 +1,6 @@
 #include "cli/ConvertCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
@@ -121,19 +122,22 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
     for (const ClipTarget& target : clipTargets())
         names.emplace_back(target.name);
     command->add_option("--format", format, "What to write; 'pacini lint --targets' explains [by the extension of OUT]")
-        ->check(CLI::IsMember(names));
+        ->check(oneOf(names));
     command
         ->add_option("--quantise", quantise,
-                     "Bits of each value of a packed clip, 4 to 16 [those the clip was encoded with, else 12]")
-        ->check(CLI::Range(4, 16));
+                     "Bits of each value of a packed clip [those the clip was encoded with, else 12]")
+        ->check(wholeNumberFrom(4, 16));
     options.declare(*command);
-    command->add_option(
-        "--manifest", manifest,
-        fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName));
+    command
+        ->add_option(
+            "--manifest", manifest,
+            fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName))
+        ->type_name("FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(CLI::Range(1u, 256u))
+        ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
     command->footer("Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
                     "  pacini convert door.pacb door.haptic           for Lofelt's and Meta's players\n"
@@ -204,6 +208,13 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     if (overwritesInput(console))
         return Exit::failed;
+    if (dryRun)
+    {
+        std::vector<ConvertTask> tasks{{input, output, ConvertResult(), {}, {}, {}}};
+        tasks.front().skipped = overwriting.keepsAll() && isOccupied(output);
+        reportPlan(console, tasks);
+        return Exit::ok;
+    }
     if (overwriting.keepsAll() && isOccupied(output))
     {
         console.note(fmt::format("{} exists and was left", printable(output)));
@@ -267,6 +278,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
     settings.params = *params;
     settings.quantise = quantise;
     settings.force = force;
+    settings.dryRun = dryRun;
     settings.record =
         fmt::format("Pacini {}: {}, quantise {}, {}", PACINI_VERSION, target->name, quantise, options.record());
     if (params->profile)
@@ -307,7 +319,8 @@ Exit ConvertCommand::convertClips(Console& console)
         console.keepStdoutFree();
 
     const std::string extension(settings->target.extension);
-    auto tasks = makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting);
+    auto tasks =
+        makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting, !dryRun);
     for (ConvertTask& task : tasks)
         if (task.replaceable == Replaceable::named)
             task.replaceable = replaceable();
@@ -356,17 +369,22 @@ Exit ConvertCommand::convertClips(Console& console)
                          console.error(task.input.string(), *task.error);
                      else if (task.result)
                      {
-                         if (!task.result->upToDate)
+                         if (!task.result->upToDate && !dryRun)
                              sayWritten(console, task, settings->folder);
                          for (const std::string& warning : task.result->entry.warnings)
                              console.warning(task.input.string(), warning);
                      }
                      // What was not replaced is still what it was made from before.
-                     if (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty())))
+                     if (!dryRun && (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty()))))
                          growing.add(keys[i], entryOf(task));
                  };
              });
     bool failed = anyFailed(tasks);
+    if (dryRun)
+    {
+        reportPlan(console, tasks);
+        return failed ? Exit::failed : Exit::ok;
+    }
     if (const auto finished = growing.finish(); !finished)
     {
         if (end.isNews(finished.error()))

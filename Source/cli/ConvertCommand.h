@@ -46,6 +46,7 @@ private:
     bool force = false;
     OverwriteOptions overwriting;
     bool byName = true; ///< the output was named with -o
+    bool dryRun = false;
 };
 
 } // namespace pacini::cli

@@ -79,6 +79,8 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
     const auto existing = mayConvertTo(output, *exported, replaceable, settings.folder, before);
     if (!existing)
         return existing.error();
+    if (settings.dryRun)
+        return result;
     const auto written = writeExport(output, *exported, *existing);
     if (!written)
         return atOutput(output, written.error());

@@ -20,6 +20,7 @@ struct ConvertSettings
     std::string record;           ///< what of the settings the outputs depend on
     std::filesystem::path folder; ///< the outputs' names in the entry count from here
     bool force = false;
+    bool dryRun = false; ///< write nothing
 };
 
 /// What came of one clip.

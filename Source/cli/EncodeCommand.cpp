@@ -1,6 +1,7 @@
 #include "cli/EncodeCommand.h"
 
 #include "cli/Checks.h"
+#include "cli/Counted.h"
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
 #include "cli/Task.h"
@@ -134,9 +135,9 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->add_option("--method", methodName,
                      "How sound is translated, see --list-methods; lowpass and pitch-shift write drive signals as WAV")
         ->capture_default_str()
-        ->check(CLI::IsMember(names))
+        ->check(oneOf(names))
         ->type_name("NAME");
-    command->add_flag("--list-methods", listMethods, "Say what the methods are and do nothing else");
+    command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
     std::vector<std::string> formats;
     for (const ClipTarget& target : clipTargets())
         formats.emplace_back(target.name);
@@ -144,28 +145,28 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->add_option("--format", format,
                      "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
                      "[by the extension of OUT, else json]")
-        ->check(CLI::IsMember(formats));
+        ->check(oneOf(formats));
     exporting.declare(*command);
-    command->add_option("--bands", params.bands, "Number of frequency bands, 1 to 32")
+    command->add_option("--bands", params.bands, "Number of frequency bands")
         ->capture_default_str()
-        ->check(CLI::Range(1, 32));
+        ->check(wholeNumberFrom(1, 32));
     command
         ->add_option("--breakpoints", params.breakpoints,
                      "At most this many breakpoints per second and band; simple sounds take fewer")
         ->capture_default_str()
         ->check(numberFrom(0.5, 1000.0));
-    command->add_option("--quantise", params.quantise, "Bits of each value, 4 to 16")
+    command->add_option("--quantise", params.quantise, "Bits of each value")
         ->capture_default_str()
-        ->check(CLI::Range(4, 16));
+        ->check(wholeNumberFrom(4, 16));
     command->add_option("--low", params.lowFrequency, "Lower end of the bands, Hz")
         ->capture_default_str()
         ->check(numberFrom(1.0, 1700.0));
     command->add_option("--high", params.highFrequency, "Upper end of the bands, Hz")
         ->capture_default_str()
         ->check(numberFrom(2.0, 1800.0));
-    command->add_option("--spacing", spacing, "log or linear bands")
+    command->add_option("--spacing", spacing, "How bands are spaced: log or linear")
         ->capture_default_str()
-        ->check(CLI::IsMember({"log", "linear"}));
+        ->check(oneOf({"log", "linear"}));
     command
         ->add_option("--sensitivity", params.onsets.sensitivity,
                      "Above 1 more and weaker events become transients, below 1 fewer")
@@ -177,8 +178,9 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(CLI::Range(1u, 256u))
+        ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
@@ -291,6 +293,7 @@ Exit EncodeCommand::run(Console& console)
     settings.choices = choices();
     settings.reading = {allowTruncated, allowNan};
     settings.force = force;
+    settings.dryRun = dryRun;
     const ClipTarget* target = clipTargetNamed(format);
     if (target == nullptr)
         target = clipTargetOf(lowerExtension(output));
@@ -319,7 +322,7 @@ Exit EncodeCommand::run(Console& console)
     }
     if (isStandardOutput(output))
         console.keepStdoutFree();
-    auto tasks = makeTasks<EncodeResult>(found, names, overwriting);
+    auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun);
     BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
@@ -337,17 +340,23 @@ Exit EncodeCommand::run(Console& console)
                          console.error(task.input.string(), *task.error);
                      if (!task.result)
                          return;
-                     if (!task.result->upToDate)
+                     if (!task.result->upToDate && !dryRun)
                          console.wrote(task.output, bytesText(static_cast<double>(task.result->bytes)));
                      if (task.result->replacedSamples > 0)
                          console.warning(task.input.string(),
-                                         fmt::format("{} samples were no numbers or absurdly large and were taken as 0",
-                                                     task.result->replacedSamples));
+                                         counted(task.result->replacedSamples,
+                                                 "sample was no number or absurdly large and was taken as 0",
+                                                 "samples were no numbers or absurdly large and were taken as 0"));
                  };
              });
 
-    console.addToReport(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
-    console.note(summary(tasks));
+    if (dryRun)
+        reportPlan(console, tasks);
+    else
+    {
+        console.addToReport(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
+        console.note(summary(tasks));
+    }
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
 }
 

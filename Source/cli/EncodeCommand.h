@@ -44,6 +44,7 @@ private:
     bool allowTruncated = false;
     bool force = false;
     OverwriteOptions overwriting;
+    bool dryRun = false;
     unsigned jobs = 0;
 };
 

@@ -24,6 +24,16 @@ namespace fs = std::filesystem;
 
 namespace
 {
+/// The error of reading a sound, with the option that takes it as it is.
+Error withAdvice(Error error)
+{
+    if (error.code == ErrorCode::truncated)
+        error.message += ", or take what is there with --allow-truncated";
+    if (error.code == ErrorCode::notFinite)
+        error.message += ", or take such samples as 0 with --allow-nan";
+    return error;
+}
+
 /// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
 template <typename Visit>
 Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
@@ -36,7 +46,7 @@ Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>
     {
         const auto got = reader.read(buffer);
         if (!got)
-            return got.error();
+            return withAdvice(got.error());
         if (*got == 0)
             return {};
         frames += *got;
@@ -100,7 +110,9 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
 
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return reader.error();
+        return withAdvice(reader.error());
+    if (settings.dryRun)
+        return result;
     Stopwatch work;
     const auto written = makesClip
                              ? encodeClip(*reader, input, output, *existing, replaceable, progress, work, result)
@@ -117,7 +129,7 @@ Result<Clip> EncodeJob::encode(const fs::path& input, const Progress& progress)
 {
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return reader.error();
+        return withAdvice(reader.error());
     Stopwatch work;
     return makeClip(*reader, input, progress, work);
 }

@@ -28,8 +28,9 @@ struct EncodeSettings
     ClipTarget target = *clipTargetNamed("json");
     ExportParams exporting; ///< for formats of others
     AudioReadOptions reading;
-    bool force = false; ///< encode even what is up to date; signals and formats of others, which have no record of the
-                        ///< method, always are
+    bool dryRun = false; ///< only look at the sound, write nothing
+    bool force = false;  ///< encode even what is up to date; signals and formats of others, which have no record of the
+                         ///< method, always are
 };
 
 /// What came of one file.

@@ -12,19 +12,21 @@ void ExportOptions::declare(CLI::App& command)
 {
     command
         .add_option("--points", points,
-                    "For other formats: at most this many points of amplitude per second; what is one voice already "
-                    "keeps its points without this [what the format is used with]")
+                    "For other formats: at most this many points of amplitude per second; without it a clip of one "
+                    "voice keeps its points [as the format is mostly used]")
         ->check(numberFrom(0.5, 10000.0));
     command
         .add_option("--frequency-points", frequencyPoints,
-                    "And of frequency [three quarters of --points, if that is given]")
+                    "For other formats: at most this many points of frequency per second [three quarters of --points]")
         ->check(numberFrom(0.5, 10000.0));
-    command.add_flag("--split", split, "For formats that can be one file or several: several");
+    command.add_flag("--split", split, "For formats that can be one file or several: write several");
     command.add_option("--sample-rate", rate, "For formats that are samples, Hz [the format's own]")
-        ->check(CLI::Range(100, 384000));
-    command.add_option("--profile", profile,
-                       "Actuator whose range the frequencies of a format without a range of its own stand for; a "
-                       "file or a shipped profile");
+        ->check(wholeNumberFrom(100, 384000));
+    command
+        .add_option("--profile", profile,
+                    "For formats without a range of frequencies: the actuator that has it, a file or a shipped "
+                    "profile")
+        ->type_name("PROFILE");
 }
 
 std::optional<ExportParams> ExportOptions::params(Console& console) const

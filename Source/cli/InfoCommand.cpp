@@ -69,6 +69,18 @@ std::string titleOf(const AnyClip& read)
     return format == nullptr ? "" : fmt::format(" ({})", format->title);
 }
 
+/// " (48000 Hz, 2 channels)", as far as it is known.
+std::string soundText(const ClipSource& source)
+{
+    std::string text;
+    if (source.sampleRate > 0.0)
+        text = fmt::format("{:.0f} Hz", source.sampleRate);
+    if (source.channels > 0)
+        text +=
+            fmt::format("{}{} channel{}", text.empty() ? "" : ", ", source.channels, source.channels == 1 ? "" : "s");
+    return text.empty() ? "" : " (" + text + ")";
+}
+
 std::string text(const std::string& file, const AnyClip& read)
 {
     const Clip& clip = read.clip;
@@ -76,8 +88,7 @@ std::string text(const std::string& file, const AnyClip& read)
     std::string lines = fmt::format("{}: haptic clip \"{}\"{}, {}\n", printable(file), printable(clip.name),
                                     titleOf(read), durationText(clip.duration));
     if (!clip.source.file.empty())
-        lines += fmt::format("  made from     {} ({:.0f} Hz, {} channel{})\n", printable(clip.source.file),
-                             clip.source.sampleRate, clip.source.channels, clip.source.channels == 1 ? "" : "s");
+        lines += fmt::format("  made from     {}{}\n", printable(clip.source.file), soundText(clip.source));
     if (!clip.encoder.empty())
         lines += "  encoder       " + encoderText(clip.encoder) + "\n";
     if (!clip.bands.empty())
@@ -124,7 +135,9 @@ CLI::App* InfoCommand::declare(CLI::App& app)
     auto* command = app.add_subcommand("info", "Say what a clip of any format, a sound or an actuator profile holds");
     command->add_option("inputs", inputs, "Clips, audio files, profiles or names of shipped profiles")
         ->required()
-        ->type_name("FILE");
+        ->type_name("FILE|PROFILE");
+    command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
+                    "  pacini info l5-wristband                       a profile that comes with Pacini");
     return command;
 }
 

@@ -106,7 +106,7 @@ const std::vector<std::string>& clipExtensions()
     return extensions;
 }
 
-Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several)
+Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several, bool makeFolders)
 {
     fs::path path;
     std::error_code error;
@@ -120,7 +120,8 @@ Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, 
     if (!folder)
         return OutputPlace{names.given, true};
     path = fs::path(names.given) / input.relative;
-    fs::create_directories(path.parent_path(), error);
+    if (makeFolders)
+        fs::create_directories(path.parent_path(), error);
     if (error)
         return Error{ErrorCode::io, "",
                      "the folder " + path.parent_path().string() + " cannot be made (" + error.message() +

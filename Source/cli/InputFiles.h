@@ -59,8 +59,10 @@ struct OutputPlace
 };
 
 /// Where the result for `input` goes: beside it when nothing is given; into the folder `given` when it is one, ends in
-/// a slash or several inputs were named; else to `given` itself. Folders are made as needed. Errors: io.
-[[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several);
+/// a slash or several inputs were named; else to `given` itself. Folders are made as needed, if `makeFolders`. Errors:
+/// io.
+[[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several,
+                                            bool makeFolders = true);
 
 /// Whether `output` can be where the results for these inputs go, with a report in JSON on standard output or without.
 /// Errors: invalidArgument, with what to do.

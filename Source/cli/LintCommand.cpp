@@ -2,6 +2,7 @@
 
 #include "cli/Checks.h"
 #include "cli/ConvertManifest.h"
+#include "cli/Counted.h"
 #include "cli/InputFiles.h"
 #include "io/AnyClip.h"
 #include "io/ClipExport.h"
@@ -73,8 +74,8 @@ CLI::App* LintCommand::declare(CLI::App& app)
     for (const ClipTarget& known : clipTargets())
         if (known.foreign != nullptr)
             names.emplace_back(known.name);
-    command->add_option("--target", target, "The format, see --targets")->check(CLI::IsMember(names));
-    command->add_flag("--targets", listTargets, "Say what formats there are and do nothing else");
+    command->add_option("--target", target, "The format, see --targets")->check(oneOf(names));
+    command->add_flag("--targets", listTargets, "List the formats and do nothing else");
     options.declare(*command);
     command
         ->add_option("--max-error", maxError,
@@ -82,9 +83,10 @@ CLI::App* LintCommand::declare(CLI::App& app)
         ->check(numberFrom(0.0, 1000.0));
     command->add_option("--max-octaves", maxOctaves, "Fail when a frequency is off by more octaves")
         ->check(numberFrom(0.0, 100.0));
-    command->add_option("--max-time", maxTime, "Fail when a time is off by more seconds")->check(numberFrom(0.0, 1e5));
+    command->add_option("--max-time", maxTime, "Fail when a time is off by more seconds")
+        ->check(numberFrom(0.0, limits::duration, "24 h"));
     command->add_option("--fail-on", forbidden, "Fail on any loss of these kinds")
-        ->check(CLI::IsMember(kindNames()))
+        ->check(oneOf(kindNames()))
         ->delimiter(',');
     command->footer("Examples:\n  pacini lint door.json --target ahap\n"
                     "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 when a clip loses more");
@@ -165,7 +167,8 @@ Exit LintCommand::run(Console& console)
     }
     console.addToReport({{"files", files}});
     if (tooMuch > 0)
-        console.error("", {ErrorCode::invalidData, "lint", fmt::format("{} losses are more than is allowed", tooMuch)});
+        console.error("", {ErrorCode::invalidData, "lint",
+                           fmt::format("{} more than is allowed", counted(tooMuch, "loss is", "losses are"))});
     return tooMuch > 0 || failed ? Exit::failed : Exit::ok;
 }
 

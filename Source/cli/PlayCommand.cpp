@@ -78,16 +78,21 @@ CLI::App* PlayCommand::declare(CLI::App& app)
                      "Its number in 'pacini devices', its path, or a part of its name [the only "
                      "game controller]")
         ->type_name("N|NAME");
-    command->add_option("--intensity", intensity, "dB by which it is played stronger, or weaker")
+    command->add_option("--intensity", intensity, "How much stronger it is played, dB; below 0 weaker")
         ->capture_default_str()
         ->check(numberFrom(-60.0, 40.0));
-    command->add_option("--from", from, "Start here, s")->capture_default_str()->check(numberFrom(0.0, 1e6));
-    command->add_option("--to", to, "End here, s [the clip's end]")->check(numberFrom(0.0, 1e6));
+    command->add_option("--from", from, "Start of the part to play, s")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
+    command->add_option("--to", to, "End of the part to play, s [the end]")
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
     command->add_flag("--loop", loop, "Play over and over until it is ended by Ctrl-C");
     command->add_flag("--wait", wait, "Wait until the controller is connected");
     command->add_flag("--dry-run", dryRun, "Only print what would be sent: seconds and bytes");
     command->add_option("--like", like, "With --dry-run: for this kind of controller, whatever is connected")
-        ->check(CLI::IsMember(modelNames()));
+        ->check(oneOf(modelNames()));
     command->footer("The controller stands still when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"

@@ -1,5 +1,6 @@
 #include "cli/PlotCommand.h"
 
+#include "cli/Checks.h"
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
@@ -122,7 +123,7 @@ CLI::App* PlotCommand::declare(CLI::App& app)
                      "Clip (JSON or packed), sound, which is encoded first, or actuator profile: a file or the "
                      "name of a shipped one")
         ->required()
-        ->type_name("IN");
+        ->type_name("IN|PROFILE");
     command->add_option("-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]")
         ->type_name("OUT");
     command->add_option("--sound", sound, "Sound to show above the clip instead of its drive signal")
@@ -130,7 +131,7 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     command
         ->add_option("--profile", profile,
                      "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it")
-        ->type_name("P");
+        ->type_name("PROFILE");
     command->add_option("--size", size, "Size of the picture in pixels")
         ->capture_default_str()
         ->check(CLI::Validator(
@@ -141,8 +142,12 @@ CLI::App* PlotCommand::declare(CLI::App& app)
             },
             "", "size"))
         ->type_name("WxH");
-    command->add_option("--from", from, "Start of what is shown, s")->check(CLI::Range(0.0, limits::duration));
-    command->add_option("--to", to, "End of what is shown, s")->check(CLI::Range(0.0, limits::duration));
+    command->add_option("--from", from, "Start of the part to show, s [0]")
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
+    command->add_option("--to", to, "End of the part to show, s [the end]")
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
     command->add_flag("--dark", dark, "On a dark ground");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"

@@ -17,7 +17,8 @@ namespace pacini::cli
 CLI::App* ProfilesCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("profiles", "List the actuator profiles that come with Pacini");
-    command->footer("'pacini info NAME' shows one of them, 'pacini render --profile NAME' renders for it.");
+    command->footer("'pacini info NAME' shows one of them, 'pacini render --profile NAME' renders for it.\n"
+                    "Examples:\n  pacini profiles\n  pacini profiles --json");
     return command;
 }
 

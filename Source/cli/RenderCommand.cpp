@@ -1,6 +1,7 @@
 #include "cli/RenderCommand.h"
 
 #include "cli/Checks.h"
+#include "cli/Counted.h"
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
 #include "cli/ProgramFolder.h"
@@ -126,13 +127,13 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command
         ->add_option("--profile", profile,
                      "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it")
-        ->type_name("P");
+        ->type_name("PROFILE");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
         ->check(numberFrom(limits::lowestRate, limits::highestRate));
-    command->add_option("--encoding", encoding, "Samples as float32, pcm24 or pcm16")
+    command->add_option("--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16")
         ->capture_default_str()
-        ->check(CLI::IsMember({"float32", "pcm24", "pcm16"}));
+        ->check(oneOf({"float32", "pcm24", "pcm16"}));
     command
         ->add_option("--gain", gain,
                      "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
@@ -150,27 +151,33 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_option("--delay", delay, "Silence before the start, s")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
+    command->add_option("--from", from, "Start of the part to render, s; what came before is played unheard")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
+    command->add_option("--to", to, "End of the part to render, s [the end]")
+        ->check(numberFrom(0.0, limits::duration, "24 h"))
+        ->type_name("S");
     command
-        ->add_option("--variation", variation,
-                     "Random variation of the bands, 0 to 1; in a scene of the plays that have none")
+        ->add_option("--variation", variation, "Random variation of the bands; in a scene, of the plays that have none")
         ->capture_default_str()
         ->check(numberFrom(0.0, 1.0))
         ->type_name("V");
     command->add_option("--variation-per", variationPer, "One random factor per breakpoint or per band")
         ->capture_default_str()
-        ->check(CLI::IsMember({"breakpoint", "band"}));
+        ->check(oneOf({"breakpoint", "band"}));
     command->add_option("--seed", seed, "Seed of the variation")->capture_default_str()->check(countingNumber());
     command
         ->add_option("--carriers", carriers,
                      "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid")
         ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "fixed", "pitch", "centroid"}));
+        ->check(oneOf({"auto", "fixed", "pitch", "centroid"}));
     command->add_option("--envelope", envelope, "Level the sum of the bands to the total envelope")
         ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "on", "off"}));
+        ->check(oneOf({"auto", "on", "off"}));
     command->add_option("--pulse", pulse, "Waveform of events")
         ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "adaptive", "square", "sine"}));
+        ->check(oneOf({"auto", "adaptive", "square", "sine"}));
     command
         ->add_option("--pulse-frequency", pulseFrequency,
                      "Frequency of square and sine pulses, Hz [the actuator's resonance]")
@@ -194,7 +201,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                      "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
                      "it, or by octaves into it")
         ->capture_default_str()
-        ->check(CLI::IsMember({"profile", "clamp", "rescale", "fold"}));
+        ->check(oneOf({"profile", "clamp", "rescale", "fold"}));
     command
         ->add_option("--max-boost", maxBoost,
                      "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
@@ -208,8 +215,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                           "Write the acceleration of the skin that the profile's body model predicts instead "
                           "of the drive signal");
     asFelt->needs(command->get_option("--profile"));
-    command
-        ->add_option("--felt-full-scale", feltFullScale, "Acceleration at a sample of 1 in the file of --felt, m/s^2")
+    command->add_option("--felt-full-scale", feltFullScale, "With --felt: acceleration at a sample of 1, m/s^2")
         ->capture_default_str()
         ->check(numberFrom(1e-3, 1e6))
         ->needs(asFelt)
@@ -219,7 +225,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                      "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people whose skin has half to "
                      "twice its mass, stiffness and damping (assumed)")
         ->capture_default_str()
-        ->check(CLI::Range(0u, simulatedWearers))
+        ->check(wholeNumberFrom(0u, simulatedWearers))
         ->needs(asFelt)
         ->type_name("N");
     command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
@@ -227,13 +233,15 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                       "Like --explain, and play everything too, to measure what leaving out costs");
     command->add_flag("-f,--force", force, "Render also what is up to date");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(CLI::Range(1u, 256u))
+        ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
                     "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
                     "  pacini render hall.scene.json -o hall.wav --explain\n"
+                    "  pacini render hall.scene.json -o part.wav --from 12.5 --to 20\n"
                     "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
     return command;
 }
@@ -241,8 +249,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
 std::string RenderCommand::record() const
 {
     std::string text = "Pacini " PACINI_VERSION;
-    const std::vector<std::string> without = {"inputs", "output", "profile",      "clips",     "explain", "measured",
-                                              "jobs",   "force",  "no-overwrite", "overwrite", "json",    "quiet"};
+    const std::vector<std::string> without = {"inputs",   "output", "profile", "clips",        "explain",
+                                              "measured", "jobs",   "force",   "no-overwrite", "overwrite",
+                                              "json",     "quiet",  "dry-run"};
     for (const CLI::Option* option : command->get_options())
         if (const auto name = option->get_single_name();
             option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
@@ -252,6 +261,11 @@ std::string RenderCommand::record() const
 
 Exit RenderCommand::run(Console& console)
 {
+    if (to && *to <= from)
+    {
+        console.error("", {ErrorCode::invalidArgument, "render", "--from must be before --to"});
+        return Exit::usage;
+    }
     RenderSettings settings;
     settings.compile.sampleRate = std::round(rate);
     settings.compile.tolerance = tolerance;
@@ -277,6 +291,9 @@ Exit RenderCommand::run(Console& console)
         decoder.pulseFrequency = pulseFrequency;
     decoder.pulseCycles = pulseCycles;
     settings.clipFolder = clipFolder;
+    settings.from = from;
+    settings.to = to;
+    settings.dryRun = dryRun;
     explain = explain || measured;
     settings.describe = explain || console.isJson();
     settings.measure = measured;
@@ -313,7 +330,8 @@ Exit RenderCommand::run(Console& console)
     }
     if (isStandardOutput(output))
         console.keepStdoutFree();
-    auto tasks = makeTasks<RenderResult>(found, {output, ".wav", felt ? ".felt.wav" : ".haptic.wav"}, overwriting);
+    auto tasks =
+        makeTasks<RenderResult>(found, {output, ".wav", felt ? ".felt.wav" : ".haptic.wav"}, overwriting, !dryRun);
     BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
@@ -331,7 +349,7 @@ Exit RenderCommand::run(Console& console)
                          console.error(task.input.string(), *task.error);
                      if (!task.result)
                          return;
-                     if (!task.result->upToDate)
+                     if (!task.result->upToDate && !dryRun)
                          console.wrote(task.output, durationText(task.result->duration));
                      if (gain > 0.0 && task.result->reduction > noticed)
                          console.warning(task.input.string(),
@@ -340,11 +358,17 @@ Exit RenderCommand::run(Console& console)
                                                      std::min(task.result->reduction, gain), gain));
                      else if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
-                                         fmt::format("{} samples were clipped; {}", task.result->clippedSamples,
+                                         fmt::format("{} clipped; {}",
+                                                     counted(task.result->clippedSamples, "sample was", "samples were"),
                                                      clippingAdvice(task.result->peak, gain, settings.felt)));
                  };
              });
 
+    if (dryRun)
+    {
+        reportPlan(console, tasks);
+        return anyFailed(tasks) ? Exit::failed : Exit::ok;
+    }
     console.addToReport(jsonReport(tasks, [&](const RenderTask& task) { return toJson(task, settings, explain); }));
     for (const RenderTask& task : tasks)
         if (explain && task.result)

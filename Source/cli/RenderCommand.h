@@ -41,6 +41,9 @@ private:
     double stretch = 1.0;
     double gain = 0.0;
     double delay = 0.0;
+    double from = 0.0;
+    std::optional<double> to;
+    bool dryRun = false;
     double tolerance = -60.0;
     std::string clipFolder;
     double feltFullScale = 100.0;

@@ -181,6 +181,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     const auto existing = mayReplace(output, origin, replaceable);
     if (!existing)
         return existing.error();
+    if (settings.dryRun)
+        return result;
 
     const double fs = settings.compile.sampleRate;
     Stopwatch work;
@@ -229,14 +231,23 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     scene = {};
     std::unique_ptr<SignalPlayer> player;
     work.run([&] { player = std::make_unique<SignalPlayer>(std::move(plan), playing, settings.felt); });
+    // A part is played from the start like the whole, so that it is equal to that part of the whole.
     const auto total = static_cast<std::uint64_t>(player->totalFrames());
-    result.duration = static_cast<double>(total) / fs;
+    const auto first = static_cast<std::uint64_t>(std::llround(settings.from * fs));
+    const auto last =
+        settings.to ? std::min(total, static_cast<std::uint64_t>(std::llround(*settings.to * fs))) : total;
+    if (first >= last && (first > 0 || last < total))
+        return Error{ErrorCode::invalidArgument, "",
+                     fmt::format("has nothing from {} s on{}; it lasts {:.3f} s", settings.from,
+                                 settings.to ? fmt::format(" to {} s", *settings.to) : "",
+                                 static_cast<double>(total) / fs)};
+    result.duration = static_cast<double>(last - first) / fs;
 
     AudioWriteParams format;
     format.sampleRate = static_cast<int>(std::lround(fs));
     format.channels = static_cast<int>(result.actuators);
     format.encoding = settings.encoding;
-    format.expectedFrames = total;
+    format.expectedFrames = last - first;
     if (replaceable != Replaceable::named) // so that equal signals in named files are equal to the byte
         format.origin = origin;
     format.existing = *existing;
@@ -246,15 +257,22 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     Channels block(result.actuators), wholeBlock(result.actuators);
     std::vector<float> interleaved(blockFrames * result.actuators);
     ErrorMeter error;
-    for (std::uint64_t done = 0; done < total;)
+    for (std::uint64_t done = 0; done < last;)
     {
-        const auto frames = static_cast<std::size_t>(std::min<std::uint64_t>(blockFrames, total - done));
+        // Blocks end where the part starts.
+        const std::uint64_t until = done < first ? first : last;
+        const auto frames = static_cast<std::size_t>(std::min<std::uint64_t>(blockFrames, until - done));
         work.run([&] { player->process(block.first(frames)); });
         if (whole)
         {
             whole->process(wholeBlock.first(frames));
-            error.add(wholeBlock, block, frames);
+            if (done >= first)
+                error.add(wholeBlock, block, frames);
         }
+        done += frames;
+        progress(static_cast<double>(done) / static_cast<double>(last));
+        if (done <= first)
+            continue;
         const auto part = std::span(interleaved).first(frames * result.actuators);
         for (std::size_t a = 0; a < result.actuators; ++a)
             for (std::size_t n = 0; n < frames; ++n)
@@ -264,8 +282,6 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
             }
         if (auto written = writer->write(part); !written)
             return atOutput(output, written.error());
-        done += frames;
-        progress(static_cast<double>(done) / static_cast<double>(total));
     }
     if (whole)
         result.measured = error.decibels();

@@ -28,6 +28,8 @@ struct RenderSettings
     double transposition = 0.0; ///< semitones
     double stretch = 1.0;
     double delay = 0.0;        ///< s
+    double from = 0.0;         ///< s of what comes of it: where the output starts
+    std::optional<double> to;  ///< s, where it ends; nothing: at the end
     VariationParams variation; ///< of plays that have none of their own; its seed moves all seeds
 
     CompileParams compile;
@@ -39,6 +41,7 @@ struct RenderSettings
     std::string record;    ///< all that the output depends on besides the input
     bool resume = true;    ///< do nothing where an output that was not named is up to date
     bool describe = false; ///< find out what each decoder plays
+    bool dryRun = false;   ///< only read, write nothing
     bool measure = false;  ///< also play everything, to measure what leaving out costs
 };
 
@@ -62,6 +65,7 @@ struct RenderResult
     std::uint64_t clippedSamples = 0;
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
+    bool upToDate = false; ///< nothing was done
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;

@@ -1,6 +1,7 @@
 #include "cli/RenderReport.h"
 
 #include "cli/Console.h"
+#include "cli/Counted.h"
 
 #include <fmt/format.h>
 
@@ -28,11 +29,6 @@ Json decibels(double value)
 std::string decibelText(double value)
 {
     return std::isfinite(value) ? fmt::format("{:.1f} dB", value) : "nothing lost";
-}
-
-std::string counted(std::size_t count, std::string_view one, std::string_view several)
-{
-    return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
 Json decoderJson(const DecoderReport& report)

@@ -6,6 +6,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Overwrite.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -89,10 +90,11 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
 }
 
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
-/// folders, and one that would be written to any of the inputs.
+/// folders, and one that would be written to any of the inputs. Folders for the outputs are made unless nothing is to
+/// be written.
 template <typename ResultType>
 [[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const OutputNames& names,
-                                                      const OverwriteOptions& overwriting)
+                                                      const OverwriteOptions& overwriting, bool makeFolders)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
@@ -109,7 +111,7 @@ template <typename ResultType>
         {
             task.error = Error{ErrorCode::invalidArgument, "", std::move(message)};
         };
-        const auto place = outputFor(file, names, found.several);
+        const auto place = outputFor(file, names, found.several, makeFolders);
         if (!place)
             task.error = place.error();
         else if (isStream(place->path))
@@ -147,6 +149,30 @@ template <typename ResultType>
 {
     return static_cast<std::size_t>(
         std::count_if(tasks.begin(), tasks.end(), [](const auto& task) { return task.skipped; }));
+}
+
+/// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.
+template <typename ResultType>
+void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
+{
+    auto files = nlohmann::ordered_json::array();
+    for (const auto& task : tasks)
+    {
+        if (!task.result && !task.skipped)
+            continue;
+        std::error_code ignored;
+        const bool fresh = !task.skipped && task.result->upToDate;
+        const char* action = fresh || task.skipped                           ? "skip"
+                             : std::filesystem::exists(task.output, ignored) ? "overwrite"
+                                                                             : "write";
+        files.push_back({{"input", task.input.string()}, {"output", task.output.string()}, {"action", action}});
+        console.print(fmt::format("would {} {}, {} {}", action, printable(task.output.string()),
+                                  fresh          ? "up to date with"
+                                  : task.skipped ? "which exists, from"
+                                                 : "from",
+                                  printable(task.input.string())));
+    }
+    console.addToReport({{"dryRun", true}, {"files", files}});
 }
 
 /// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). Outputs that were kept stand

@@ -1,5 +1,6 @@
 #include "cli/Terminal.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #if defined(_WIN32)
@@ -33,6 +34,11 @@ std::size_t columns()
         return size.ws_col;
 #endif
     return 80;
+}
+
+std::size_t textWidth()
+{
+    return std::clamp<std::size_t>(columns(), 60, 100);
 }
 
 std::string cutToWidth(std::string_view text, std::size_t columns)

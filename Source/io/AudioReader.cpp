@@ -63,8 +63,7 @@ Error invalid(std::string message)
 Error truncated(std::uint64_t present, std::uint64_t promised, std::string_view unit = "frames")
 {
     return {ErrorCode::truncated, "",
-            fmt::format("is cut off: {} {} are there, {} were promised; get a whole copy or allow truncated files",
-                        present, unit, promised)};
+            fmt::format("is cut off: {} {} are there, {} were promised; get a whole copy", present, unit, promised)};
 }
 
 /// Bytes of one sample, 0 for codecs that pack samples together.
@@ -115,6 +114,9 @@ Error openingFailed(const std::optional<AudioDataSize>& data)
     if (data && data->present < data->promised)
         return truncated(data->present, data->promised, "bytes of audio");
     auto reason = soundError(nullptr);
+    // What it says of rates and channels that cannot be.
+    if (reason.starts_with("internal error"))
+        reason = "its header is damaged";
     // What its MP3 part says of every file that is too short to start.
     if (reason.starts_with("file does not exist"))
         reason = "its audio is incomplete";
@@ -150,14 +152,12 @@ struct AudioReader::State
                 continue;
             const auto channels = static_cast<std::size_t>(info.channels);
             if (!options.allowNan)
-                return Error{ErrorCode::notFinite,
-                             fmt::format("frame {}, channel {}", delivered + i / channels, i % channels),
-                             std::isfinite(samples[i])
-                                 ? fmt::format("is {:g}, far beyond full scale (counted from 0); repair the file or "
-                                               "allow NaN",
-                                               samples[i])
-                                 : fmt::format("is {}, not a number (counted from 0); repair the file or allow NaN",
-                                               std::isnan(samples[i]) ? "NaN" : "infinite")};
+                return Error{
+                    ErrorCode::notFinite, fmt::format("frame {}, channel {}", delivered + i / channels, i % channels),
+                    std::isfinite(samples[i])
+                        ? fmt::format("is {:g}, far beyond full scale (counted from 0); repair the file", samples[i])
+                        : fmt::format("is {}, not a number (counted from 0); repair the file",
+                                      std::isnan(samples[i]) ? "NaN" : "infinite")};
             samples[i] = 0.0f;
             ++replaced;
         }
@@ -173,16 +173,15 @@ struct AudioReader::State
             return {};
         const auto type = info.format & SF_FORMAT_TYPEMASK;
         if (info.frames == SF_COUNT_MAX && type == SF_FORMAT_OGG)
-            return Error{
-                ErrorCode::truncated, "",
-                fmt::format("is cut off: {} frames are there, but not the mark of its end; get a whole copy or "
-                            "allow truncated files",
-                            delivered)};
+            return Error{ErrorCode::truncated, "",
+                         fmt::format("is cut off: {} frames are there, but not the mark of its end; get a whole copy",
+                                     delivered)};
         if (promisedFrames && delivered + slackFrames < *promisedFrames)
             return truncated(delivered, *promisedFrames);
         if (sf_error(sound.get()) != SF_ERR_NO_ERROR)
-            return invalid(fmt::format("is damaged after frame {} ({}); get a whole copy or allow truncated files",
-                                       delivered, soundError(sound.get())));
+            return Error{
+                ErrorCode::truncated, "",
+                fmt::format("is damaged after frame {} ({}); get a whole copy", delivered, soundError(sound.get()))};
         return {};
     }
 };
@@ -209,10 +208,16 @@ Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions opt
 
     SF_VIRTUAL_IO io{streamLength, streamSeek, streamRead, nullptr, streamTell};
     SF_INFO& info = state->info;
-    state->sound.reset(sf_open_virtual(&io, SFM_READ, &info, state->file.get()));
+    {
+        const SoundLibraryCall inside;
+        state->sound.reset(sf_open_virtual(&io, SFM_READ, &info, state->file.get()));
+    }
     if (!state->sound)
         return openingFailed(data);
-    if (info.channels < 1 || info.channels > limits::channels)
+    if (info.channels < 1 || info.samplerate < 1)
+        return invalid(fmt::format("has a damaged header, which names no {}; get a whole copy",
+                                   info.channels < 1 ? "channels" : "sample rate"));
+    if (info.channels > limits::channels)
         return invalid(
             fmt::format("has {} channels, 1 to {} are accepted; mix it down", info.channels, limits::channels));
     if (info.samplerate < options.lowestSampleRate || info.samplerate > limits::highestSampleRate)
@@ -251,7 +256,11 @@ Result<std::size_t> AudioReader::read(std::span<float> interleaved)
     const auto channels = static_cast<std::size_t>(state->info.channels);
     assert(interleaved.size() % channels == 0);
     const auto wanted = interleaved.size() / channels;
-    const auto count = sf_readf_float(state->sound.get(), interleaved.data(), static_cast<sf_count_t>(wanted));
+    sf_count_t count = 0;
+    {
+        const SoundLibraryCall inside;
+        count = sf_readf_float(state->sound.get(), interleaved.data(), static_cast<sf_count_t>(wanted));
+    }
     const auto got = static_cast<std::size_t>(std::max<sf_count_t>(count, 0));
     if (!state->options.keepNan)
         if (auto finite = state->checkFinite(interleaved.first(got * channels)); !finite)

@@ -1,5 +1,7 @@
 #include "io/ShippedProfiles.h"
 
+#include "io/NearestName.h"
+
 #include <algorithm>
 #include <system_error>
 
@@ -35,14 +37,17 @@ Result<fs::path> findProfile(const std::string& name, const fs::path& beside)
     if (fs::is_regular_file(name, error))
         return fs::path(name);
     const auto shipped = shippedProfiles(beside);
-    std::string message = "is neither a file nor a shipped profile";
+    std::vector<std::string> names;
+    std::string list;
     for (const ShippedProfile& profile : shipped)
     {
         if (profile.name == name)
             return profile.path;
-        message += (&profile == shipped.data() ? "; there are " : " ") + profile.name;
+        names.push_back(profile.name);
+        list += (list.empty() ? "; there are " : ", ") + profile.name;
     }
-    return Error{ErrorCode::io, "", message};
+    const std::string meant = meantText(name, names);
+    return Error{ErrorCode::io, "", "is neither a file nor a shipped profile" + (meant.empty() ? list : meant)};
 }
 
 } // namespace pacini

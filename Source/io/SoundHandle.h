@@ -10,9 +10,29 @@
 namespace pacini
 {
 
+/// While it lives, its thread is inside libsndfile, whose MP3 part prints on stderr whatever it finds; who owns stderr
+/// can ask, and leave that out.
+class SoundLibraryCall
+{
+public:
+    SoundLibraryCall() noexcept { ++depth; }
+    ~SoundLibraryCall() { --depth; }
+    SoundLibraryCall(const SoundLibraryCall&) = delete;
+    SoundLibraryCall& operator=(const SoundLibraryCall&) = delete;
+
+    [[nodiscard]] static bool isActive() noexcept { return depth > 0; }
+
+private:
+    static inline thread_local int depth = 0;
+};
+
 struct SoundCloser
 {
-    void operator()(SNDFILE* sound) const noexcept { sf_close(sound); }
+    void operator()(SNDFILE* sound) const noexcept
+    {
+        const SoundLibraryCall inside;
+        sf_close(sound);
+    }
 };
 
 /// An open libsndfile file, closed at the end of its life.

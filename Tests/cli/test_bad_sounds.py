@@ -2,6 +2,8 @@
 import array
 import json
 import math
+import random
+import re
 import shutil
 import struct
 import unittest
@@ -28,6 +30,41 @@ class BadSounds(CommandTest):
         self.refused("a.flac", b"fLaC", "")
         self.refused("a.wav", b"RIFF", "")
         self.refused("a.wav", wav([])[:30], "")
+
+    def test_headers_without_a_rate_or_channels_are_called_damaged(self):
+        data = bytes(2000)
+        for content in (wav_header(2000, rate=0) + data, wav_header(2000, channels=0) + data,
+                        b".snd" + struct.pack(">5I", 24, 2000, 3, 0, 1) + data,
+                        b".snd" + struct.pack(">5I", 24, 2000, 3, 8000, 0) + data):
+            self.put("a.wav", content)
+            text = self.fails(1, ["encode", "a.wav"], "pacini: a.wav: ", "get a whole copy").stderr.decode()
+            self.assertNotRegex(text, r"\b0 (Hz|channels)|internal error")
+
+    def test_nothing_but_our_own_messages_is_printed_of_damaged_mp3_files(self):
+        whole = (TEST_SOUNDS / "tone.mp3").read_bytes()
+        self.put("whole.mp3", whole)
+        if b"known format" in self.run_command("info", "whole.mp3").stderr:
+            self.skipTest("this libsndfile reads no MP3")
+        for seed in range(60):
+            source = random.Random(seed)
+            content = bytearray(whole)
+            for _ in range(source.choice((1, 3, 10, 60))):
+                content[source.randrange(len(content))] = source.randrange(256)
+            self.put(f"in/{seed}.mp3", bytes(content[source.choice((0, source.randrange(900))):]))
+        done = self.run_command("encode", "in", "-o", "out", "-j", "4")
+        lines = done.stderr.decode().splitlines()
+        self.assertGreater(len(lines), 3)
+        self.assertEqual([line for line in lines if not re.match(r"pacini: in/\d+\.mp3: ", line)], [])
+
+    def test_advice_names_options_that_the_command_has(self):
+        self.put("a.wav", wav(sine(100, 0.5))[:10000])
+        self.put("whole.wav", wav(sine(100, 0.5)))
+        self.put("nan.wav", float_wav([0.1, math.nan] * 4800))
+        self.fails(1, ["encode", "a.wav"], "get a whole copy, or take what is there with --allow-truncated")
+        self.fails(1, ["compare", "whole.wav", "a.wav"], "or take what is there with --allow-truncated")
+        self.fails(1, ["encode", "nan.wav"], "repair the file, or take such samples as 0 with --allow-nan")
+        for command in (["info", "a.wav"], ["info", "nan.wav"]):
+            self.assertNotIn(b"allow", self.run_command(*command).stderr)
 
     def test_files_that_are_cut_off(self):
         whole = wav(sine(100, 0.5))

@@ -12,7 +12,8 @@ from check_schema import Draft202012Validator, strict_json  # noqa: E402  finds 
 
 SCHEMA = strict_json((SOURCE / "Resources/schema/pacini.report.schema.json").read_bytes())
 COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "compare", "measure sweep",
-            "measure analyse", "measure fit", "measure verify", "measure simulate", "plot", "bench"]
+            "measure analyse", "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions",
+            "man"]
 HAPTIC = json.dumps({"version": {"major": 1, "minor": 0, "patch": 0}, "metadata": {}, "signals": {"continuous": {
     "envelopes": {"amplitude": [{"time": 0, "amplitude": 0}, {"time": 1, "amplitude": 1}]}}}})
 
@@ -79,7 +80,9 @@ class Json(CommandTest):
                  ["measure", "fit", "r.csv"],
                  ["measure", "verify", "after.wav", "--sweep", "flat.json", "--profile", "mine.json", "--tolerance",
                   "20"],
-                 ["plot", "clip.json"], ["bench", "decimate", "door.wav", "--repeat", "1"])
+                 ["encode", "door.wav", "--dry-run"], ["render", "clip.json", "--dry-run"],
+                 ["convert", "clip.json", "x.ahap", "--dry-run"], ["help"], ["help", "encode"],
+                 ["completions", "zsh"], ["man"], ["plot", "clip.json"], ["bench", "decimate", "door.wav", "--repeat", "1"])
         done = set()
         for arguments in cases:
             with self.subTest(" ".join(arguments)):
@@ -122,6 +125,7 @@ class Json(CommandTest):
             with self.subTest(command):
                 report = self.reported(2, *command.split(), "--no-such-option")
                 self.assertEqual(report["command"], command)
+                self.assertIn("--no-such-option is no option", report["failures"][0]["message"])
         for arguments, command in ((["encode"], "encode"), ([], ""), (["sing"], ""), (["measure"], "measure"),
                                    (["encode", "door.wav", "--bands", "99"], "encode"),
                                    (["play", "clip.json", "--like", "xbox"], "play"),

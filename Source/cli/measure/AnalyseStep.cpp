@@ -129,7 +129,7 @@ CLI::App* AnalyseStep::declare(CLI::App& app)
     options.declare(*command);
     command->add_option("-o,--output", output, "Profile (.json) or table (.csv) to write")->type_name("OUT");
     command->add_option("--profile", base, "Profile to take what was not measured from, such as its drive limits")
-        ->type_name("P");
+        ->type_name("PROFILE");
     command->add_option("--name", name, "Name of the profile to write")->type_name("NAME");
     command->add_option("--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)")
         ->type_name("PICTURE");

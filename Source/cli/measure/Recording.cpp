@@ -178,7 +178,7 @@ void RecordingOptions::declare(CLI::App& command)
         ->type_name("OCT");
     command.add_option("--points", points, "Points of the response, evenly in octaves")
         ->capture_default_str()
-        ->check(CLI::Range(8, 4096))
+        ->check(wholeNumberFrom(8, 4096))
         ->type_name("N");
 }
 

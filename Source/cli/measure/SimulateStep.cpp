@@ -42,14 +42,14 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->type_name("OUT.wav");
     command->add_option("--profile", profile, "Actuator, a profile with a body; its equaliser is not applied")
         ->capture_default_str()
-        ->type_name("P");
+        ->type_name("PROFILE");
     command->add_option("--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's")
-        ->check(CLI::Range(0u, simulatedWearers))
+        ->check(wholeNumberFrom(0u, simulatedWearers))
         ->type_name("N");
     command
         ->add_option("--wearers", wearers,
                      "Record wearers 1 to N into files of their own: OUT-01.wav, OUT-02.wav and so on")
-        ->check(CLI::Range(1u, simulatedWearers))
+        ->check(wholeNumberFrom(1u, simulatedWearers))
         ->type_name("N");
     command->add_option("--contact", contact, "Level of a loose or a tight fit, dB")
         ->check(numberFrom(-60.0, 20.0))
@@ -68,7 +68,7 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->type_name("D");
     command->add_option("--bits", bits, "Resolution of the converter")
         ->capture_default_str()
-        ->check(CLI::Range(4, 24))
+        ->check(wholeNumberFrom(4, 24))
         ->type_name("N");
     command->add_option("--distortion", distortion, "Third-order distortion of the actuator: part of the drive's cube")
         ->check(numberFrom(-1.0, 1.0))
@@ -78,6 +78,8 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->check(countingNumber())
         ->type_name("N");
     overwriting.declare(*command);
+    command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
+                    "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
     return command;
 }
 

@@ -38,7 +38,10 @@ CLI::App* SweepStep::declare(CLI::App& app)
     command->add_option("--pause", pause, "Silence between sweeps, s; longer than the actuator rings")
         ->capture_default_str()
         ->type_name("S");
-    command->add_option("--repeats", repeats, "How often each level is played")->capture_default_str()->type_name("N");
+    command->add_option("--repeats", repeats, "How often each level is played")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(1, 100))
+        ->type_name("N");
     command
         ->add_option("--levels", levels,
                      "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show from where on the "
@@ -46,10 +49,16 @@ CLI::App* SweepStep::declare(CLI::App& app)
         ->delimiter(',')
         ->capture_default_str()
         ->type_name("DB,...");
-    command->add_option("--rate", rate, "Sample rate, Hz")->capture_default_str()->type_name("HZ");
+    command->add_option("--rate", rate, "Sample rate, Hz")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(2000, 384000))
+        ->type_name("HZ");
     command->add_option("--profile", profile, "Play through the equaliser of this profile, to verify it")
-        ->type_name("P");
+        ->type_name("PROFILE");
     overwriting.declare(*command);
+    command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
+                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows from where on it distorts\n"
+                    "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
     return command;
 }
 

@@ -1,0 +1,59 @@
+#include "cli/HelpCommand.h"
+
+#include "cli/HelpText.h"
+#include "cli/Terminal.h"
+#include "io/NearestName.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// What is said of a command that is none.
+Error unknownCommand(const CommandText& program, const std::vector<std::string>& topic)
+{
+    const CommandText* parent = commandNamed(program, topic.front());
+    const bool isStep = parent != nullptr && topic.size() > 1;
+    std::vector<std::string> names;
+    for (const CommandText& command : (isStep ? *parent : program).commands)
+        names.push_back(command.name.substr(command.name.rfind(' ') + 1));
+    const std::string& word = isStep ? topic[1] : topic.front();
+    if (names.empty())
+        return {ErrorCode::invalidArgument, "help", fmt::format("'{}' has no steps", topic.front())};
+    const std::string meant = meantText(word, names);
+    return {ErrorCode::invalidArgument, "help",
+            fmt::format("'{}' is no {}{}", word, isStep ? "step" : "command",
+                        meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant)};
+}
+} // namespace
+
+CLI::App* HelpCommand::declare(CLI::App& app)
+{
+    program = &app;
+    auto* command = app.add_subcommand("help", "Explain a command");
+    command->add_option("command", topic, "The command, and a step of it if it has some [all in short]")
+        ->type_name("COMMAND");
+    command->footer("Examples:\n  pacini help encode\n  pacini help measure fit");
+    return command;
+}
+
+Exit HelpCommand::run(Console& console)
+{
+    const CommandText tree = commandTree(*program);
+    const CommandText* command = commandNamed(tree, fmt::format("{}", fmt::join(topic, " ")));
+    if (command == nullptr)
+    {
+        console.error("", unknownCommand(tree, topic));
+        return Exit::usage;
+    }
+    const std::string text = helpText(*command, terminal::textWidth());
+    console.addToReport({{"text", text}});
+    console.print(text);
+    return Exit::ok;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,89 @@
+#include "cli/HelpText.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace pacini::cli
+{
+
+namespace
+{
+constexpr std::size_t column = 28; ///< where descriptions start
+
+/// A name with its description beside it, wrapped; below it where the name is too long.
+std::string entry(const std::string& name, const std::string& description, std::size_t width)
+{
+    std::string text = "  " + name;
+    std::size_t used = text.size();
+    if (used + 2 > column)
+    {
+        text += "\n";
+        used = 0;
+    }
+    text += std::string(column - used, ' ');
+    used = column;
+    bool first = true;
+    for (std::size_t start = 0; start < description.size();)
+    {
+        const std::size_t end = std::min(description.find(' ', start), description.size());
+        const std::string word = description.substr(start, end - start);
+        if (!first && used + 1 + word.size() > width)
+        {
+            text += "\n" + std::string(column, ' ');
+            used = column;
+            first = true;
+        }
+        text += (first ? "" : " ") + word;
+        used += word.size() + (first ? 0 : 1);
+        first = false;
+        start = end + 1;
+    }
+    return text + "\n";
+}
+
+std::string nameOf(const OptionText& option)
+{
+    std::string text;
+    for (const std::string& name : option.names)
+        text += (text.empty() ? (name.starts_with("--") ? "    " : "") : ", ") + name;
+    if (!option.value.empty())
+        text += (text.empty() ? "" : " ") + option.value;
+    return text;
+}
+
+std::string commandList(const CommandText& command, std::size_t width)
+{
+    std::string text;
+    for (const CommandText& step : command.commands)
+        text += entry(step.name.substr(step.name.rfind(' ') + 1), step.summary, width);
+    return text;
+}
+} // namespace
+
+std::string helpText(const CommandText& command, std::size_t width)
+{
+    std::string text = fmt::format("{}\n\nUsage: {}\n", command.summary, synopsis(command));
+    if (!command.commands.empty())
+        text += fmt::format("\n{}:\n{}", command.name.empty() ? "Commands" : "Steps", commandList(command, width));
+    if (!command.arguments.empty())
+        text += "\nArguments:\n";
+    for (const OptionText& argument : command.arguments)
+        text += entry(nameOf(argument), wholeDescription(argument), width);
+    text += "\nOptions (what is taken without them stands in brackets):\n";
+    for (const OptionText& option : command.options)
+        text += entry(nameOf(option), wholeDescription(option), width);
+    if (!command.notes.empty())
+        text += "\n" + command.notes + "\n";
+    text.pop_back();
+    return text;
+}
+
+std::string shortHelp(const CommandText& program)
+{
+    return fmt::format("{}\n\nUsage: {}\n\n{}\n'pacini help COMMAND' explains a command, 'pacini help' shows examples.",
+                       program.summary, synopsis(program), commandList(program, 100));
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,67 @@
+#pragma once
+
+// Which known name was probably meant by one that is not known.
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// How many characters must be put in, left out, replaced or swapped with their neighbour to make `b` of `a`, upper and
+/// lower case alike: the optimal string alignment distance (Damerau, Communications of the ACM 7(3), 1964).
+[[nodiscard]] inline std::size_t typingDistance(std::string_view a, std::string_view b)
+{
+    const auto at = [](std::string_view text, std::size_t i)
+    {
+        return std::tolower(static_cast<unsigned char>(text[i]));
+    };
+    std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            const bool same = at(a, i - 1) == at(b, j - 1);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0u : 1u)});
+            if (i > 1 && j > 1 && at(a, i - 1) == at(b, j - 2) && at(a, i - 2) == at(b, j - 1))
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        std::swap(before, last);
+        std::swap(last, row);
+    }
+    return last[b.size()];
+}
+
+/// The one of `names` that is nearest to `name`, the first of equals; nothing when all are too far for a slip of the
+/// fingers: a third of the letters, and at least one.
+[[nodiscard]] inline std::optional<std::string> nearestName(std::string_view name,
+                                                            const std::vector<std::string>& names)
+{
+    std::optional<std::string> nearest;
+    std::size_t smallest = std::max<std::size_t>(1, name.size() / 3) + 1;
+    for (const std::string& known : names)
+        if (const std::size_t distance = typingDistance(name, known); distance < smallest)
+        {
+            smallest = distance;
+            nearest = known;
+        }
+    return nearest;
+}
+
+/// "; did you mean NAME?" when one of `names` is near, else nothing.
+[[nodiscard]] inline std::string meantText(std::string_view name, const std::vector<std::string>& names)
+{
+    const auto nearest = nearestName(name, names);
+    return nearest ? "; did you mean " + *nearest + "?" : std::string();
+}
+
+} // namespace pacini

@@ -1,0 +1,42 @@
+"""End to end: what a score is to be read against."""
+import unittest
+
+from command import CommandTest, sine, wav
+
+
+def clicks(frequency, level=0.8):
+    """A short tone every 0.2 s for 2 s, at 8 kHz."""
+    tone = [x * (1 - i / 160) for i, x in enumerate(sine(frequency, 0.02, 8000, level))]
+    return (tone + [0.0] * 1440) * 10
+
+
+class Ceiling(CommandTest):
+    def test_the_score_of_the_sound_itself_stands_beside_every_score(self):
+        for name, sound in (("low", clicks(80)), ("high", clicks(1200)), ("tone", sine(100, 2, 8000))):
+            self.put(f"{name}.wav", wav(sound, 8000))
+        for name in ("low", "high", "tone"):
+            itself = self.report("compare", f"{name}.wav", f"{name}.wav")["files"][0]
+            self.assertAlmostEqual(itself["ceiling"], itself["hts"], places=9)
+            other = self.report("compare", f"{name}.wav", "tone.wav")["files"][0]
+            self.assertAlmostEqual(other["ceiling"], itself["hts"], places=9)
+        self.assertGreater(self.report("compare", "tone.wav", "tone.wav")["files"][0]["hts"], 99)
+
+    def test_a_sound_that_is_little_felt_does_not_reach_100_and_a_translation_passes_it(self):
+        self.put("high.wav", wav(clicks(1200), 8000))
+        self.put("moved.wav", wav(clicks(150), 8000))
+        report = self.report("compare", "high.wav", "moved.wav")["files"][0]
+        self.assertLess(report["ceiling"], 97)
+        self.assertGreater(report["hts"], report["ceiling"])
+
+    def test_tables_and_means_show_it(self):
+        self.put("a.wav", wav(clicks(80), 8000))
+        text = self.succeeds("compare", "a.wav", "a.wav")
+        heading = text.splitlines()[0].split()
+        self.assertEqual(heading[:5], ["file", "HTS", "of", "REF", "HTS-F"])
+        report = self.report("compare", "a.wav", "a.wav")
+        self.assertEqual(report["mean"]["ceiling"], report["files"][0]["ceiling"])
+        self.assertIn("of REF", self.succeeds("compare", "--help"))
+
+
+if __name__ == "__main__":
+    unittest.main()
