@@ -65,7 +65,6 @@ struct RenderResult
     std::uint64_t clippedSamples = 0;
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
-    bool upToDate = false; ///< nothing was done
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;
