@@ -211,6 +211,9 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.predictedError = plan.predictedError;
     result.leftOut = std::move(plan.leftOut);
     result.adaptations = std::move(plan.adaptations);
+    if (profile != nullptr)
+        result.protection =
+            settings.protect ? protectionText(*profile, plan.motor) : "is off: no limit of the profile is kept";
     std::vector<std::string> names;
     if (settings.describe)
         names = playNames(scene);

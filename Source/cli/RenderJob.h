@@ -72,6 +72,7 @@ struct RenderResult
     double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measured; ///< dB, the error that leaving out really cost
     std::vector<Adaptation> adaptations;
+    std::string protection;        ///< what becomes of the profile's limits; empty: no profile
     std::vector<LeftOut> leftOut;  ///< in order of what it costs
     std::vector<PlayReport> plays; ///< when they were to be described; in order of start
 };
