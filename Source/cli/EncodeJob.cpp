@@ -223,7 +223,7 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
 
 Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work)
 {
-    work.run([&] { encoder.start(reader.sampleRate(), reader.channels()); });
+    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0)); });
     const auto read =
         forEachPiece(reader, progress, [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
     if (!read)
