@@ -71,6 +71,9 @@ struct OutputPlace
 /// The same for all ways of naming one file, whether it exists or not.
 [[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
 
+/// Where a file really is, with its own links resolved too, as far as they can be.
+[[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
+
 /// The extension in lower case.
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
 

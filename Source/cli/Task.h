@@ -102,7 +102,7 @@ template <typename ResultType>
     std::error_code ignored;
     std::map<std::filesystem::path, std::filesystem::path> inputs; // by where they really are
     for (const InputFile& file : found.files)
-        inputs.emplace(std::filesystem::weakly_canonical(file.path, ignored), file.path);
+        inputs.emplace(realPlace(file.path), file.path);
     std::map<std::filesystem::path, std::filesystem::path> taken;
     for (const InputFile& file : found.files)
     {
@@ -124,8 +124,7 @@ template <typename ResultType>
                  " is; rename one of them");
         else if (std::filesystem::equivalent(place->path, file.path, ignored))
             fail("would be overwritten by its own result; name another output with -o");
-        else if (const auto input = inputs.find(std::filesystem::weakly_canonical(place->path, ignored));
-                 input != inputs.end())
+        else if (const auto input = inputs.find(realPlace(place->path)); input != inputs.end())
             fail("would overwrite " + input->second.string() + ", which is an input too; name another output with -o");
         else
         {
