@@ -44,13 +44,8 @@ public:
 
     static constexpr double exactFrom = 5.0; ///< s
 
-<<<<<<< HEAD
     /// `sampleRate` 2000 to 768000 Hz; at any other service() says so and nothing plays.
-    explicit PreviewEngine(double sampleRate) : fs(sampleRate) {}
-=======
-    /// `sampleRate` 2000 to 192000 Hz.
     explicit PreviewEngine(double sampleRate) : fs(sampleRate) { bounds.prepare({fs, blockFrames}); }
->>>>>>> protect
 
     /// Another clip, another loop, other bands soloed: heard once service() has run. [message]
     void set(Playback playback);
