@@ -193,7 +193,12 @@ Exit ConvertCommand::convertProfile(Console& console)
     const auto read = [&]() -> Result<Profile>
     {
         if (!hasAcfExtension(input))
-            return readProfile(input);
+        {
+            ReadWarnings doubts(console.isStrict());
+            auto own = readProfile(input, &doubts);
+            warnings = doubts.texts();
+            return own;
+        }
         auto imported = readAcfFile(input);
         if (!imported)
             return imported.error();
@@ -279,6 +284,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
     settings.quantise = quantise;
     settings.force = force;
     settings.dryRun = dryRun;
+    settings.strict = console.isStrict();
     settings.record =
         fmt::format("Pacini {}: {}, quantise {}, {}", PACINI_VERSION, target->name, quantise, options.record());
     if (params->profile)

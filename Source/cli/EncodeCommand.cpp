@@ -347,6 +347,8 @@ Exit EncodeCommand::run(Console& console)
                                          counted(task.result->replacedSamples,
                                                  "sample was no number or absurdly large and was taken as 0",
                                                  "samples were no numbers or absurdly large and were taken as 0"));
+                     if (task.result && !task.result->stray.empty())
+                         console.warning(task.input.string(), strayWarning(task.result->stray));
                  };
              });
 

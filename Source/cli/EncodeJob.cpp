@@ -163,6 +163,7 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     const auto written = writeExport(output, **exported, existing);
     if (!written)
         return atOutput(output, written.error());
+    result.stray = strayCompanion(output, settings.target, **exported);
     std::size_t bytes = 0;
     for (const WrittenFile& file : *written)
         bytes += file.bytes;
