@@ -10,7 +10,8 @@
 namespace pacini
 {
 
-/// Warnings are few and on one line each; a strict reader refuses just the texts that a lenient one warns of or refuses.
+/// Warnings are few and on one line each; a strict reader refuses just the texts that a lenient one warns of or
+/// refuses.
 inline void checkWarnings(const ReadWarnings& warnings, bool lenientReads, bool strictReads)
 {
     const auto texts = warnings.texts();
