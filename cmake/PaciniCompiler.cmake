@@ -17,8 +17,32 @@ endif()
 
 find_program(PACINI_CCACHE ccache)
 if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${PACINI_CCACHE}")
+    # Without the sloppiness it would not store what includes a precompiled header; by the base a second checkout finds
+    # what the first one compiled.
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+        "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${PACINI_CCACHE}")
 endif()
+
+# Which sources are compiled as one where CMAKE_UNITY_BUILD is on: at most `most` of one folder, in alphabetical order. Files
+# of different folders, and of different foreign formats, share names of helpers.
+function(pacini_compile_as_one target most)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source IN LISTS sources)
+        if(NOT source MATCHES "\\.cpp$")
+            continue()
+        endif()
+        cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE path)
+        cmake_path(GET path PARENT_PATH group)
+        if(path MATCHES "/formats/(Ahap|Android|Csv|Haps|Haptic|Hjif|OpenXr|Pcm|Tact)")
+            string(APPEND group "_${CMAKE_MATCH_1}")
+        endif()
+        string(MAKE_C_IDENTIFIER "${group}" group)
+        math(EXPR batch "0${count_${group}} / ${most}")
+        math(EXPR count_${group} "0${count_${group}} + 1")
+        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}_${batch}")
+    endforeach()
+endfunction()
 
 # Linked PRIVATE by every own target: warnings never reach people who include our headers. Files that are compiled as one
 # see each other's names, which -Wshadow would mistake for their own.

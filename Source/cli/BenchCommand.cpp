@@ -84,6 +84,7 @@ CLI::App* BenchCommand::declare(CLI::App& app)
         ->capture_default_str()
         ->check(oneOf({"svg", "png"}));
     command->add_option("--markdown", markdown, "Also write all tables into one Markdown page")->type_name("FILE");
+    overwriting.declare(*command);
     command->footer("Errors and times come from the same runs, one at a time on one processor. Times differ between\n"
                     "computers; compare ratios.\n"
                     "Examples:\n  pacini bench simplify                         the demo sounds, into pacini-bench/\n"
@@ -144,9 +145,10 @@ Exit BenchCommand::run(Console& console)
                                   {"build", buildText()},
                                   {"repeat", settings.repeats},
                                   {"benches", nlohmann::ordered_json::array()}};
-    std::string page = fmt::format("# Measurements\n\nMade by\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
-                                   "with {}, {}. Times are of one processor and differ between computers; ratios "
-                                   "hardly do.\n",
+    std::string page = fmt::format("# Measurements\n\nMade by Pacini " PACINI_VERSION
+                                   " with\n\n    pacini bench {}{} --repeat {}{} --markdown {}\n\n"
+                                   "Compiled by {}, {}. Times are of one processor and differ between computers; "
+                                   "ratios hardly do.\n",
                                    what, demo ? "" : fmt::format(" {}", fmt::join(inputs, " ")), settings.repeats,
                                    settings.sweep ? " --sweep" : "", fs::path(markdown).filename().string(),
                                    compilerText(), buildText());
@@ -157,10 +159,15 @@ Exit BenchCommand::run(Console& console)
         console.print(fmt::format("{}, {}\n{}", report.bench.title, overText(report), report.means.aligned()));
         object["benches"].push_back(toJson(report));
         page += "\n" + toMarkdown(report);
-        auto files = writeReport(report, output, format);
+        if (overwriting.keepsAll() && isOccupied(fs::path(output) / (report.bench.name + ".json")))
+        {
+            console.note(fmt::format("{}.json in {} exists and was left", report.bench.name, printable(output)));
+            continue;
+        }
+        auto files = writeReport(report, output, format, overwriting.of(false));
         if (!files)
         {
-            console.error(output, files.error());
+            console.error(files.error().where.empty() ? output : "", files.error());
             return Exit::failed;
         }
         std::move(files->begin(), files->end(), std::back_inserter(written));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/Overwrite.h"
 #include "cli/bench/Bench.h"
 
 #include <optional>
@@ -24,6 +25,7 @@ private:
     std::string markdown;
     std::string format = "svg";
     BenchSettings settings;
+    OverwriteOptions overwriting;
 };
 
 } // namespace pacini::cli

@@ -153,7 +153,7 @@ CLI::App* CompareCommand::declare(CLI::App& app)
         "  band SNR        of the envelopes of 12 bands; 60 is equal\n"
         "  centroid error  median error of the spectral centroid\n"
         "  F1              events within 25 ms of the onsets: 2 hits / (2 hits + spurious + missed)\n"
-        "Sample rates from 2 to 384 kHz; channels are mixed down. Signals are not aligned in time.\n\n"
+        "Sample rates from 2 to 768 kHz; channels are mixed down. Signals are not aligned in time.\n\n"
         "Examples:\n"
         "  pacini compare door.wav door_haptic.wav\n"
         "  pacini compare sounds/ rendered/ --json -j 4\n"

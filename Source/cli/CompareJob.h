@@ -46,7 +46,7 @@ class CompareJob
 public:
     explicit CompareJob(const CompareSettings& settings);
 
-    /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 384 kHz.
+    /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 768 kHz.
     /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
     /// hours, and of readClip.
     [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,

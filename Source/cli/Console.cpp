@@ -55,8 +55,13 @@ void Console::put(std::string_view line)
 
 void Console::note(std::string_view line)
 {
-    if (!quiet)
-        print(line);
+    if (quiet)
+        return;
+    if (!stdoutFree)
+        return print(line);
+    const std::lock_guard lock(mutex);
+    clearLine();
+    write(stderr, fmt::format("{}\n", line));
 }
 
 void Console::wrote(const std::filesystem::path& path, std::string_view details)

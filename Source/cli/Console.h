@@ -45,6 +45,9 @@ public:
     /// Prints the JSON object, if one is wanted; nothing may follow.
     void endReport(bool ok);
 
+    /// Standard output takes a result of another kind: notes go to stderr from now on.
+    void keepStdoutFree() { stdoutFree = true; }
+
     /// A result for people: a line on stdout.
     void print(std::string_view line);
 
@@ -78,6 +81,7 @@ private:
     std::mutex mutex;
     std::optional<JsonReport> report;
     bool quiet = false;
+    bool stdoutFree = false;
     bool lineShown = false;
     double nextProgress = -1.0; ///< s of the steady clock; negative before the first call
     int printErrno = 0;

@@ -5,8 +5,8 @@
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
 #include "io/AnyClip.h"
-#include "io/AtomicFile.h"
 #include "io/ProfileFile.h"
+#include "io/ProfileJson.h"
 #include "io/Sha256.h"
 
 #include <fmt/format.h>
@@ -23,8 +23,6 @@ namespace pacini::cli
 namespace
 {
 using ConvertTask = Task<ConvertResult>;
-
-constexpr const char* manifestName = "pacini.manifest.json";
 
 nlohmann::ordered_json toJson(const ConvertTask& task)
 {
@@ -90,24 +88,20 @@ std::string summary(const std::vector<ConvertTask>& tasks)
     std::string text = fmt::format("{} converted", done);
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
+    if (const auto skipped = countSkipped(tasks); skipped > 0)
+        text += fmt::format(", {} exist and were left", skipped);
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     return text + fmt::format(": {}", bytesText(bytes));
 }
 
-ConvertManifest manifestOf(const std::vector<ConvertTask>& tasks, const std::vector<std::string>& keys)
+ManifestEntry entryOf(const ConvertTask& task)
 {
-    ConvertManifest manifest;
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-    {
-        ManifestEntry entry;
-        if (tasks[i].result)
-            entry = tasks[i].result->entry;
-        else
-            entry.error = tasks[i].error->text();
-        manifest.insert_or_assign(keys[i], std::move(entry));
-    }
-    return manifest;
+    if (task.result)
+        return task.result->entry;
+    ManifestEntry entry;
+    entry.error = task.error->text();
+    return entry;
 }
 } // namespace
 
@@ -115,10 +109,15 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
         "convert", "Convert clips between formats, Pacini's own and others', or a profile between JSON and ACF");
-    command->add_option("inputs", inputs, "Clips or folders of them, or a profile, then what to write unless -o does")
+    command
+        ->add_option("inputs", inputs,
+                     "Clips or folders of them, - for standard input, or a profile; then what to write unless -o says "
+                     "it; a file "
+                     "there is replaced only if it was the same anyway")
         ->required()
         ->type_name("IN... OUT");
-    command->add_option("-o,--output", output, "File, or folder for several inputs")->type_name("OUT|DIR");
+    command->add_option("-o,--output", output, "File, folder for several inputs, or - for standard output")
+        ->type_name("OUT|DIR");
     std::vector<std::string> names;
     for (const ClipTarget& target : clipTargets())
         names.emplace_back(target.name);
@@ -136,6 +135,7 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
         ->type_name("FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
+    overwriting.declare(*command);
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -156,6 +156,7 @@ Exit ConvertCommand::run(Console& console)
                                "a file to work on is missing; try 'pacini convert --help'"});
             return Exit::usage;
         }
+        byName = false;
         output = std::move(inputs.back());
         inputs.pop_back();
     }
@@ -207,21 +208,37 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     if (overwritesInput(console))
         return Exit::failed;
-    if (dryRun)
+    ConvertTask task;
+    task.input = input;
+    task.output = output;
+    task.skipped = overwriting.keepsAll() && isOccupied(output);
+    if (task.skipped && !dryRun)
     {
-        std::vector<ConvertTask> tasks{{input, output, ConvertResult(), {}}};
-        reportPlan(console, tasks);
+        console.addToReport(jsonReport(std::vector<ConvertTask>{task}, [](const ConvertTask& t) { return toJson(t); }));
+        console.note(fmt::format("{} exists and was left", printable(output)));
         return Exit::ok;
     }
-    const auto write = [&]
+    const auto textOf = [&]() -> std::string
     {
         if (!toAcf)
-            return writeProfile(output, *profile);
+            return profileJson(*profile);
         const auto exported = acfOfProfile(*profile);
         warnings.insert(warnings.end(), exported.warnings.begin(), exported.warnings.end());
-        return writeAcfFile(output, exported.acf);
+        return acfText(exported.acf);
     };
-    const auto written = write();
+    const std::string text = textOf();
+    const auto existing = task.skipped ? Result<Existing>(Existing::replace) : mayReplace(output, text, replaceable());
+    if (!existing)
+    {
+        console.error("", existing.error());
+        return Exit::failed;
+    }
+    if (dryRun)
+    {
+        reportPlan(console, std::vector<ConvertTask>{task});
+        return Exit::ok;
+    }
+    const auto written = writeFileAtomically(output, text, *existing);
     if (!written)
     {
         console.error(output, written.error());
@@ -280,7 +297,7 @@ InputFiles ConvertCommand::findClips() const
                   [&](const InputFile& file)
                   {
                       const bool named = std::find(inputs.begin(), inputs.end(), file.path.string()) != inputs.end();
-                      return !named && (file.path.filename() == manifestName || !companionOf(file.path).empty());
+                      return !named && !companionOf(file.path).empty();
                   });
     return found;
 }
@@ -290,47 +307,81 @@ Exit ConvertCommand::convertClips(Console& console)
     const InputFiles found = findClips();
     std::error_code ignored;
     const bool several = found.several || output.ends_with('/') || std::filesystem::is_directory(output, ignored);
+    if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
+    {
+        console.error("", fits.error());
+        return Exit::usage;
+    }
     auto settings = settingsFor(console, several);
     if (!settings)
         return Exit::usage;
     if (!several && overwritesInput(console))
         return Exit::failed;
 
-    auto tasks = makeTasks<ConvertResult>(found, several ? output + "/" : output,
-                                          std::string(settings->target.extension), !dryRun);
+    if (isStandardOutput(output))
+        console.keepStdoutFree();
+
+    const std::string extension(settings->target.extension);
+    auto tasks =
+        makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting, !dryRun);
+    for (ConvertTask& task : tasks)
+        if (task.replaceable == Replaceable::named)
+            task.replaceable = replaceable();
     std::vector<std::string> keys(tasks.size());
     for (std::size_t i = 0; i < tasks.size(); ++i)
         keys[i] = i < found.failures.size() ? found.failures[i].path.generic_string()
                                             : found.files[i - found.failures.size()].relative.generic_string();
-    const std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
-                                         : several         ? std::filesystem::path(output) / manifestName
-                                                           : std::filesystem::path();
-    const ConvertManifest before = record.empty() ? ConvertManifest() : readManifest(record);
+    std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
+                                   : several         ? std::filesystem::path(output) / manifestName
+                                                     : std::filesystem::path();
+    if (!std::filesystem::is_directory(settings->folder, ignored) && several)
+        record.clear(); // nothing could be written
+    const auto fail = [&](const Error& error)
+    {
+        console.error(record.string(), error);
+        return Exit::failed;
+    };
+    const auto before = readManifest(record);
+    if (!before && !overwriting.replacesAll())
+        return fail(
+            {ErrorCode::invalidData, "", "exists and is no record of conversions; name another with --manifest"});
+    GrowingManifest growing;
+    if (const auto started =
+            growing.start(dryRun ? std::filesystem::path() : record, before.value_or(ConvertManifest()));
+        !started)
+        return fail(started.error());
+    const auto entryBefore = [&](const std::string& key) -> const ManifestEntry*
+    {
+        const auto entry = before ? before->find(key) : ConvertManifest::const_iterator();
+        return before && entry != before->end() ? &entry->second : nullptr;
+    };
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
     };
+    BatchEnd end;
     runTasks(console, tasks.size(), jobs, nameOf,
              [&]
              {
                  return [&](std::size_t i, const std::function<void(double)>&)
                  {
                      ConvertTask& task = tasks[i];
-                     const auto entry = before.find(keys[i]);
-                     attempt(task,
-                             [&] {
-                                 return convertClip(task.input, task.output, *settings,
-                                                    entry == before.end() ? nullptr : &entry->second);
-                             });
-                     if (task.error)
-                     {
+                     const ManifestEntry* earlier = entryBefore(keys[i]);
+                     attempt(task, end,
+                             [&]
+                             { return convertClip(task.input, task.output, task.replaceable, *settings, earlier); });
+                     if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
-                         return;
+                     else if (task.result)
+                     {
+                         if (!task.result->upToDate && !dryRun)
+                             sayWritten(console, task, settings->folder);
+                         for (const std::string& warning : task.result->entry.warnings)
+                             console.warning(task.input.string(), warning);
                      }
-                     if (!task.result->upToDate && !dryRun)
-                         sayWritten(console, task, settings->folder);
-                     for (const std::string& warning : task.result->entry.warnings)
-                         console.warning(task.input.string(), warning);
+                     // What was not replaced is still what it was made from before.
+                     if (!dryRun && (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty()))))
+                         growing.add(keys[i], entryOf(task));
                  };
              });
     bool failed = anyFailed(tasks);
@@ -339,17 +390,19 @@ Exit ConvertCommand::convertClips(Console& console)
         reportPlan(console, tasks);
         return failed ? Exit::failed : Exit::ok;
     }
-    if (!record.empty() && std::filesystem::is_directory(settings->folder, ignored))
-        if (const auto written = writeFileAtomically(record, manifestText(manifestOf(tasks, keys))); !written)
-        {
-            console.error(record.string(), written.error());
-            failed = true;
-        }
+    if (const auto finished = growing.finish(); !finished)
+    {
+        if (end.isNews(finished.error()))
+            console.error(record.string(), finished.error());
+        failed = true;
+    }
 
     console.addToReport(jsonReport(
         tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
     if (several)
         console.note(summary(tasks));
+    else if (tasks.front().skipped)
+        console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
     return failed ? Exit::failed : Exit::ok;
 }
 

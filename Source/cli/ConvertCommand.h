@@ -4,6 +4,7 @@
 #include "cli/ConvertJob.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
+#include "cli/Overwrite.h"
 
 #include <optional>
 #include <string>
@@ -23,13 +24,16 @@ private:
     Exit convertProfile(Console& console);
     Exit convertClips(Console& console);
 
+    /// What may be replaced at a file that the user named: the last of the files may be there by mistake.
+    [[nodiscard]] Replaceable replaceable() const noexcept { return overwriting.of(byName); }
+
     /// Whether output would overwrite the only input, which is said.
     bool overwritesInput(Console& console) const;
 
     /// What to convert to; nothing when the options do not say, and the console has said why.
     [[nodiscard]] std::optional<ConvertSettings> settingsFor(Console& console, bool several) const;
 
-    /// The clips to convert, without results of conversions before and second files of a clip.
+    /// The clips to convert, without second files of a clip.
     [[nodiscard]] InputFiles findClips() const;
 
     std::vector<std::string> inputs;
@@ -41,6 +45,8 @@ private:
     unsigned jobs = 0;
     bool force = false;
     bool dryRun = false;
+    OverwriteOptions overwriting;
+    bool byName = true; ///< the output was named with -o
 };
 
 } // namespace pacini::cli

@@ -8,6 +8,7 @@
 #include <pacini/clip/PackedClip.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace pacini::cli
@@ -15,20 +16,45 @@ namespace pacini::cli
 
 namespace
 {
+bool stillThere(const ManifestOutput& output, const std::filesystem::path& folder)
+{
+    const auto bytes = readWholeFile(folder / output.file, output.bytes);
+    return bytes && bytes->size() == output.bytes && sha256(*bytes) == output.sha256;
+}
+
 bool stillThere(const ManifestEntry& entry, const std::filesystem::path& folder)
 {
     return !entry.outputs.empty() &&
            std::all_of(entry.outputs.begin(), entry.outputs.end(),
-                       [&](const ManifestOutput& output)
-                       {
-                           const auto bytes = readWholeFile(folder / output.file, output.bytes);
-                           return bytes && bytes->size() == output.bytes && sha256(*bytes) == output.sha256;
-                       });
+                       [&](const ManifestOutput& output) { return stillThere(output, folder); });
+}
+
+/// The name of an output in the manifest.
+std::string nameIn(const std::filesystem::path& folder, const std::filesystem::path& output)
+{
+    return output.lexically_proximate(folder).generic_string();
+}
+
+/// As mayReplace(), but what the manifest says was written is replaced too.
+Result<Existing> mayConvertTo(const std::filesystem::path& main, const ExportedClip& exported, Replaceable replaceable,
+                              const std::filesystem::path& folder, const ManifestEntry* before)
+{
+    const auto isOwn = [&](const ExportedFile& file)
+    {
+        const auto name = nameIn(folder, file.suffix.empty() ? main : exportPath(main, file.suffix));
+        return before != nullptr && std::any_of(before->outputs.begin(), before->outputs.end(),
+                                                [&](const ManifestOutput& output)
+                                                { return output.file == name && stillThere(output, folder); });
+    };
+    ExportedClip others;
+    std::copy_if(exported.files.begin(), exported.files.end(), std::back_inserter(others.files),
+                 [&](const ExportedFile& file) { return !isOwn(file); });
+    return mayReplace(main, others, replaceable);
 }
 } // namespace
 
 Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
-                                  const ConvertSettings& settings, const ManifestEntry* before)
+                                  Replaceable replaceable, const ConvertSettings& settings, const ManifestEntry* before)
 {
     auto read = readAnyClip(input);
     if (!read)
@@ -45,20 +71,23 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
         result.upToDate = true;
         return result;
     }
-    if (settings.dryRun)
-        return result;
     if (settings.quantise > 0)
         setQuantise(read->clip, settings.quantise);
     auto exported = exportClip(read->clip, settings.target, settings.params);
     if (!exported)
         return exported.error();
-    const auto written = writeExport(output, *exported);
+    const auto existing = mayConvertTo(output, *exported, replaceable, settings.folder, before);
+    if (!existing)
+        return existing.error();
+    if (settings.dryRun)
+        return result;
+    const auto written = writeExport(output, *exported, *existing);
     if (!written)
         return atOutput(output, written.error());
     for (std::size_t i = 0; i < written->size(); ++i)
     {
-        const auto name = (*written)[i].path.lexically_proximate(settings.folder).generic_string();
-        result.entry.outputs.push_back({name, (*written)[i].bytes, sha256(exported->files[i].bytes)});
+        result.entry.outputs.push_back(
+            {nameIn(settings.folder, (*written)[i].path), (*written)[i].bytes, sha256(exported->files[i].bytes)});
     }
     result.entry.duration = read->clip.duration;
     result.entry.warnings = std::move(read->warnings);

@@ -3,6 +3,7 @@
 // Converts one clip.
 
 #include "cli/ConvertManifest.h"
+#include "cli/Overwrite.h"
 #include "io/ClipExport.h"
 
 #include <filesystem>
@@ -32,8 +33,10 @@ struct ConvertResult
 
 /// Converts `input` to `output` and whatever further files the format needs. Does nothing when `before` says that the
 /// same input with the same settings became these outputs, and they are still what was written then. Errors: those of
-/// readAnyClip, exportClip and writeExport.
+/// readAnyClip, exportClip and writeExport; io when what is at an output is not to be replaced: neither the same nor
+/// what `before` says was written.
 [[nodiscard]] Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
-                                                const ConvertSettings& settings, const ManifestEntry* before);
+                                                Replaceable replaceable, const ConvertSettings& settings,
+                                                const ManifestEntry* before);
 
 } // namespace pacini::cli

@@ -1,11 +1,16 @@
 #include "cli/ConvertManifest.h"
 
+#include "io/AtomicFile.h"
 #include "io/InputFile.h"
 #include "io/JsonTree.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <sstream>
+#include <system_error>
 
 namespace pacini::cli
 {
@@ -43,49 +48,118 @@ ManifestEntry entryOf(const nlohmann::json& json)
                                 loss.at("message").get<std::string>()});
     return entry;
 }
+
+std::string firstLine()
+{
+    return fmt::format("{{\"format\": \"{}\", \"version\": 1, \"files\": [", formatName);
+}
+
+/// An entry on one line.
+std::string entryText(const std::string& input, const ManifestEntry& entry)
+{
+    Json outputs = Json::array(), losses = Json::array();
+    for (const ManifestOutput& output : entry.outputs)
+        outputs.push_back({{"file", output.file}, {"bytes", output.bytes}, {"sha256", output.sha256}});
+    for (const FormatLoss& loss : entry.losses)
+        losses.push_back(cli::toJson(loss));
+    Json json{{"input", input},     {"sha256", entry.inputSha256}, {"settings", entry.settings},
+              {"outputs", outputs}, {"duration", entry.duration},  {"warnings", entry.warnings},
+              {"losses", losses}};
+    if (!entry.error.empty())
+        json["error"] = entry.error;
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 } // namespace
 
-ConvertManifest readManifest(const std::filesystem::path& path)
+std::optional<ConvertManifest> readManifest(const std::filesystem::path& path)
 {
     ConvertManifest manifest;
-    const auto text = readWholeFile(path, largestManifest);
-    const auto tree = text ? readJsonTree(*text, largestManifest) : Result<nlohmann::json>(text.error());
-    if (!tree)
+    if (std::error_code ignored; !std::filesystem::exists(path, ignored))
         return manifest;
+    const auto text = readWholeFile(path, largestManifest);
+    if (!text)
+        return std::nullopt;
+    const auto add = [&manifest](const nlohmann::json& file)
+    {
+        manifest[file.at("input").get<std::string>()] = entryOf(file);
+    };
     try
     {
-        if (tree->at("format") != formatName || tree->at("version") != 1)
+        if (const auto tree = readJsonTree(*text, largestManifest); tree)
+        {
+            if (tree->at("format") != formatName || tree->at("version") != 1)
+                return std::nullopt;
+            for (const auto& file : tree->at("files"))
+                add(file);
             return manifest;
-        for (const auto& file : tree->at("files"))
-            manifest[file.at("input").get<std::string>()] = entryOf(file);
+        }
+        // One that was not completed: the lines that are whole.
+        std::istringstream lines(*text);
+        std::string line;
+        if (!std::getline(lines, line) || line != firstLine())
+            return std::nullopt;
+        while (std::getline(lines, line))
+        {
+            if (line.ends_with(','))
+                line.pop_back();
+            if (const auto file = readJsonTree(line, largestManifest); file)
+                add(*file);
+        }
     }
     catch (const nlohmann::json::exception&)
     {
-        manifest.clear();
+        return std::nullopt;
     }
     return manifest;
 }
 
 std::string manifestText(const ConvertManifest& manifest)
 {
-    Json files = Json::array();
+    std::string text = firstLine();
+    const char* separator = "\n";
     for (const auto& [input, entry] : manifest)
     {
-        Json outputs = Json::array(), losses = Json::array();
-        for (const ManifestOutput& output : entry.outputs)
-            outputs.push_back({{"file", output.file}, {"bytes", output.bytes}, {"sha256", output.sha256}});
-        for (const FormatLoss& loss : entry.losses)
-            losses.push_back(toJson(loss));
-        Json json{{"input", input},     {"sha256", entry.inputSha256}, {"settings", entry.settings},
-                  {"outputs", outputs}, {"duration", entry.duration},  {"warnings", entry.warnings},
-                  {"losses", losses}};
-        if (!entry.error.empty())
-            json["error"] = entry.error;
-        files.push_back(std::move(json));
+        text += separator + entryText(input, entry);
+        separator = ",\n";
     }
-    return Json{{"format", formatName}, {"version", 1}, {"files", files}}.dump(
-               1, ' ', false, nlohmann::json::error_handler_t::replace) +
-           "\n";
+    return text + "\n]}\n";
+}
+
+Result<void> GrowingManifest::start(const std::filesystem::path& newFile, const ConvertManifest& before)
+{
+    path = newFile;
+    entries = before;
+    if (path.empty())
+        return {};
+    std::string text = firstLine() + "\n";
+    for (const auto& [input, entry] : before)
+        text += entryText(input, entry) + ",\n";
+    if (const auto written = writeFileAtomically(path, text); !written)
+        return written.error();
+    file = openStream(path, "ab");
+    return file ? Result<void>() : Result<void>(fileError(errno));
+}
+
+void GrowingManifest::add(const std::string& input, const ManifestEntry& entry)
+{
+    const std::lock_guard lock(mutex);
+    entries.insert_or_assign(input, entry);
+    if (!file)
+        return;
+    // What cannot be added now is missed only after a kill: finish() writes all of it.
+    const std::string line = entryText(input, entry) + ",\n";
+    std::fwrite(line.data(), 1, line.size(), file.get());
+    std::fflush(file.get());
+}
+
+Result<void> GrowingManifest::finish()
+{
+    file.reset();
+    if (path.empty())
+        return {};
+    if (const auto written = writeFileAtomically(path, manifestText(entries)); !written)
+        return written.error();
+    return {};
 }
 
 nlohmann::ordered_json toJson(const FormatLoss& loss)

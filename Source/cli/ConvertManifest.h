@@ -2,6 +2,7 @@
 
 // The record of what a folder was converted to.
 
+#include "io/FileHandle.h"
 #include "io/formats/ForeignFormat.h"
 
 #include <nlohmann/json.hpp>
@@ -9,11 +10,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pacini::cli
 {
+
+/// What a manifest is called unless the user names it.
+inline constexpr const char* manifestName = "pacini.manifest.json";
 
 /// One output of a conversion.
 struct ManifestOutput
@@ -40,11 +46,33 @@ struct ManifestEntry
 /// By the input's path below the folder that was named, with /.
 using ConvertManifest = std::map<std::string, ManifestEntry>;
 
-/// The manifest in a file; empty when there is none that can be used, since it only saves work.
-[[nodiscard]] ConvertManifest readManifest(const std::filesystem::path& path);
+/// The manifest in a file, as far as it goes: a run that was killed left one without an end. None when the file is
+/// there and no manifest, empty when it is not there.
+[[nodiscard]] std::optional<ConvertManifest> readManifest(const std::filesystem::path& path);
 
-/// Its text: the same for the same entries, whoever made them and when.
+/// Its text, a line for each entry: the same for the same entries, whoever made them and when.
 [[nodiscard]] std::string manifestText(const ConvertManifest& manifest);
+
+/// A manifest that grows by a line with each file that is done, so that a run that is killed is taken up where it was.
+/// From any thread.
+class GrowingManifest
+{
+public:
+    /// Starts `newFile` with the entries of runs before; an empty path keeps no record. Errors: as in AtomicFile.
+    [[nodiscard]] Result<void> start(const std::filesystem::path& newFile, const ConvertManifest& before);
+
+    /// Sets an entry, and adds its line to the file.
+    void add(const std::string& input, const ManifestEntry& entry);
+
+    /// Completes the file. Errors: as in AtomicFile.
+    [[nodiscard]] Result<void> finish();
+
+private:
+    std::mutex mutex;
+    std::filesystem::path path;
+    ConvertManifest entries;
+    FileHandle file;
+};
 
 /// An entry as a report shows it.
 [[nodiscard]] nlohmann::ordered_json toJson(const FormatLoss& loss);

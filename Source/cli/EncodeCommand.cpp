@@ -42,6 +42,7 @@ nlohmann::ordered_json toJson(const EncodeTask& task)
 std::string summary(const std::vector<EncodeTask>& tasks)
 {
     std::size_t done = 0, fresh = 0, failed = 0;
+    const std::size_t skipped = countSkipped(tasks);
     double bytes = 0.0, duration = 0.0, seconds = 0.0, worked = 0.0;
     for (const EncodeTask& task : tasks)
     {
@@ -57,6 +58,8 @@ std::string summary(const std::vector<EncodeTask>& tasks)
     std::string text = fmt::format("{} encoded", done);
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
+    if (skipped > 0)
+        text += fmt::format(", {} exist and were left", skipped);
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     if (duration > 0.0)
@@ -120,9 +123,13 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     std::vector<std::string> names;
     for (const MethodInfo& info : methodTable)
         names.emplace_back(info.name);
-    command->add_option("inputs", inputs, "Audio files, or folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...)")
+    command
+        ->add_option("inputs", inputs,
+                     "Audio files, folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...), or - for standard input")
         ->type_name("IN");
-    command->add_option("-o,--output", output, "File, or folder for several inputs [beside each input]")
+    command
+        ->add_option("-o,--output", output,
+                     "File, folder for several inputs, or - for standard output [beside each input]")
         ->type_name("OUT|DIR");
     command
         ->add_option("--method", methodName,
@@ -171,6 +178,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
+    overwriting.declare(*command);
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -226,7 +234,41 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
         if (output.empty() && std::any_of(inputs.begin(), inputs.end(), isFolder))
             return wrongUsage("--output", "is needed: name a folder for the signals");
     }
+    else if (auto formatKnown = checkFormat(); !formatKnown)
+        return formatKnown;
     return validate(params);
+}
+
+Result<void> EncodeCommand::checkFormat() const
+{
+    std::error_code ignored;
+    if (!format.empty() || output.empty() || output.ends_with('/') || isStream(output) ||
+        std::filesystem::is_directory(output, ignored))
+        return {};
+    const std::string extension = lowerExtension(output);
+    const auto& sounds = audioExtensions();
+    if (std::find(sounds.begin(), sounds.end(), extension) != sounds.end())
+        return wrongUsage("--output", fmt::format("{} is named like a sound, but a clip is written; name it .json or "
+                                                  ".pacb, or render the clip afterwards",
+                                                  output));
+    if (inputs.size() == 1 && !std::filesystem::is_directory(inputs.front(), ignored) &&
+        clipTargetOf(extension) == nullptr)
+        return wrongUsage("--output", fmt::format("{} has the extension of no clip; name it .json or .pacb, say which "
+                                                  "with --format, or write {}/ for a folder",
+                                                  output, output));
+    return {};
+}
+
+InputFiles EncodeCommand::findSounds() const
+{
+    InputFiles found = findInputs(inputs, audioExtensions());
+    std::erase_if(found.files,
+                  [&](const InputFile& file)
+                  {
+                      const bool named = std::find(inputs.begin(), inputs.end(), file.path.string()) != inputs.end();
+                      return !named && readOrigin(file.path).has_value();
+                  });
+    return found;
 }
 
 Exit EncodeCommand::run(Console& console)
@@ -267,12 +309,21 @@ Exit EncodeCommand::run(Console& console)
     if (!exportParams)
         return Exit::failed;
     settings.exporting = *exportParams;
-    std::string extension(settings.target.extension);
+    const std::string extension(settings.target.extension);
+    OutputNames names{output, extension, extension};
     if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
-        extension = output.empty() ? fmt::format(".{}.wav", method.name) : ".wav";
+        names = {output, ".wav", fmt::format(".{}.wav", method.name)};
 
-    const InputFiles found = findInputs(inputs, audioExtensions());
-    auto tasks = makeTasks<EncodeResult>(found, output, extension, !dryRun);
+    const InputFiles found = findSounds();
+    if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
+    {
+        console.error("", fits.error());
+        return Exit::usage;
+    }
+    if (isStandardOutput(output))
+        console.keepStdoutFree();
+    auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun);
+    BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
@@ -284,12 +335,11 @@ Exit EncodeCommand::run(Console& console)
                      [&, job = EncodeJob(settings)](std::size_t i, const std::function<void(double)>& progress) mutable
                  {
                      EncodeTask& task = tasks[i];
-                     attempt(task, [&] { return job.run(task.input, task.output, progress); });
-                     if (task.error)
-                     {
+                     attempt(task, end, [&] { return job.run(task.input, task.output, task.replaceable, progress); });
+                     if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
+                     if (!task.result)
                          return;
-                     }
                      if (!task.result->upToDate && !dryRun)
                          console.wrote(task.output, bytesText(static_cast<double>(task.result->bytes)));
                      if (task.result->replacedSamples > 0)

@@ -2,6 +2,8 @@
 
 #include "cli/Command.h"
 #include "cli/ExportOptions.h"
+#include "cli/InputFiles.h"
+#include "cli/Overwrite.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/methods/Method.h>
@@ -22,7 +24,11 @@ public:
 private:
     /// Complains of options that the method does not have.
     [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
+    [[nodiscard]] Result<void> checkFormat() const;
     [[nodiscard]] MethodChoices choices() const;
+
+    /// The sounds to encode, without drive signals that Pacini made, which may lie beside them.
+    [[nodiscard]] InputFiles findSounds() const;
 
     CLI::App* command = nullptr;
     std::vector<std::string> inputs;
@@ -38,6 +44,7 @@ private:
     bool allowTruncated = false;
     bool force = false;
     bool dryRun = false;
+    OverwriteOptions overwriting;
     unsigned jobs = 0;
 };
 

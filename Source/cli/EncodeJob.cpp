@@ -1,15 +1,20 @@
 #include "cli/EncodeJob.h"
 
+#include "cli/ReadingAdvice.h"
 #include "cli/Task.h"
-#include "io/AtomicFile.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
+#include "io/ClipJson.h"
+#include "io/ClipSeal.h"
+#include "io/Fingerprint.h"
+#include "io/Utf8.h"
 
 #include <pacini/analysis/MonoMix.h>
 
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -20,16 +25,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// The error of reading a sound, with the option that takes it as it is.
-Error withAdvice(Error error)
-{
-    if (error.code == ErrorCode::truncated)
-        error.message += ", or take what is there with --allow-truncated";
-    if (error.code == ErrorCode::notFinite)
-        error.message += ", or take such samples as 0 with --allow-nan";
-    return error;
-}
-
 /// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
 template <typename Visit>
 Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
@@ -42,7 +37,7 @@ Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>
     {
         const auto got = reader.read(buffer);
         if (!got)
-            return withAdvice(got.error());
+            return withAdvice(got.error(), true);
         if (*got == 0)
             return {};
         frames += *got;
@@ -69,27 +64,50 @@ Result<std::vector<float>> readMono(AudioReader& reader, const std::function<voi
 /// Encoder parameters that follow from the sound.
 bool dependsOnSound(const EncoderParameter& parameter)
 {
-    return parameter.name == "gain" || parameter.name == "channelGain";
+    return parameter.name == "gain" || parameter.name == "channelGain" || parameter.name == clipSealName;
+}
+
+/// Whether a file is a clip, be it a damaged one.
+bool saysItIsAClip(std::string_view bytes)
+{
+    constexpr std::size_t start = 1024;
+    return bytes.starts_with("PACB") || bytes.substr(0, start).find(clipFormatName) != std::string_view::npos;
+}
+
+/// What a clip calls its sound; nothing when that came from standard input.
+std::string sourceName(const fs::path& input)
+{
+    return input == "-" ? std::string() : wellFormedUtf8(input.filename().string());
 }
 } // namespace
 
 EncodeJob::EncodeJob(const EncodeSettings& wanted) : settings(wanted), encoder(wanted.params) {}
 
-Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& output, const Progress& progress)
+Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& output, Replaceable replaceable,
+                                    const Progress& progress)
 {
     const bool makesClip = methodInfo(settings.method).output == MethodOutput::clip;
     EncodeResult result;
-    if (makesClip && !settings.force && isUpToDate(input, output, result))
+    // What others' formats hold is only known when it is made.
+    Result<Existing> existing = Existing::replace;
+    if (!makesClip)
+        existing = mayReplace(output, signalOrigin(input, output), replaceable);
+    else if (settings.target.foreign == nullptr)
+        existing = lookAt(input, output, replaceable, result);
+    if (!existing)
+        return existing.error();
+    if (result.upToDate)
         return result;
 
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return withAdvice(reader.error());
+        return withAdvice(reader.error(), true);
     if (settings.dryRun)
         return result;
     Stopwatch work;
-    const auto written = makesClip ? encodeClip(*reader, input, output, progress, work, result)
-                                   : encodeSignal(*reader, output, progress, work, result);
+    const auto written = makesClip
+                             ? encodeClip(*reader, input, output, *existing, replaceable, progress, work, result)
+                             : encodeSignal(*reader, input, output, *existing, replaceable, progress, work, result);
     if (!written)
         return written.error();
     result.bytes = *written;
@@ -102,13 +120,14 @@ Result<Clip> EncodeJob::encode(const fs::path& input, const Progress& progress)
 {
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return withAdvice(reader.error());
+        return withAdvice(reader.error(), true);
     Stopwatch work;
     return makeClip(*reader, input, progress, work);
 }
 
 Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& input, const fs::path& output,
-                                          const Progress& progress, Stopwatch& work, EncodeResult& result)
+                                          Existing existing, Replaceable replaceable, const Progress& progress,
+                                          Stopwatch& work, EncodeResult& result)
 {
     auto made = makeClip(reader, input, progress, work);
     if (!made)
@@ -116,20 +135,23 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     // Both formats hold the same data: what lies on the grids of `quantise` bits.
     std::vector<std::byte> packed;
     work.run([&] { packed = packClip(*made, packParamsFor(*made)); });
-    const Clip clip = unpackClip(packed).value();
+    Clip clip = unpackClip(packed).value();
+    work.run([&] { sealClip(clip); });
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    if (settings.target.name == "packed")
-    {
-        auto written = writeFileAtomically(output, packed);
-        return written ? written : atOutput(output, written.error());
-    }
     std::optional<Result<ExportedClip>> exported;
     work.run([&] { exported = exportClip(clip, settings.target, settings.exporting); });
     if (!*exported)
         return exported->error();
-    const auto written = writeExport(output, **exported);
+    if (settings.target.foreign != nullptr)
+    {
+        const auto allowed = mayReplace(output, **exported, replaceable);
+        if (!allowed)
+            return allowed.error();
+        existing = *allowed;
+    }
+    const auto written = writeExport(output, **exported, existing);
     if (!written)
         return atOutput(output, written.error());
     std::size_t bytes = 0;
@@ -138,7 +160,15 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     return bytes;
 }
 
-Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& output, const Progress& progress,
+FileOrigin EncodeJob::signalOrigin(const fs::path& input, const fs::path& output) const
+{
+    Fingerprint method;
+    method.add(methodInfo(settings.method).name);
+    return originOf(input, output, method.text());
+}
+
+Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path& input, const fs::path& output,
+                                            Existing existing, Replaceable replaceable, const Progress& progress,
                                             Stopwatch& work, EncodeResult& result) const
 {
     const auto mono = readMono(reader, progress, work);
@@ -147,7 +177,12 @@ Result<std::size_t> EncodeJob::encodeSignal(AudioReader& reader, const fs::path&
     std::vector<float> signal;
     work.run([&] { signal = translateToSignal(settings.method, *mono, reader.sampleRate()); });
     result.duration = static_cast<double>(signal.size()) / reader.sampleRate();
-    const auto report = writeAudio(output, signal, {.sampleRate = reader.sampleRate()});
+    AudioWriteParams writing;
+    writing.sampleRate = reader.sampleRate();
+    if (replaceable != Replaceable::named)
+        writing.origin = signalOrigin(input, output);
+    writing.existing = existing;
+    const auto report = writeAudio(output, signal, writing);
     if (!report)
         return atOutput(output, report.error());
     return static_cast<std::size_t>(report->bytes);
@@ -172,8 +207,8 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
         clip.source.sampleRate = reader.sampleRate();
         clip.source.channels = reader.channels();
     }
-    clip.source.file = input.filename().string();
-    clip.name = input.stem().string();
+    clip.source.file = sourceName(input);
+    clip.name = clip.source.file.empty() ? "stdin" : wellFormedUtf8(input.stem().string());
     return clip;
 }
 
@@ -199,30 +234,56 @@ std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const
     return record;
 }
 
-bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, EncodeResult& result) const
+Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output, Replaceable replaceable,
+                                   EncodeResult& result) const
+{
+    if (!isOccupied(output))
+        return replaceable == Replaceable::own ? Existing::keep : Existing::replace;
+    const auto bytes = readClipBytes(output);
+    if (!bytes || !saysItIsAClip(*bytes))
+        return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is no clip"))
+                                               : Existing::replace;
+    const auto clip = clipOf(*bytes);
+    const ClipSeal seal = clip ? sealOf(*clip) : ClipSeal::missing;
+    const bool mayBeEdited = seal == ClipSeal::missing;
+    if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
+        isUpToDate(input, output, *clip))
+    {
+        std::error_code ignored;
+        result.upToDate = true;
+        result.bytes = static_cast<std::size_t>(fs::file_size(output, ignored));
+        result.duration = clip->duration;
+        result.breakpoints = breakpointCount(*clip);
+        result.transients = clip->transients.size();
+        return Existing::replace;
+    }
+    if (replaceable == Replaceable::any)
+        return Existing::replace;
+    if (!clip)
+        return notReplaced(output, "is no clip as pacini encoded it");
+    if (seal == ClipSeal::broken)
+        return notReplaced(output, "was edited since it was encoded");
+    if (mayBeEdited)
+        return notReplaced(output, "exists and may have been edited, since it has no seal of the encoder");
+    if (replaceable == Replaceable::own && clip->source.file != sourceName(input))
+        return notReplaced(output, "was encoded from " + clip->source.file);
+    return Existing::replace;
+}
+
+bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, const Clip& clip) const
 {
     std::error_code error;
     const auto made = fs::last_write_time(output, error);
     if (error || fs::last_write_time(input, error) > made || error)
         return false;
     const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
-    if (settings.target.foreign != nullptr || clipFormatOf(output) != format)
+    if (clipFormatOf(output) != format || clip.source.file != sourceName(input))
         return false;
-    const auto clip = readClip(output);
-    if (!clip || clip->source.file != input.filename().string())
+    if (clip.source.sampleRate < limits::lowestSampleRate || clip.source.sampleRate > limits::highestSampleRate)
         return false;
-    if (clip->source.sampleRate < limits::lowestSampleRate || clip->source.sampleRate > limits::highestSampleRate)
-        return false;
-    auto record = clip->encoder;
+    auto record = clip.encoder;
     std::erase_if(record, dependsOnSound);
-    if (record != expectedRecord(*clip))
-        return false;
-    result.upToDate = true;
-    result.bytes = static_cast<std::size_t>(fs::file_size(output, error));
-    result.duration = clip->duration;
-    result.breakpoints = breakpointCount(*clip);
-    result.transients = clip->transients.size();
-    return true;
+    return record == expectedRecord(clip);
 }
 
 } // namespace pacini::cli

@@ -2,6 +2,7 @@
 
 // Encodes one file into another.
 
+#include "cli/Overwrite.h"
 #include "cli/Stopwatch.h"
 #include "io/AudioReader.h"
 #include "io/ClipExport.h"
@@ -53,9 +54,10 @@ public:
     explicit EncodeJob(const EncodeSettings& settings);
 
     /// `progress(share)` is called now and then. Errors: those of AudioReader, writeClip and AudioWriter, without the
-    /// file's name; tooLarge beyond 24 hours.
+    /// file's name; tooLarge beyond 24 hours; io when what is at `output` is not to be replaced. An own clip that was
+    /// edited since it was encoded, or may have been, is replaced only when any file may be.
     [[nodiscard]] Result<EncodeResult> run(const std::filesystem::path& input, const std::filesystem::path& output,
-                                           const std::function<void(double)>& progress);
+                                           Replaceable replaceable, const std::function<void(double)>& progress);
 
     /// The clip of one file, not yet rounded to its grids. Only for methods that make clips. Errors: as run().
     [[nodiscard]] Result<Clip> encode(const std::filesystem::path& input, const std::function<void(double)>& progress);
@@ -64,16 +66,24 @@ private:
     using Path = std::filesystem::path;
     using Progress = std::function<void(double)>;
 
-    [[nodiscard]] bool isUpToDate(const Path& input, const Path& output, EncodeResult& result) const;
+    /// How the clip may be written to `output`, unless what is there is up to date, as `result` says then.
+    [[nodiscard]] Result<Existing> lookAt(const Path& input, const Path& output, Replaceable replaceable,
+                                          EncodeResult& result) const;
+
+    [[nodiscard]] bool isUpToDate(const Path& input, const Path& output, const Clip& clip) const;
 
     /// What a clip made now would say of its encoder, without what depends on the sound.
     [[nodiscard]] std::vector<EncoderParameter> expectedRecord(const Clip& clip) const;
 
     /// Both return the size of the file they wrote.
     [[nodiscard]] Result<std::size_t> encodeClip(AudioReader& reader, const Path& input, const Path& output,
-                                                 const Progress& progress, Stopwatch& work, EncodeResult& result);
-    [[nodiscard]] Result<std::size_t> encodeSignal(AudioReader& reader, const Path& output, const Progress& progress,
+                                                 Existing existing, Replaceable replaceable, const Progress& progress,
+                                                 Stopwatch& work, EncodeResult& result);
+    [[nodiscard]] Result<std::size_t> encodeSignal(AudioReader& reader, const Path& input, const Path& output,
+                                                   Existing existing, Replaceable replaceable, const Progress& progress,
                                                    Stopwatch& work, EncodeResult& result) const;
+
+    [[nodiscard]] FileOrigin signalOrigin(const Path& input, const Path& output) const;
 
     [[nodiscard]] Result<Clip> makeClip(AudioReader& reader, const Path& input, const Progress& progress,
                                         Stopwatch& work);

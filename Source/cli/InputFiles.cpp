@@ -1,9 +1,15 @@
 #include "cli/InputFiles.h"
 
+#include "cli/ConvertManifest.h"
+#include "io/AnyClip.h"
+#include "io/AtomicFile.h"
+#include "io/ClipExport.h"
+
 #include <algorithm>
 #include <cctype>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -18,6 +24,23 @@ bool isHidden(const fs::path& path)
     return !name.empty() && name.front() == '.';
 }
 
+/// Whether `output` is or is to be a folder.
+bool namesFolder(const std::string& output)
+{
+    std::error_code unknown;
+    return output.back() == '/' || output.back() == fs::path::preferred_separator || fs::is_directory(output, unknown);
+}
+
+/// Whether files of this extension are what the command writes or reads.
+bool isFileExtension(const std::string& extension)
+{
+    const auto among = [&](const std::vector<std::string>& extensions)
+    {
+        return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+    };
+    return clipTargetOf(extension) != nullptr || among(audioExtensions()) || among(anyClipExtensions());
+}
+
 void addFolder(const fs::path& folder, const std::vector<std::string>& extensions, InputFiles& found)
 {
     std::error_code error;
@@ -29,7 +52,7 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
         std::error_code ignored;
         if (isHidden(path) && entry->is_directory(ignored))
             entry.disable_recursion_pending();
-        else if (!isHidden(path) && entry->is_regular_file(ignored) &&
+        else if (!isHidden(path) && path.filename() != manifestName && entry->is_regular_file(ignored) &&
                  std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())
             paths.push_back(path);
         entry.increment(error);
@@ -54,7 +77,9 @@ InputFiles findInputs(const std::vector<std::string>& named, const std::vector<s
         const fs::path path(name);
         std::error_code error;
         const auto status = fs::status(path, error);
-        if (fs::is_directory(status))
+        if (name == "-")
+            found.files.push_back({path, "stdin"});
+        else if (fs::is_directory(status))
         {
             found.several = true;
             addFolder(path, extensions, found);
@@ -81,30 +106,57 @@ const std::vector<std::string>& clipExtensions()
     return extensions;
 }
 
-Result<fs::path> outputFor(const InputFile& input, const std::string& output, bool several,
-                           const std::string& extension, bool makeFolders)
+Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several, bool makeFolders)
 {
     fs::path path;
     std::error_code error;
-    if (output.empty())
+    if (names.given.empty())
     {
         path = input.path;
-        path.replace_extension(extension);
-        return path;
+        path.replace_extension(names.beside);
+        return OutputPlace{path};
     }
-    const bool folder = several || output.back() == '/' || output.back() == fs::path::preferred_separator ||
-                        fs::is_directory(output, error);
+    const bool folder = several || namesFolder(names.given);
     if (!folder)
-        return fs::path(output);
-    path = fs::path(output) / input.relative;
-    path.replace_extension(extension);
+        return OutputPlace{names.given, true};
+    path = fs::path(names.given) / input.relative;
     if (makeFolders)
         fs::create_directories(path.parent_path(), error);
     if (error)
         return Error{ErrorCode::io, "",
                      "the folder " + path.parent_path().string() + " cannot be made (" + error.message() +
                          "); name another with -o"};
-    return path;
+    const bool beside = sameFileKey(path) == sameFileKey(input.path);
+    path.replace_extension(beside ? names.beside : names.extension);
+    return OutputPlace{path};
+}
+
+Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bool json)
+{
+    const auto wrong = [&](std::string message)
+    {
+        return Error{ErrorCode::invalidArgument, output, std::move(message)};
+    };
+    const bool takesStandardInput =
+        std::any_of(inputs.files.begin(), inputs.files.end(), [](const InputFile& file) { return file.path == "-"; });
+    if (output.empty())
+    {
+        if (takesStandardInput)
+            return wrong("what comes from standard input has no folder to be beside; name an output with -o, - is "
+                         "standard output");
+        return {};
+    }
+    if (json && isStandardOutput(output))
+        return wrong("is where --json prints its report; name a file with -o");
+    std::error_code unknown;
+    if (!inputs.several || namesFolder(output))
+        return {};
+    if (isStream(output) || fs::exists(output, unknown))
+        return wrong("is no folder, but there is more than one input; name a folder with -o");
+    if (isFileExtension(lowerExtension(output)))
+        return wrong("is named like a file, but there is more than one input; name a folder, or write -o " + output +
+                     "/ if it is one");
+    return {};
 }
 
 fs::path sameFileKey(const fs::path& path)

@@ -33,7 +33,8 @@ struct InputFiles
 };
 
 /// Resolves files and folders, each file once; of a folder (with all below it) the files whose extension is in
-/// `extensions` (lower case, with dot) count. Hidden files are passed over in folders, never when named.
+/// `extensions` (lower case, with dot) count. Hidden files and records of conversions are passed over in folders. `-`
+/// is standard input.
 [[nodiscard]] InputFiles findInputs(const std::vector<std::string>& named, const std::vector<std::string>& extensions);
 
 /// The extensions of audio files that are looked for in folders.
@@ -42,11 +43,30 @@ struct InputFiles
 /// The extensions of clips.
 [[nodiscard]] const std::vector<std::string>& clipExtensions();
 
-/// Where the result for `input` goes: beside it without `output`; into the folder `output` when it is one, ends in a
-/// slash or several inputs were named; else to `output` itself. The extension is `extension` except in the last case.
-/// Folders are made as needed, if `makeFolders`. Errors: io.
-[[nodiscard]] Result<std::filesystem::path> outputFor(const InputFile& input, const std::string& output, bool several,
-                                                      const std::string& extension, bool makeFolders = true);
+/// How results are called.
+struct OutputNames
+{
+    std::string given;     ///< file or folder that the user named; may be empty
+    std::string extension; ///< of results in a folder of their own
+    std::string beside;    ///< of results in the folder of their inputs
+};
+
+/// Where one result goes.
+struct OutputPlace
+{
+    std::filesystem::path path;
+    bool named = false; ///< the user named this very file
+};
+
+/// Where the result for `input` goes: beside it when nothing is given; into the folder `given` when it is one, ends in
+/// a slash or several inputs were named; else to `given` itself. Folders are made as needed, if `makeFolders`.
+/// Errors: io.
+[[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several,
+                                            bool makeFolders = true);
+
+/// Whether `output` can be where the results for these inputs go, with a report in JSON on standard output or without.
+/// Errors: invalidArgument, with what to do.
+[[nodiscard]] Result<void> checkOutput(const InputFiles& inputs, const std::string& output, bool json);
 
 /// The same for all ways of naming one file, whether it exists or not.
 [[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);

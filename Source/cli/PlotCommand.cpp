@@ -149,6 +149,7 @@ CLI::App* PlotCommand::declare(CLI::App& app)
         ->check(numberFrom(0.0, limits::duration, "24 h"))
         ->type_name("S");
     command->add_flag("--dark", dark, "On a dark ground");
+    overwriting.declare(*command);
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                     "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
                     "  pacini plot l5-wristband -o l5.png");
@@ -169,9 +170,11 @@ Exit PlotCommand::run(Console& console)
     };
 
     const std::filesystem::path path(input);
-    const auto target = outputFor({path, path.filename()}, output, false, ".png");
-    if (!target)
-        return fail(output, target.error());
+    const auto place = outputFor({path, path.filename()}, {output, ".png", ".png"}, false);
+    if (!place)
+        return fail(output, place.error());
+    const std::filesystem::path* target = &place->path;
+    replaceable = overwriting.of(place->named);
     if (!plot::pictureFormatOf(*target))
         return fail(target->string(),
                     {ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"}, Exit::usage);
@@ -179,6 +182,11 @@ Exit PlotCommand::run(Console& console)
         return fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
         return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
+    if (overwriting.keepsAll() && isOccupied(*target))
+    {
+        console.note(fmt::format("{} exists and was left", printable(target->string())));
+        return Exit::ok;
+    }
 
     const plot::FigureStyle style{*parseSize(size), dark};
     if (const auto shown = profileIn(input))
@@ -238,10 +246,10 @@ Exit PlotCommand::run(Console& console)
 Exit PlotCommand::write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
                         const plot::FigureStyle& style) const
 {
-    const auto written = plot::writeFigure(target, figure, style);
+    const auto written = plot::writeFigure(target, figure, style, replaceable);
     if (!written)
     {
-        console.error(target.string(), written.error());
+        console.error(written.error().where.empty() ? target.string() : "", written.error());
         return Exit::failed;
     }
     console.addToReport({{"input", input},

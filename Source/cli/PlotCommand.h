@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/Overwrite.h"
 #include "cli/plot/Figure.h"
 
 #include <filesystem>
@@ -29,6 +30,8 @@ private:
     std::optional<double> from;
     std::optional<double> to;
     bool dark = false;
+    OverwriteOptions overwriting;
+    Replaceable replaceable = Replaceable::named; ///< at the target
 };
 
 } // namespace pacini::cli

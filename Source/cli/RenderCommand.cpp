@@ -9,8 +9,10 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
+#include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
+#include <pacini/foundation/DspBlock.h>
 
 #include <fmt/format.h>
 
@@ -26,9 +28,19 @@ namespace
 {
 using RenderTask = Task<RenderResult>;
 
+constexpr double noticed = 0.5; // dB: a gain that was asked for and is reduced by more is worth a word
+
 nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& settings, bool explain)
 {
     const RenderResult& r = *task.result;
+    if (r.upToDate)
+        return {{"input", task.input.string()},
+                {"output", task.output.string()},
+                {"bytes", r.bytes},
+                {"duration", r.duration},
+                {"seconds", 0.0},
+                {"timesRealTime", 0.0},
+                {"upToDate", true}};
     nlohmann::ordered_json report{{"input", task.input.string()},
                                   {"output", task.output.string()},
                                   {"kind", r.isScene ? "scene" : "clip"},
@@ -37,7 +49,9 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
                                   {"seconds", r.seconds},
                                   {"timesRealTime", r.seconds > 0.0 ? r.duration / r.seconds : 0.0},
                                   {"peak", r.peak},
+                                  {"gainReduction", r.reduction},
                                   {"clippedSamples", r.clippedSamples},
+                                  {"upToDate", false},
                                   {"plan", planJson(r, settings.compile)}};
     if (explain)
         report["plan"].update(planLists(r));
@@ -52,10 +66,13 @@ nlohmann::ordered_json toJson(const RenderTask& task, const RenderSettings& sett
 
 std::string summary(const std::vector<RenderTask>& tasks, const std::optional<FeltSettings>& felt)
 {
-    std::size_t done = 0;
+    std::size_t done = 0, fresh = 0;
+    const std::size_t skipped = countSkipped(tasks);
     double duration = 0.0, seconds = 0.0, peak = 0.0;
     for (const RenderTask& task : tasks)
-        if (task.result)
+        if (task.result && task.result->upToDate)
+            ++fresh;
+        else if (task.result)
         {
             ++done;
             duration += task.result->duration;
@@ -63,8 +80,12 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
             peak = std::max(peak, task.result->peak);
         }
     std::string text = fmt::format("{} rendered", done);
-    if (done < tasks.size())
-        text += fmt::format(", {} failed", tasks.size() - done);
+    if (fresh > 0)
+        text += fmt::format(", {} up to date", fresh);
+    if (skipped > 0)
+        text += fmt::format(", {} exist and were left", skipped);
+    if (done + fresh + skipped < tasks.size())
+        text += fmt::format(", {} failed", tasks.size() - done - fresh - skipped);
     if (seconds > 0.0)
         text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
     if (felt && done > 0)
@@ -91,15 +112,17 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    auto* command =
-        app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
-    command->add_option("inputs", inputs, "Clips (JSON or packed) and scenes (JSON), or folders of them")
+    command = app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
+    command
+        ->add_option("inputs", inputs,
+                     "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input")
         ->required()
         ->type_name("CLIP|SCENE");
     command
         ->add_option(
             "-o,--output", output,
-            "Sound file (.wav or .flac) with a channel for each actuator, or folder for several [beside each input]")
+            "Sound file (.wav or .flac) with a channel for each actuator, folder for several, or - for WAV on standard "
+            "output [beside each input, as .haptic.wav]")
         ->type_name("OUT|DIR");
     command
         ->add_option("--profile", profile,
@@ -107,11 +130,16 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("PROFILE");
     command->add_option("--rate", rate, "Sample rate of the output, Hz")
         ->capture_default_str()
-        ->check(numberFrom(2000.0, 192000.0));
+        ->check(numberFrom(limits::lowestRate, limits::highestRate));
     command->add_option("--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16")
         ->capture_default_str()
         ->check(oneOf({"float32", "pcm24", "pcm16"}));
-    command->add_option("--gain", gain, "Gain, dB")->capture_default_str()->check(numberFrom(-120.0, 60.0));
+    command
+        ->add_option("--gain", gain,
+                     "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
+                     "it does")
+        ->capture_default_str()
+        ->check(numberFrom(-120.0, 60.0));
     command->add_option("--transpose", transpose, "Semitones up or down; time stays")
         ->capture_default_str()
         ->check(numberFrom(-96.0, 96.0))
@@ -179,7 +207,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                      "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
         ->capture_default_str()
         ->check(numberFrom(0.0, 40.0));
-    command->add_flag("--no-protection", noProtection, "Do not keep the drive within the profile's limits");
+    command->add_flag("--no-protection", noProtection,
+                      "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
+                      "as they are, or clipped as PCM");
     auto* asFelt =
         command->add_flag("--felt", felt,
                           "Write the acceleration of the skin that the profile's body model predicts instead "
@@ -201,7 +231,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
     command->add_flag("--measured", measured,
                       "Like --explain, and play everything too, to measure what leaving out costs");
+    command->add_flag("-f,--force", force, "Render also what is up to date");
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
+    overwriting.declare(*command);
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -212,6 +244,19 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                     "  pacini render hall.scene.json -o part.wav --from 12.5 --to 20\n"
                     "  pacini render door.pacb -o skin.wav --profile l5-wristband --felt");
     return command;
+}
+
+std::string RenderCommand::record() const
+{
+    std::string text = "Pacini " PACINI_VERSION;
+    const std::vector<std::string> without = {"inputs",   "output", "profile", "clips",        "explain",
+                                              "measured", "jobs",   "force",   "no-overwrite", "overwrite",
+                                              "json",     "quiet",  "dry-run"};
+    for (const CLI::Option* option : command->get_options())
+        if (const auto name = option->get_single_name();
+            option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
+            text += fmt::format(", {} {}", name, fmt::join(option->results(), " "));
+    return text;
 }
 
 Exit RenderCommand::run(Console& console)
@@ -272,8 +317,22 @@ Exit RenderCommand::run(Console& console)
         settings.felt = *chosenFelt;
     }
 
+    settings.record = record();
+    if (settings.profile)
+        settings.record += ", " + profileJson(*settings.profile);
+    settings.resume = !force && !explain;
+
     const InputFiles found = findInputs(inputs, clipExtensions());
-    auto tasks = makeTasks<RenderResult>(found, output, ".wav", !dryRun);
+    if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
+    {
+        console.error("", fits.error());
+        return Exit::usage;
+    }
+    if (isStandardOutput(output))
+        console.keepStdoutFree();
+    auto tasks =
+        makeTasks<RenderResult>(found, {output, ".wav", felt ? ".felt.wav" : ".haptic.wav"}, overwriting, !dryRun);
+    BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
@@ -284,15 +343,20 @@ Exit RenderCommand::run(Console& console)
                  return [&](std::size_t i, const std::function<void(double)>& progress)
                  {
                      RenderTask& task = tasks[i];
-                     attempt(task, [&] { return render(task.input, task.output, settings, progress); });
-                     if (task.error)
-                     {
+                     attempt(task, end,
+                             [&] { return render(task.input, task.output, task.replaceable, settings, progress); });
+                     if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
+                     if (!task.result)
                          return;
-                     }
-                     if (!dryRun)
+                     if (!task.result->upToDate && !dryRun)
                          console.wrote(task.output, durationText(task.result->duration));
-                     if (task.result->clippedSamples > 0)
+                     if (gain > 0.0 && task.result->reduction > noticed)
+                         console.warning(task.input.string(),
+                                         fmt::format("up to {:.1f} of the {:.1f} dB of --gain are taken away again "
+                                                     "to keep within what the actuator bears",
+                                                     std::min(task.result->reduction, gain), gain));
+                     else if (task.result->clippedSamples > 0)
                          console.warning(task.input.string(),
                                          fmt::format("{} clipped; {}",
                                                      counted(task.result->clippedSamples, "sample was", "samples were"),

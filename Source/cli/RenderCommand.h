@@ -1,10 +1,12 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/Overwrite.h"
 
 #include <pacini/synthesis/ClipAdaptation.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,10 @@ public:
     Exit run(Console& console) override;
 
 private:
+    /// All options that change what is written.
+    [[nodiscard]] std::string record() const;
+
+    CLI::App* command = nullptr;
     std::vector<std::string> inputs;
     std::string output;
     std::string profile;
@@ -50,6 +56,8 @@ private:
     std::string mapping = "profile";
     double maxBoost = AdaptationParams{}.maxBoost; // dB
     bool noProtection = false;
+    bool force = false;
+    OverwriteOptions overwriting;
     bool explain = false;
     bool measured = false;
 };

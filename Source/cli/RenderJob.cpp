@@ -3,6 +3,10 @@
 #include "cli/SignalPlayer.h"
 #include "cli/Stopwatch.h"
 #include "cli/Task.h"
+#include "io/AudioReader.h"
+#include "io/ClipJson.h"
+#include "io/Fingerprint.h"
+#include "io/InputFile.h"
 #include "io/SceneFile.h"
 
 #include <fmt/format.h>
@@ -13,6 +17,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -82,6 +87,37 @@ std::vector<PlayReport> describe(const std::vector<DecodedPlay>& plays, const st
         reports.push_back({decoded.play, names[decoded.play], decoded.start, decoded.duration, decoded.decoder});
     return reports;
 }
+
+/// 16 digits that change when the output would: with the bytes of the input, a scene's clips and the settings.
+std::string substanceOf(const std::filesystem::path& input, const Scene& scene, bool isScene,
+                        const RenderSettings& settings)
+{
+    Fingerprint all;
+    all.add(settings.record);
+    if (const auto bytes = isStream(input) ? Result<std::string>(std::string()) : readWholeFile(input, largestClipText))
+        all.add(*bytes);
+    if (isScene)
+        for (const Clip& clip : scene.clips)
+            all.add(writeClipJson(clip));
+    return all.text();
+}
+
+/// Whether `output` was made so, and is still as it was made; then `result` tells its size.
+bool isUpToDate(const std::filesystem::path& output, const FileOrigin& origin, RenderResult& result)
+{
+    if (!isOccupied(output) || readOrigin(output) != origin || !isAsMade(output))
+        return false;
+    AudioReadOptions anyRate;
+    anyRate.lowestSampleRate = limits::lowestWrittenRate;
+    const auto sound = AudioReader::open(output, anyRate);
+    std::error_code unknown;
+    result.bytes = std::filesystem::file_size(output, unknown);
+    if (!sound || !sound->frames() || unknown)
+        return false;
+    result.duration = static_cast<double>(*sound->frames()) / sound->sampleRate();
+    result.upToDate = true;
+    return true;
+}
 } // namespace
 
 Scene sceneOf(Clip clip)
@@ -129,16 +165,24 @@ Scene adjusted(Scene scene, const RenderSettings& settings)
 }
 
 Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
-                            const RenderSettings& settings, const std::function<void(double)>& progress)
+                            Replaceable replaceable, const RenderSettings& settings,
+                            const std::function<void(double)>& progress)
 {
     auto read = readClipOrScene(input, settings.clipFolder);
     if (!read)
         return read.error();
     RenderResult result;
-    if (settings.dryRun)
-        return result;
     result.isScene = std::holds_alternative<Scene>(*read);
     Scene scene = result.isScene ? std::get<Scene>(std::move(*read)) : sceneOf(std::get<Clip>(std::move(*read)));
+
+    const FileOrigin origin = originOf(input, output, substanceOf(input, scene, result.isScene, settings));
+    if (settings.resume && replaceable != Replaceable::named && isUpToDate(output, origin, result))
+        return result;
+    const auto existing = mayReplace(output, origin, replaceable);
+    if (!existing)
+        return existing.error();
+    if (settings.dryRun)
+        return result;
 
     const double fs = settings.compile.sampleRate;
     Stopwatch work;
@@ -204,6 +248,9 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     format.channels = static_cast<int>(result.actuators);
     format.encoding = settings.encoding;
     format.expectedFrames = last - first;
+    if (replaceable != Replaceable::named) // so that equal signals in named files are equal to the byte
+        format.origin = origin;
+    format.existing = *existing;
     auto writer = AudioWriter::create(output, format);
     if (!writer)
         return atOutput(output, writer.error());
@@ -239,6 +286,7 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     if (whole)
         result.measured = error.decibels();
     result.mostSounding = player->mostSounding();
+    result.reduction = player->mostReduction();
     if (settings.describe)
         result.plays = describe(player->decodedPlays(), names);
     const auto report = writer->finish();

@@ -3,6 +3,7 @@
 // Renders one clip or scene into one sound file.
 
 #include "cli/Felt.h"
+#include "cli/Overwrite.h"
 #include "io/AudioWriter.h"
 
 #include <pacini/actuator/Profile.h>
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini::cli
@@ -33,9 +35,11 @@ struct RenderSettings
     CompileParams compile;
     std::optional<Profile> profile;
     std::optional<FeltSettings> felt; ///< write what is felt instead of the drive signal
-    bool protect = true;              ///< keep within the limits of the profile
+    bool protect = true;              ///< keep within full drive and the limits of the profile
     std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
     SampleEncoding encoding = SampleEncoding::float32;
+    std::string record;    ///< all that the output depends on besides the input
+    bool resume = true;    ///< do nothing where an output that was not named is up to date
     bool describe = false; ///< find out what each decoder plays
     bool dryRun = false;   ///< only read, write nothing
     bool measure = false;  ///< also play everything, to measure what leaving out costs
@@ -54,12 +58,13 @@ struct PlayReport
 struct RenderResult
 {
     std::uint64_t bytes = 0;
-    double duration = 0.0; ///< s of the output
-    double seconds = 0.0;  ///< s of work, without access to files
-    double peak = 0.0;     ///< largest magnitude of a sample
+    double duration = 0.0;  ///< s of the output
+    double seconds = 0.0;   ///< s of work, without access to files
+    double peak = 0.0;      ///< largest magnitude of a sample
+    double reduction = 0.0; ///< dB, the most that was taken to keep within full drive and the limits of the profile
     std::uint64_t clippedSamples = 0;
+    bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
-    bool upToDate = false; ///< nothing was done
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;
@@ -77,8 +82,10 @@ struct RenderResult
 /// Moves, stretches, transposes and varies a whole scene as the settings say. Times and changes come along.
 [[nodiscard]] Scene adjusted(Scene scene, const RenderSettings& settings);
 
-/// Errors: those of readClipOrScene, compilePlan and AudioWriter, without the file's name.
+/// Errors: those of readClipOrScene, compilePlan and AudioWriter, without the file's name; io when what is at `output`
+/// is not to be replaced.
 [[nodiscard]] Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
-                                          const RenderSettings& settings, const std::function<void(double)>& progress);
+                                          Replaceable replaceable, const RenderSettings& settings,
+                                          const std::function<void(double)>& progress);
 
 } // namespace pacini::cli

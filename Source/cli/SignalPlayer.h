@@ -23,6 +23,7 @@ public:
 
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return player.totalFrames(); }
     [[nodiscard]] std::size_t mostSounding() const noexcept { return player.mostSounding(); }
+    [[nodiscard]] double mostReduction() const noexcept { return player.mostReduction(); }
 
     /// What the decoder of every play plays, in order of start. Those that have not sounded yet are made for it.
     [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays();

@@ -4,11 +4,14 @@
 
 #include "cli/Console.h"
 #include "cli/InputFiles.h"
+#include "cli/Overwrite.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -21,7 +24,7 @@
 namespace pacini::cli
 {
 
-/// One file: has an error, or a result once it is done.
+/// One file: has an error, or a result once it is done, unless its output was there and is to be kept.
 template <typename ResultType>
 struct Task
 {
@@ -29,15 +32,38 @@ struct Task
     std::filesystem::path output;
     std::optional<ResultType> result;
     std::optional<Error> error;
+    Replaceable replaceable = Replaceable::own;
+    bool skipped = false; ///< for the sake of -n
 };
 
-/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already. What it throws becomes the task's
-/// error: one file must not stop the others.
-template <typename ResultType, typename Work>
-void attempt(Task<ResultType>& task, Work&& work)
+/// Ends a list of tasks early: on a full disk all that are left would fail.
+class BatchEnd
 {
-    if (task.error)
+public:
+    [[nodiscard]] bool come() const noexcept { return full.load(); }
+
+    /// Whether `error` is still to be reported: of those of a full disk only the first.
+    [[nodiscard]] bool isNews(const Error& error) noexcept
+    {
+        return error.code != ErrorCode::diskFull || !full.exchange(true);
+    }
+
+private:
+    std::atomic<bool> full = false;
+};
+
+/// Runs `work`, which gives a Result<ResultType>, unless the task has failed already or is skipped. What it throws
+/// becomes the task's error: one file must not stop the others.
+template <typename ResultType, typename Work>
+void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
+{
+    if (task.error || task.skipped)
         return;
+    if (end.come())
+    {
+        task.error = Error{ErrorCode::diskFull, "", "was not tried, since the disk is full"};
+        return;
+    }
     try
     {
         auto result = work();
@@ -64,30 +90,49 @@ void attempt(Task<ResultType>& task, Work&& work)
 }
 
 /// The tasks for the inputs that were named; two that would be written to one file are an error, as are unreadable
-/// folders. Folders for the outputs are made unless nothing is to be written.
+/// folders, and one that would be written to any of the inputs. Folders for the outputs are made unless nothing is to
+/// be written.
 template <typename ResultType>
-[[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const std::string& output,
-                                                      const std::string& extension, bool makeFolders)
+[[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const OutputNames& names,
+                                                      const OverwriteOptions& overwriting, bool makeFolders = true)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
-        tasks.push_back({failure.path, {}, {}, failure.error});
+        tasks.push_back({failure.path, {}, {}, failure.error, {}, {}});
+    std::error_code ignored;
+    std::map<std::filesystem::path, std::filesystem::path> inputs; // by where they really are
+    for (const InputFile& file : found.files)
+        inputs.emplace(std::filesystem::weakly_canonical(file.path, ignored), file.path);
     std::map<std::filesystem::path, std::filesystem::path> taken;
     for (const InputFile& file : found.files)
     {
-        Task<ResultType> task{file.path, {}, {}, {}};
-        const auto target = outputFor(file, output, found.several, extension, makeFolders);
-        if (!target)
-            task.error = target.error();
-        else if (const auto [other, first] = taken.emplace(sameFileKey(*target), file.path); !first)
-            task.error = Error{ErrorCode::invalidArgument, "",
-                               "would be written to " + target->string() + ", as " + other->second.string() +
-                                   " is; rename one of them"};
-        else if (std::error_code ignored; std::filesystem::equivalent(*target, file.path, ignored))
-            task.error = Error{ErrorCode::invalidArgument, "",
-                               "would be overwritten by its own result; name another output with -o"};
+        Task<ResultType> task{file.path, {}, {}, {}, {}, {}};
+        const auto fail = [&task](std::string message)
+        {
+            task.error = Error{ErrorCode::invalidArgument, "", std::move(message)};
+        };
+        const auto place = outputFor(file, names, found.several, makeFolders);
+        if (!place)
+            task.error = place.error();
+        else if (isStream(place->path))
+        {
+            task.output = place->path;
+            task.replaceable = Replaceable::named;
+        }
+        else if (const auto [other, first] = taken.emplace(sameFileKey(place->path), file.path); !first)
+            fail("would be written to " + place->path.string() + ", as " + other->second.string() +
+                 " is; rename one of them");
+        else if (std::filesystem::equivalent(place->path, file.path, ignored))
+            fail("would be overwritten by its own result; name another output with -o");
+        else if (const auto input = inputs.find(std::filesystem::weakly_canonical(place->path, ignored));
+                 input != inputs.end())
+            fail("would overwrite " + input->second.string() + ", which is an input too; name another output with -o");
         else
-            task.output = *target;
+        {
+            task.output = place->path;
+            task.replaceable = overwriting.of(place->named);
+            task.skipped = overwriting.keepsAll() && isOccupied(place->path);
+        }
         tasks.push_back(std::move(task));
     }
     return tasks;
@@ -99,36 +144,50 @@ template <typename ResultType>
     return std::any_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.error.has_value(); });
 }
 
-/// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.
+template <typename ResultType>
+[[nodiscard]] std::size_t countSkipped(const std::vector<Task<ResultType>>& tasks)
+{
+    return static_cast<std::size_t>(
+        std::count_if(tasks.begin(), tasks.end(), [](const auto& task) { return task.skipped; }));
+}
+
+/// Says what would be done with each file, of which the work only found out whether its output is up to date.
 template <typename ResultType>
 void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
 {
     auto files = nlohmann::ordered_json::array();
     for (const auto& task : tasks)
     {
-        if (!task.result)
+        if (task.error)
             continue;
-        std::error_code ignored;
-        const bool fresh = task.result->upToDate;
-        const char* action = fresh ? "skip" : std::filesystem::exists(task.output, ignored) ? "overwrite" : "write";
+        const bool skip = task.skipped || (task.result && task.result->upToDate);
+        const char* action = skip ? "skip" : isOccupied(task.output) ? "overwrite" : "write";
         files.push_back({{"input", task.input.string()}, {"output", task.output.string()}, {"action", action}});
         console.print(fmt::format("would {} {}, {} {}", action, printable(task.output.string()),
-                                  fresh ? "up to date with" : "from", printable(task.input.string())));
+                                  task.skipped ? "which exists, from"
+                                  : skip       ? "up to date with"
+                                               : "from",
+                                  printable(task.input.string())));
     }
     console.addToReport({{"dryRun", true}, {"files", files}});
 }
 
-/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). The console knows the
-/// failures.
+/// The list of files of a report: toJson(task) for each result; `alone` as for fileList(). Outputs that were kept stand
+/// under "skipped". The console knows the failures.
 template <typename ResultType, typename ToJson>
 [[nodiscard]] nlohmann::ordered_json jsonReport(const std::vector<Task<ResultType>>& tasks, ToJson&& toJson,
                                                 bool alone = false)
 {
     auto files = nlohmann::ordered_json::array();
+    auto skipped = nlohmann::ordered_json::array();
     for (const auto& task : tasks)
         if (task.result)
             files.push_back(toJson(task));
-    return fileList(std::move(files), alone);
+        else if (task.skipped)
+            skipped.push_back({{"input", task.input.string()}, {"output", task.output.string()}});
+    auto list = fileList(std::move(files), alone);
+    list["skipped"] = std::move(skipped);
+    return list;
 }
 
 } // namespace pacini::cli

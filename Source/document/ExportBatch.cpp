@@ -101,7 +101,9 @@ std::string exportName(const Clip& clip, const ExportFormat& format)
                     : c;
     while (!name.empty() && (name.front() == '.' || name.front() == ' '))
         name.erase(name.begin());
-    return (name.empty() ? std::string("clip") : name) + format.extension;
+    if (name.empty())
+        name = "clip";
+    return name + (format.extension == ".wav" ? ".haptic" : "") + format.extension;
 }
 
 Result<std::vector<FormatLoss>> exportLosses(const Clip& clip, const ExportChoice& choice)

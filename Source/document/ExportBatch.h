@@ -48,7 +48,8 @@ struct ExportReport
     std::vector<FormatLoss> losses;
 };
 
-/// The file name that a clip gets: its name without what file systems refuse, and the extension.
+/// The file name that a clip gets: its name without what file systems refuse, and the extension; of a drive signal not
+/// that of the recording, which the clip has its name from.
 [[nodiscard]] std::string exportName(const Clip& clip, const ExportFormat& format);
 
 /// What exporting would lose, without writing anything. Errors: those of the format. [worker]

@@ -43,7 +43,7 @@ public:
 
     static constexpr double exactFrom = 5.0; ///< s
 
-    /// `sampleRate` 2000 to 192000 Hz.
+    /// `sampleRate` 2000 to 768000 Hz; at any other service() says so and nothing plays.
     explicit PreviewEngine(double sampleRate) : fs(sampleRate) {}
 
     /// Another clip, another loop, other bands soloed: heard once service() has run. [message]

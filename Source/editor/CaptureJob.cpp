@@ -13,8 +13,8 @@ namespace pacini::editor
 Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name)
 {
     const int rate = static_cast<int>(std::lround(sampleRate));
-    if (rate < 8000 || rate > 384000)
-        return Error{ErrorCode::invalidArgument, "sample rate", "must be 8 to 384 kHz to be encoded"};
+    if (rate < 8000 || rate > 768000)
+        return Error{ErrorCode::invalidArgument, "sample rate", "must be 8 to 768 kHz to be encoded"};
     if (static_cast<double>(capture.samples.size()) < 0.1 * sampleRate)
         return Error{ErrorCode::invalidData, "", "less than a tenth of a second was heard"};
     Encoder encoder{EncoderParams{}};

@@ -17,7 +17,7 @@ namespace pacini::editor
 {
 
 /// The clip of a capture, with the encoder's usual parameters, on the grids of its quantiser. Errors: invalidData for
-/// less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 384 kHz).
+/// less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 768 kHz).
 [[nodiscard]] Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name);
 
 /// Encodes one capture on a thread of its own.

@@ -111,10 +111,10 @@ void CapturePanel::chooseFile()
                          });
 }
 
-void CapturePanel::save(const juce::File& file)
+void CapturePanel::save(const juce::File& chosen)
 {
-    const bool packed = file.hasFileExtension("pacb");
-    const juce::File target = packed || file.hasFileExtension("json") ? file : file.withFileExtension("json");
+    const bool packed = chosen.hasFileExtension("pacb");
+    const juce::File target = packed || chosen.hasFileExtension("json") ? chosen : chosen.withFileExtension("json");
     const auto written =
         writeClip(target.getFullPathName().toStdString(), *clip, packed ? ClipFormat::packed : ClipFormat::json);
     if (!written)

@@ -29,7 +29,7 @@ private:
     void captureNow();
     void take(Result<Clip> clip);
     void chooseFile();
-    void save(const juce::File& file);
+    void save(const juce::File& chosen);
     void say(const juce::String& text, bool wrong);
 
     LiveSource& source;

@@ -5,6 +5,14 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
 
 namespace pacini
 {
@@ -13,29 +21,45 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// `.NAME.pacini-XXXX.tmp` in the folder of `target`, X from 0-9 and a-f.
+/// `.NAME.pacini-XXXXXXXX.tmp` in the folder of `target`, X from 0-9 and a-f.
 fs::path temporaryName(const fs::path& target, unsigned number)
 {
     // A name may have 255 bytes on most file systems: a long one is cut so that ours still fits.
     constexpr std::size_t longest = 200;
-    std::string digits(4, '0');
-    for (std::size_t i = 0; i < digits.size(); ++i)
-        digits[i] = "0123456789abcdef"[(number >> (4 * i)) & 15u];
     auto name = target.filename().native();
     if (name.size() > longest)
         name.resize(longest);
     fs::path hidden(".");
     hidden += name;
-    hidden += ".pacini-" + digits + ".tmp";
+    hidden += temporaryEnding(number);
     return target.parent_path() / hidden;
+}
+
+Error alreadyThere()
+{
+    return {ErrorCode::io, "", "has appeared meanwhile and was left as it is; choose another name"};
+}
+
+std::FILE* openStandardOutput()
+{
+#if defined(_WIN32)
+    const int copy = _dup(_fileno(stdout));
+    _setmode(copy, _O_BINARY);
+    return copy < 0 ? nullptr : _fdopen(copy, "wb");
+#else
+    const int copy = ::dup(STDOUT_FILENO);
+    return copy < 0 ? nullptr : ::fdopen(copy, "wb");
+#endif
 }
 } // namespace
 
-AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath, TemporaryEntry entry)
+AtomicFile::AtomicFile(FileHandle stream, fs::path temporaryPath, fs::path targetPath, TemporaryEntry entry,
+                       Existing existingTarget)
     : file(std::move(stream)),
       temporary(std::move(temporaryPath)),
       target(std::move(targetPath)),
-      listed(std::move(entry))
+      listed(std::move(entry)),
+      existing(existingTarget)
 {
 }
 
@@ -55,7 +79,7 @@ void AtomicFile::removeTemporary() noexcept
         fs::remove(temporary, ignored);
 }
 
-Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
+Result<AtomicFile> AtomicFile::create(const fs::path& wanted, Existing existing)
 {
     if (!wanted.has_filename())
         return Error{ErrorCode::invalidArgument, "", "no file name was given"};
@@ -63,13 +87,15 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
     const auto status = fs::status(wanted, unknown);
     if (fs::is_directory(status))
         return fileError(EISDIR);
-    if (fs::exists(status) && !fs::is_regular_file(status))
+    if (isStream(wanted))
     {
-        auto device = openStream(wanted, "wb");
-        if (!device)
+        FileHandle nameless(std::tmpfile());
+        if (!nameless)
             return fileError(errno);
-        return AtomicFile(std::move(device), {}, wanted, {});
+        return AtomicFile(std::move(nameless), {}, wanted, {}, existing);
     }
+    if (existing == Existing::keep && fs::exists(fs::symlink_status(wanted, unknown)))
+        return alreadyThere();
     if (fs::exists(status) && (status.permissions() & fs::perms(0222)) == fs::perms::none)
         return Error{ErrorCode::io, "", "is marked read-only; choose another name or make it writable"};
 
@@ -77,24 +103,27 @@ Result<AtomicFile> AtomicFile::create(const fs::path& wanted)
     auto target = fs::is_symlink(fs::symlink_status(wanted, unknown)) ? fs::weakly_canonical(wanted, unknown) : wanted;
     if (target.empty())
         target = wanted;
+    removeStaleTemporaries(target.parent_path());
 
     std::random_device random;
     for (int attempt = 0; attempt < 100; ++attempt)
     {
         auto temporary = temporaryName(target, random());
         TemporaryEntry entry(temporary); // listed before it exists: a signal may come in between
-        auto stream = openStream(temporary, "wbx");
+        auto stream = openStream(temporary, "w+bx");
         if (!stream && errno == EEXIST)
             continue;
         if (!stream && errno == ENOENT)
             return Error{ErrorCode::io, "", "its folder does not exist; create the folder first"};
         if (!stream)
             return fileError(errno);
+        if (!keepTemporary(stream.get()))
+            continue; // taken for a stale one before it could be marked
         if (fs::exists(status))
             fs::permissions(temporary, status.permissions(), unknown);
-        return AtomicFile(std::move(stream), std::move(temporary), std::move(target), std::move(entry));
+        return AtomicFile(std::move(stream), std::move(temporary), std::move(target), std::move(entry), existing);
     }
-    return Error{ErrorCode::io, "", "the folder is full of old .pacini-XXXX.tmp files; remove them"};
+    return Error{ErrorCode::io, "", "the folder is full of old .pacini-XXXXXXXX.tmp files; remove them"};
 }
 
 bool AtomicFile::write(std::span<const std::byte> bytes) noexcept
@@ -103,6 +132,14 @@ bool AtomicFile::write(std::span<const std::byte> bytes) noexcept
     if (firstErrno == 0 && !bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
         firstErrno = errno;
     return firstErrno == 0;
+}
+
+std::size_t AtomicFile::read(std::span<std::byte> bytes) noexcept
+{
+    const auto got = std::fread(bytes.data(), 1, bytes.size(), file.get());
+    if (std::ferror(file.get()) != 0 && firstErrno == 0)
+        firstErrno = errno;
+    return got;
 }
 
 std::optional<Error> AtomicFile::failure() const
@@ -133,27 +170,63 @@ std::int64_t AtomicFile::size() noexcept
     return end;
 }
 
+void AtomicFile::putInPlace()
+{
+    std::error_code failure;
+    if (existing == Existing::replace)
+        fs::rename(temporary, target, failure);
+    else
+    {
+        // Unlike renaming, linking never replaces. Where there are no hard links, looking first must do.
+        fs::create_hard_link(temporary, target, failure);
+        if (!failure)
+            removeTemporary();
+        else if (std::error_code unknown; !fs::exists(fs::symlink_status(target, unknown)))
+        {
+            failure.clear();
+            fs::rename(temporary, target, failure);
+        }
+        else
+            failure = std::make_error_code(std::errc::file_exists);
+    }
+    firstErrno = failure.default_error_condition().value();
+}
+
+void AtomicFile::copyToTarget()
+{
+    const FileHandle device = isStandardOutput(target) ? FileHandle(openStandardOutput()) : openStream(target, "wb");
+    std::vector<std::byte> block(65536);
+    bool going = device != nullptr && seekStream(file.get(), 0, SEEK_SET);
+    while (going)
+    {
+        const auto got = std::fread(block.data(), 1, block.size(), file.get());
+        going = std::fwrite(block.data(), 1, got, device.get()) == got;
+        if (got == 0)
+            break;
+    }
+    if (!going || std::ferror(file.get()) != 0 || std::fflush(device.get()) != 0)
+        firstErrno = errno;
+}
+
 Result<void> AtomicFile::commit()
 {
     if (std::fflush(file.get()) != 0 && firstErrno == 0)
         firstErrno = errno;
+    if (firstErrno == 0 && temporary.empty())
+        copyToTarget();
     if (std::fclose(file.release()) != 0 && firstErrno == 0)
         firstErrno = errno;
     if (firstErrno == 0 && !temporary.empty())
-    {
-        std::error_code failure;
-        fs::rename(temporary, target, failure);
-        firstErrno = failure.default_error_condition().value();
-    }
+        putInPlace();
     if (firstErrno == 0)
         return {};
     removeTemporary();
-    return fileError(firstErrno);
+    return firstErrno == EEXIST ? alreadyThere() : fileError(firstErrno);
 }
 
-Result<std::size_t> writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes)
+Result<std::size_t> writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes, Existing existing)
 {
-    auto file = AtomicFile::create(path);
+    auto file = AtomicFile::create(path, existing);
     if (!file)
         return file.error();
     file->write(bytes);
@@ -162,9 +235,21 @@ Result<std::size_t> writeFileAtomically(const fs::path& path, std::span<const st
     return bytes.size();
 }
 
-Result<std::size_t> writeFileAtomically(const fs::path& path, std::string_view text)
+Result<std::size_t> writeFileAtomically(const fs::path& path, std::string_view text, Existing existing)
 {
-    return writeFileAtomically(path, std::as_bytes(std::span(text)));
+    return writeFileAtomically(path, std::as_bytes(std::span(text)), existing);
+}
+
+bool isStandardOutput(const fs::path& path)
+{
+    return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+}
+
+bool isStream(const fs::path& path)
+{
+    std::error_code unknown;
+    const auto status = fs::status(path, unknown);
+    return isStandardOutput(path) || (fs::exists(status) && fs::is_other(status));
 }
 
 } // namespace pacini

@@ -193,14 +193,10 @@ AudioReader::~AudioReader() = default;
 
 Result<AudioReader> AudioReader::open(const fs::path& path, AudioReadOptions options)
 {
-    // Asked before opening, which would wait for the other end of a pipe.
-    std::error_code ignored;
-    if (fs::is_other(path, ignored))
-        return Error{ErrorCode::io, "", "is a pipe or a device, not a file; save the audio to a file first"};
-    auto file = openForReading(path);
+    auto file = openRewindable(path);
     if (!file)
         return file.error();
-    if (fs::file_size(path, ignored) == 0)
+    if (streamLength(file->get()) == 0)
         return invalid("is empty; it has no audio");
 
     auto state = std::make_unique<State>();

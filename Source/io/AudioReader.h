@@ -2,6 +2,7 @@
 
 // Streams samples out of an audio file that may be damaged or hostile.
 
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
 
 #include <cstddef>
@@ -29,8 +30,7 @@ namespace limits
 {
 inline constexpr int channels = 64;
 inline constexpr int lowestSampleRate = 8000;    ///< Hz
-inline constexpr int highestSampleRate = 384000; ///< Hz
-inline constexpr float sample = 1e12f;           ///< magnitude: 1 is full scale, integers of 32 bits reach 2e9
+inline constexpr int highestSampleRate = 768000; ///< Hz
 inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be slower than any sound that is read
 } // namespace limits
 
@@ -39,9 +39,10 @@ inline constexpr int lowestWrittenRate = 2000;   ///< Hz: drive signals may be s
 class AudioReader
 {
 public:
-    /// Opens `path`. Errors: io (missing, folder, pipe, unreadable), invalidData (empty, no audio, damaged header,
-    /// channels outside 1-64, rate below options.lowestSampleRate or above 384 kHz), truncated (the header promises
-    /// more than is there; FLAC, Ogg and MP3 show this only at their end, in read()).
+    /// Opens `path`; what comes from a pipe or standard input (`-`) is taken in first. Errors: io (missing, folder,
+    /// device, unreadable), invalidData (empty, no audio, damaged header, channels outside 1-64, rate below
+    /// options.lowestSampleRate or above 768 kHz), truncated (the header promises more than is there; FLAC, Ogg and MP3
+    /// show this only at their end, in read()).
     [[nodiscard]] static Result<AudioReader> open(const std::filesystem::path& path, AudioReadOptions options = {});
 
     AudioReader(AudioReader&&) noexcept;

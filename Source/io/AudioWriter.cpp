@@ -1,6 +1,5 @@
 #include "io/AudioWriter.h"
 
-#include "io/AtomicFile.h"
 #include "io/AudioReader.h"
 #include "io/SoundHandle.h"
 
@@ -78,7 +77,7 @@ Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool flac = extension == ".flac";
-    if (!flac && extension != ".wav")
+    if (!flac && extension != ".wav" && !isStream(path)) // WAV is what a stream gets
         return badArgument("audio is written as .wav or .flac; choose one of these extensions");
     const int mostChannels = flac ? 8 : limits::channels;
     if (params.channels < 1 || params.channels > mostChannels)
@@ -169,6 +168,16 @@ struct AudioWriter::State
         return {};
     }
 
+    /// Completes the origin of a file that is finished otherwise.
+    void seal()
+    {
+        if (!params.origin || !file.seek(0, SEEK_SET))
+            return;
+        const auto found = sealOf([this](std::span<std::byte> bytes) { return file.read(bytes); });
+        if (found && file.seek(found->offset, SEEK_SET))
+            file.write(std::as_bytes(std::span(found->digits)));
+    }
+
     static constexpr std::size_t partSamples = 4096;
 };
 
@@ -181,11 +190,9 @@ Result<AudioWriter> AudioWriter::create(const fs::path& path, const AudioWritePa
     const auto format = formatOf(path, params);
     if (!format)
         return format.error();
-    auto file = AtomicFile::create(path);
+    auto file = AtomicFile::create(path, params.existing);
     if (!file)
         return file.error();
-    if (file->tell() < 0)
-        return Error{ErrorCode::io, "", "is a pipe, but audio needs a file that can be rewound; write to a file"};
 
     auto state = std::make_unique<State>(std::move(*file), params, *format);
     SF_INFO info{};
@@ -198,6 +205,8 @@ Result<AudioWriter> AudioWriter::create(const fs::path& path, const AudioWritePa
         return state->failed(soundError(nullptr));
     // The peak chunk of float files holds the time of day: without it the same samples give the same bytes.
     sf_command(state->sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
+    if (params.origin)
+        sf_set_string(state->sound.get(), SF_STR_COMMENT, originText(*params.origin).c_str());
     return AudioWriter(std::move(state));
 }
 
@@ -219,6 +228,7 @@ Result<AudioWriteReport> AudioWriter::finish()
     if (state->report.frames == 0)
         sf_command(state->sound.get(), SFC_UPDATE_HEADER_NOW, nullptr, 0);
     state->sound.reset();
+    state->seal();
     const auto size = state->file.size();
     if (auto done = state->file.commit(); !done)
         return done.error();

@@ -2,6 +2,9 @@
 
 // Streams samples into a WAV or FLAC file that is complete or not there.
 
+#include "io/AtomicFile.h"
+#include "io/FileOrigin.h"
+
 #include <pacini/foundation/Result.h>
 
 #include <cstdint>
@@ -23,7 +26,7 @@ enum class SampleEncoding
 
 struct AudioWriteParams
 {
-    int sampleRate = 48000; ///< Hz, 2000 to 384000
+    int sampleRate = 48000; ///< Hz, 2000 to 768000
     int channels = 1;       ///< 1 to 64 (FLAC: to 8)
     SampleEncoding encoding = SampleEncoding::float32;
 
@@ -33,6 +36,12 @@ struct AudioWriteParams
 
     /// As far as known, else 0. A WAV that would pass 4 GB becomes an RF64 (EBU Tech 3306).
     std::uint64_t expectedFrames = 0;
+
+    /// What the file is made from, for its header (see FileOrigin.h).
+    std::optional<FileOrigin> origin = std::nullopt;
+
+    /// What becomes of a file that is at the target already.
+    Existing existing = Existing::replace;
 
     bool operator==(const AudioWriteParams&) const = default;
 };

@@ -1,7 +1,6 @@
 #include "io/ClipExport.h"
 
 #include "io/AnyClip.h"
-#include "io/AtomicFile.h"
 #include "io/ClipJson.h"
 
 #include <pacini/clip/PackedClip.h>
@@ -57,13 +56,14 @@ Result<ExportedClip> exportClip(const Clip& clip, const ClipTarget& target, cons
     return result;
 }
 
-Result<std::vector<WrittenFile>> writeExport(const std::filesystem::path& main, const ExportedClip& exported)
+Result<std::vector<WrittenFile>> writeExport(const std::filesystem::path& main, const ExportedClip& exported,
+                                             Existing existing)
 {
     std::vector<WrittenFile> files;
     for (const ExportedFile& file : exported.files)
     {
         const auto path = file.suffix.empty() ? main : exportPath(main, file.suffix);
-        const auto written = writeFileAtomically(path, file.bytes);
+        const auto written = writeFileAtomically(path, file.bytes, file.suffix.empty() ? existing : Existing::replace);
         if (!written)
         {
             Error error = written.error();

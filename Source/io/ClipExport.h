@@ -2,6 +2,7 @@
 
 // Clips into files of any format.
 
+#include "io/AtomicFile.h"
 #include "io/formats/ForeignFormat.h"
 
 #include <cstddef>
@@ -39,9 +40,9 @@ struct WrittenFile
     std::size_t bytes = 0;
 };
 
-/// Writes all files of an export whose main file is to be `main`. Errors: as in AtomicFile, with the name of the file
-/// where it is not the main one.
-[[nodiscard]] Result<std::vector<WrittenFile>> writeExport(const std::filesystem::path& main,
-                                                           const ExportedClip& exported);
+/// Writes all files of an export whose main file is to be `main`; `existing` is about that one. Errors: as in
+/// AtomicFile, with the name of the file where it is not the main one.
+[[nodiscard]] Result<std::vector<WrittenFile>>
+writeExport(const std::filesystem::path& main, const ExportedClip& exported, Existing existing = Existing::replace);
 
 } // namespace pacini

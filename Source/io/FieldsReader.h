@@ -53,6 +53,12 @@ public:
             text(name, value);
     }
 
+    void optionalText(const char* name, std::optional<std::string>& value)
+    {
+        if (find(name, Need::optional) != nullptr)
+            text(name, value.emplace());
+    }
+
     void number(const char* name, double& value, Need need)
     {
         if (const nlohmann::json* entry = find(name, need))

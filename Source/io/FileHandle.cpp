@@ -49,7 +49,11 @@ std::string reason(int errnoValue)
 
 Error fileError(int errnoValue)
 {
-    return {ErrorCode::io, "", reason(errnoValue)};
+    bool full = errnoValue == ENOSPC;
+#if defined(EDQUOT)
+    full = full || errnoValue == EDQUOT;
+#endif
+    return {full ? ErrorCode::diskFull : ErrorCode::io, "", reason(errnoValue)};
 }
 
 FileHandle openStream(const std::filesystem::path& path, const char* mode)

@@ -20,7 +20,7 @@ struct FileCloser
 /// An open stream, closed at the end of its life. Who must know whether closing worked releases it and closes by hand.
 using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
-/// The Error (code io) behind an errno value: a plain sentence that says what to do.
+/// The Error (code diskFull or io) behind an errno value: a plain sentence that says what to do.
 [[nodiscard]] Error fileError(int errnoValue);
 
 /// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen; "x" fails when the file exists.

@@ -1,9 +1,12 @@
 #pragma once
 
-// The temporaries of files being written, so that a program that is asked to end leaves none behind.
+// The temporaries of files being written, so that a program that is asked to end leaves none behind, and those that one
+// which was killed did leave behind are removed.
 
 #include <atomic>
+#include <cstdio>
 #include <filesystem>
+#include <string>
 
 namespace pacini
 {
@@ -28,9 +31,20 @@ private:
     Name* place = nullptr;
 };
 
+/// What the names of temporaries end with: `.pacini-XXXXXXXX.tmp`, from this computer's name and `number`.
+[[nodiscard]] std::string temporaryEnding(unsigned number);
+
+/// Marks an open temporary as in use until it is closed or the process ends, however that happens. False when it has
+/// been removed already.
+[[nodiscard]] bool keepTemporary(std::FILE* temporary) noexcept;
+
+/// Removes the temporaries in `folder` (empty: the current one) that no process keeps. One that another computer made,
+/// whose marks may not be seen here, must also be a day old. Each folder is looked at once in the life of a process.
+void removeStaleTemporaries(const std::filesystem::path& folder);
+
 /// From now on SIGINT, SIGTERM and SIGHUP first remove the listed files, then end the program as they would have. A
-/// signal that the program was started to ignore stays ignored. Does nothing on Windows, where an open file cannot be
-/// removed. Call once, from the main function.
+/// signal that the program was started to ignore stays ignored, and further signals wait until all are removed. Does
+/// nothing on Windows, where an open file cannot be removed. Call once, from the main function.
 void removeTemporariesOnSignals() noexcept;
 
 } // namespace pacini

@@ -68,4 +68,20 @@ inline void appendUtf8(std::string& text, char32_t code)
     put(0x80u | (code & 0x3Fu));
 }
 
+/// `text` with U+FFFD for every byte that starts no well-formed character.
+[[nodiscard]] inline std::string wellFormedUtf8(std::string_view text)
+{
+    std::string result;
+    while (!text.empty())
+    {
+        const auto bytes = firstUtf8(text).bytes;
+        if (bytes > 0)
+            result += text.substr(0, bytes);
+        else
+            appendUtf8(result, 0xFFFD);
+        text.remove_prefix(bytes > 0 ? bytes : 1);
+    }
+    return result;
+}
+
 } // namespace pacini

@@ -5,9 +5,11 @@
 
 #include "plugin/ParameterTable.h"
 
+#include <pacini/foundation/Clamp.h>
 #include <pacini/realtime/TranslatorParams.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace pacini::plugin
@@ -27,7 +29,13 @@ public:
     {
         return values[static_cast<std::size_t>(parameter)];
     }
-    void set(ParameterId parameter, double value) noexcept { values[static_cast<std::size_t>(parameter)] = value; }
+    /// Limited to the parameter's range; a value that is not finite is ignored.
+    void set(ParameterId parameter, double value) noexcept
+    {
+        const ParameterRow& row = rowOf(parameter);
+        if (std::isfinite(value))
+            values[static_cast<std::size_t>(parameter)] = clampTo(value, row.low, row.high);
+    }
     [[nodiscard]] bool isOn(ParameterId parameter) const noexcept { return (*this)[parameter] >= 0.5; }
 
     /// For choices and whole numbers.

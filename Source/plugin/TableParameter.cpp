@@ -70,6 +70,8 @@ void TableParameter::setPlainNotifyingHost(double wanted)
 
 void TableParameter::setValue(float newValue)
 {
+    if (!std::isfinite(newValue))
+        return;
     const double value = valueAt(*tableRow, static_cast<double>(newValue));
     plain.store(tidied(value), std::memory_order_relaxed);
     normal.store(static_cast<float>(plugin::isDiscrete(*tableRow)

@@ -1,3 +1,4 @@
+#include "actuator/SimulatedActuator.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 
@@ -51,6 +52,46 @@ std::vector<float> driven(const MotorDriveParams& params, const std::vector<floa
 constexpr double motorRate = 8000.0;
 
 } // namespace
+
+TEST_CASE("A motor is not driven hotter than its coil bears, and brakes from the speed that it has", "[actuator]")
+{
+    Profile profile;
+    profile.technology = Technology::erm;
+    profile.response = {0.08, 0.08};
+    profile.drive.overdrive = 2.0;
+    profile.drive.impedance = 45.0;
+    profile.drive.maxVoltageRms = 3.0;
+    profile.drive.maxPower = 0.2; // the rated voltage may stay on, twice of it would be 0.8 W
+    profile.drive.thermalTime = 0.5;
+    const MotorDriveParams params = motorDriveParams(profile);
+    const auto rated = driven(params, constant(1.0, 5.0, motorRate), motorRate);
+    CHECK(rated.back() == 1.0f);
+
+    auto wanted = constant(9.0, 5.0, motorRate); // more strength than there is
+    wanted.insert(wanted.end(), 8000, 0.0f);
+    const auto voltage = driven(params, wanted, motorRate);
+    CHECK(*std::max_element(voltage.begin(), voltage.end()) == 2.0f);
+    CHECK(test::hottest(voltage, 0.2, 0.5, motorRate) <= 0.2 * (1.0 + 1e-6));
+    CHECK(voltage[39000] == Approx(1.0).epsilon(1e-3));
+    // It stops at once and is not turned backwards.
+    const FirstOrderTimes times = speedTimes(profile.response);
+    double speed = 0.0, slowest = 0.0;
+    for (const float u : voltage)
+    {
+        const auto v = static_cast<double>(u);
+        speed += (v - speed) / (motorRate * (v > speed ? times.rise : times.fall));
+        slowest = std::min(slowest, speed);
+    }
+    CHECK(slowest > -0.01);
+    CHECK(std::abs(speed) < 0.01);
+
+    MotorDriveParams free = params;
+    free.heat.reset();
+    CHECK(test::hottest(driven(free, wanted, motorRate), 0.2, 0.5, motorRate) > 0.7);
+    test::ContractOptions options;
+    options.bound = 2.0;
+    test::checkBlockContract<MotorDrive>(params, options);
+}
 
 TEST_CASE("Motor drive keeps the block contract", "[actuator]")
 {

@@ -582,6 +582,60 @@ TEST_CASE("Limits that no drive can reach are left out", "[actuator][protection]
     CHECK(protectionParams(profile, 0_s) == ProtectionParams{std::nullopt, std::nullopt, Hertz(20.0), Seconds(0.0)});
 }
 
+TEST_CASE("Limits are judged at the largest drive, overdrive included", "[actuator][protection]")
+{
+    using Limit = ProtectionNeeds::Limit;
+    // 2 % above what the rated drive can do at worst
+    Profile profile =
+        withCoil(profileOf(175.0, 15.0, 100.0, 1e-4, 1.02 * worstExcursion({175.0, 15.0, 1e-4, 1.0})), 0.3);
+    profile.drive.maxPower = 1.02 * 0.25;
+    CHECK(protectionNeeds(profile).excursion == Limit::unharmed);
+    CHECK(protectionNeeds(profile).heat == Limit::unharmed);
+    CHECK(protectionText(profile) == "no drive reaches the limit of travel; no drive reaches the limit of heat");
+    for (const double overdrive : {1.05, 3.0, 10.0})
+    {
+        CAPTURE(overdrive);
+        profile.drive.overdrive = overdrive;
+        const auto needs = protectionNeeds(profile);
+        CHECK(needs.excursion == Limit::guarded);
+        CHECK(needs.heat == Limit::guarded);
+        CHECK(needs.worstExcursion == Approx(overdrive / 1.02 * *profile.drive.maxExcursion));
+        CHECK(needs.worstPower == Approx(overdrive * overdrive * 0.25));
+    }
+    CHECK(protectionText(profile) == "travel is kept within 1.95 mm; heat is kept within 0.255 W");
+    profile.drive.maxPower.reset();
+    CHECK(protectionText(profile) == "travel is kept within 1.95 mm; the profile names no limit of heat");
+    // The largest of all valid profiles is not clamped away.
+    profile.drive.excursion = 1.0;
+    profile.drive.overdrive = 10.0;
+    profile.drive.maxExcursion = 0.1;
+    auto protection = prepared(protectionParams(profile, 0_s), 48000.0);
+    const auto y = test::runInBlocks(protection, test::sine(48000, 175.0, 48000.0), 512);
+    test::SimulatedResonator mass(175.0, 15.0, 10.0, 48000.0);
+    for (float u : y)
+        mass.hold(static_cast<double>(u));
+    CHECK(mass.peak() <= 0.1 * (1.0 + 1e-6));
+    CHECK(mass.peak() > 0.09);
+}
+
+TEST_CASE("Bounds alone leave a direct voltage as it is and keep the heat of one that stays", "[actuator][protection]")
+{
+    const double fs = 8000.0;
+    ProtectionParams params;
+    params.heat = CoilHeatParams{1.0, 0.25, 0.1};
+    auto protection = prepared(params, fs);
+    params.boundsAlone = true;
+    params.lookAhead = 0_s;
+    // A mean that was followed before is forgotten.
+    (void)test::runInBlocks(protection, std::vector<float>(8000, 0.4f), 512);
+    protection.setParams(params);
+    const std::vector<float> half(8000, 0.5f);
+    CHECK(test::runInBlocks(protection, half, 512) == half);
+    const auto full = test::runInBlocks(protection, std::vector<float>(8000, 1.0f), 512);
+    CHECK(full.back() == Approx(0.5).epsilon(1e-4));
+    CHECK(test::hottest(full, 1.0, 0.1, fs) <= 0.25 * (1.0 + 1e-6));
+}
+
 TEST_CASE("The held step is exact for any damping and rate", "[actuator][protection]")
 {
     for (const double q : {0.01, 0.3, 0.5, 0.5000001, 4.0, 100.0})

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace pacini;
@@ -142,7 +143,7 @@ TEST_CASE("Nothing cancels in the mix of channels", "[analysis][encoder]")
 
 TEST_CASE("Silence, one sample, DC and extreme rates give valid clips", "[analysis][encoder]")
 {
-    for (const int fs : {8000, 11025, 44100, 192000, 384000})
+    for (const int fs : {8000, 11025, 44100, 192000, 384000, 768000})
     {
         CAPTURE(fs);
         const std::vector<float> silent(static_cast<std::size_t>(fs) / 2, 0.0f);
@@ -206,16 +207,142 @@ TEST_CASE("Every number of bands and both spacings give valid clips within the c
 
 TEST_CASE("More breakpoints describe a sound better", "[analysis][encoder]")
 {
-    auto x = scaledNoise(2 * 44100, 0.3, 4);
-    std::size_t before = 0;
-    for (const double breakpoints : {2.0, 8.0, 20.0, 60.0})
+    // Two tones whose levels and pitches swing: what a clip should say of them is known without any analysis.
+    const double fs = 44100.0, seconds = 6.0;
+    const auto swing = [](double t, double rate, double phase)
     {
+        return 0.5 + 0.25 * std::sin(2.0 * std::numbers::pi * rate * t + phase) +
+               0.2 * std::sin(2.0 * std::numbers::pi * 2.7 * rate * t);
+    };
+    const auto lowLevel = [&](double t)
+    {
+        return 0.5 * swing(t, 1.1, 0.0);
+    };
+    const auto highLevel = [&](double t)
+    {
+        return 0.4 * swing(t, 1.7, 2.0);
+    };
+    const auto highPitch = [&](double t)
+    {
+        return 400.0 * std::exp2(0.3 * std::sin(2.0 * std::numbers::pi * 0.8 * t));
+    };
+    std::vector<float> x(static_cast<std::size_t>(seconds * fs));
+    double phase = 0.0;
+    for (std::size_t n = 0; n < x.size(); ++n)
+    {
+        const double t = static_cast<double>(n) / fs;
+        phase += 2.0 * std::numbers::pi * highPitch(t) / fs;
+        x[n] = static_cast<float>(lowLevel(t) * std::sin(2.0 * std::numbers::pi * 70.0 * t) +
+                                  highLevel(t) * std::sin(phase));
+    }
+
+    struct Errors
+    {
+        double level, pitch; ///< RMS: of full scale, octaves
+    };
+    std::size_t countBefore = 0;
+    Errors before{1.0, 1.0};
+    for (const double breakpoints : {2.0, 5.0, 12.0, 40.0})
+    {
+        CAPTURE(breakpoints);
         EncoderParams params;
         params.breakpoints = breakpoints;
-        const std::size_t count = breakpointCount(encode(x, 44100, 1, params));
-        CHECK(count > before);
-        before = count;
+        params.normalise = false;
+        params.bands = 2; // 30 to 173 to 1000 Hz
+        const Clip clip = encode(x, 44100, 1, params);
+        REQUIRE(clip.bands.size() == 2);
+        Errors errors{};
+        int places = 0;
+        for (double t = 0.3; t < seconds - 0.3; t += 0.01, ++places)
+        {
+            errors.level += std::pow(valueAt(clip.bands[0].amplitude, t) - lowLevel(t), 2.0) +
+                            std::pow(valueAt(clip.bands[1].amplitude, t) - highLevel(t), 2.0);
+            errors.pitch += std::pow(std::log2(valueAt(clip.bands[1].pitch, t) / highPitch(t)), 2.0);
+        }
+        for (double* error : {&errors.level, &errors.pitch})
+            *error = std::sqrt(*error / places);
+        CHECK(breakpointCount(clip) > countBefore);
+        CHECK(errors.level < 0.75 * before.level);
+        CHECK(errors.pitch <= before.pitch);
+        countBefore = breakpointCount(clip);
+        before = errors;
     }
+    CHECK(before.level < 0.02);
+    CHECK(before.pitch < 0.04);
+}
+
+TEST_CASE("Any finite amplitude gives a valid clip, and that of the same sound at an ordinary level",
+          "[analysis][encoder]")
+{
+    auto x = scaledNoise(22050, 0.01, 12);
+    addKick(x, 4000, 44100.0, 0.7);
+    addKick(x, 14000, 44100.0, 0.4);
+    const auto scaled = [&](double factor)
+    {
+        auto y = x;
+        for (float& v : y)
+            v = static_cast<float>(factor * static_cast<double>(v));
+        return y;
+    };
+    const auto silentClip = [](const Clip& clip)
+    {
+        return breakpointCount(clip) == 0 && clip.transients.empty();
+    };
+    const Clip ordinary = encode(x, 44100);
+    CHECK(ordinary.transients.size() == 2);
+    for (int decade = -30; decade <= 38; decade += 2)
+    {
+        CAPTURE(decade);
+        const double factor = std::pow(10.0, decade);
+        for (const bool normalise : {true, false})
+        {
+            EncoderParams params;
+            params.normalise = normalise;
+            CAPTURE(normalise);
+            const Clip clip = encode(scaled(factor), 44100, 1, params);
+            CHECK(validate(clip).ok());
+            if (decade <= -7 || decade >= -1)
+                CHECK(silentClip(clip) == (decade <= -7));
+            std::vector<float> constant(4410, static_cast<float>(factor)), alternating(4410), mixed(4410);
+            for (std::size_t n = 0; n < alternating.size(); ++n)
+            {
+                alternating[n] = static_cast<float>(n % 2 == 0 ? factor : -factor);
+                mixed[n] = static_cast<float>(n % 300 < 150 ? factor : -1.0 / factor);
+            }
+            for (const auto& sound : {constant, alternating, mixed})
+            {
+                CHECK(validate(encode(sound, 44100, 1, params)).ok());
+                CHECK(validate(encode(sound, 8000, 2, params)).ok());
+            }
+        }
+    }
+    // Powers of two scale without rounding: up to the largest magnitude of sound, nothing but the gain is another.
+    for (const double factor : {0x1p-3, 0x1p10, 0x1p20, 0x1p30, 0x1p39})
+    {
+        CAPTURE(factor);
+        const Clip clip = encode(scaled(factor), 44100);
+        CHECK(clip.transients.size() == ordinary.transients.size());
+        REQUIRE(clip.bands.size() == ordinary.bands.size());
+        for (double t = 0.0; t < 0.5; t += 0.01)
+        {
+            CHECK(valueAt(clip.envelope, t) == Approx(valueAt(ordinary.envelope, t)).margin(1e-3));
+            for (std::size_t k = 0; k < clip.bands.size(); ++k)
+                CHECK(valueAt(clip.bands[k].amplitude, t) ==
+                      Approx(valueAt(ordinary.bands[k].amplitude, t)).margin(1e-3));
+        }
+    }
+    // What is no number counts as silence, what is beyond all sound as the loudest of it.
+    auto bad = x, zero = x;
+    bad[5000] = std::numeric_limits<float>::quiet_NaN();
+    bad[5001] = std::numeric_limits<float>::infinity();
+    bad[5002] = -std::numeric_limits<float>::infinity();
+    zero[5000] = zero[5001] = zero[5002] = 0.0f;
+    CHECK(encode(bad, 44100) == encode(zero, 44100));
+    bad = scaled(1e10);
+    zero = bad;
+    bad[5000] = 3e38f;
+    zero[5000] = 1e12f;
+    CHECK(encode(bad, 44100) == encode(zero, 44100));
 }
 
 TEST_CASE("Eight identical kicks give eight equal events, loud or quiet", "[analysis][encoder]")

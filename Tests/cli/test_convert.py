@@ -2,9 +2,11 @@
 import hashlib
 import json
 import os
+import subprocess
+import time
 import unittest
 
-from command import CommandTest, sine, wav
+from command import COMMAND, CommandTest, sine, wav
 
 HAPTIC = {"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {
     "amplitude": [{"time": 0, "amplitude": 0.2, "emphasis": {"amplitude": 0.5, "frequency": 0.4}},
@@ -80,7 +82,7 @@ class Convert(CommandTest):
         self.assertEqual(files["sub/c.haptic"]["outputs"][0]["file"], "sub/c.ahap")
 
         os.remove(self.folder / "in/bad.haptic")
-        (self.folder / "out/b.ahap").write_text("edited")
+        os.remove(self.folder / "out/b.ahap")
         self.put("in/a.haptic", json.dumps(HAPTIC | {"metadata": {"project": "new"}}))
         done = {f["input"]: f["upToDate"] for f in self.report(*arguments)["files"]}
         self.assertEqual(done, {"in/a.haptic": False, "in/b.haptic": False, "in/d.json": True,
@@ -88,6 +90,42 @@ class Convert(CommandTest):
         self.assertTrue(all(f["upToDate"] for f in self.report(*arguments)["files"]))
         self.assertFalse(any(f["upToDate"] for f in self.report(*arguments, "--split")["files"]))
         self.assertFalse(any(f["upToDate"] for f in self.report(*arguments, "--split", "--force")["files"]))
+
+    def test_a_run_that_was_killed_is_taken_up_where_it_was(self):
+        for i in range(200):
+            self.clip(f"in/{i:03}.json", seconds=20)
+        arguments = ["convert", "in", "out", "--format", "haptic", "-j", "1"]
+        process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL)
+        manifest = self.folder / "out/pacini.manifest.json"
+        until = time.monotonic() + 60
+        while not manifest.exists() or manifest.read_bytes().count(b"\n") < 20:
+            self.assertLess(time.monotonic(), until)
+            self.assertIsNone(process.poll(), "ended too early")
+        process.kill()
+        process.wait()
+        with open(manifest, "ab") as file:
+            file.write(b'{"input": "torn')
+        done = [f["upToDate"] for f in self.report(*arguments)["files"]]
+        self.assertEqual(len(done), 200)
+        self.assertGreater(sum(done), 15)
+        self.assertLess(sum(done), 200)
+        self.assertEqual(len(json.loads(manifest.read_bytes())["files"]), 200)
+        self.assertTrue(all(f["upToDate"] for f in self.report(*arguments)["files"]))
+
+    def test_the_record_of_a_folder_is_no_clip_of_it(self):
+        self.clip("in/a.json")
+        self.succeeds("convert", "in", "out", "--format", "json")
+        self.assertIn("out/pacini.manifest.json", self.names())
+        self.assertEqual(len(self.report("render", "out")["files"]), 1)
+        self.assertEqual(len(self.report("convert", "out", "again", "--format", "packed")["files"]), 1)
+
+    def test_the_record_of_a_folder_keeps_what_other_runs_made(self):
+        for name in "ab":
+            self.clip(f"{name}.json")
+            self.succeeds("convert", f"{name}.json", "-o", "out/", "--format", "haptic")
+        self.assertEqual(len(json.loads((self.folder / "out/pacini.manifest.json").read_bytes())["files"]), 2)
+        self.clip("a.json", seconds=2)
+        self.succeeds("convert", "a.json", "-o", "out/", "--format", "haptic")
 
     def test_the_same_folder_gives_the_same_bytes(self):
         for name in ("a", "bb", "ccc"):

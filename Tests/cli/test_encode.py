@@ -81,7 +81,8 @@ class Encode(CommandTest):
         os.utime(source, (later, later))
         self.assertFalse(fresh("--bands", "3"))
         self.put("a.json", b"{ damaged")
-        self.assertFalse(fresh())
+        self.fails(1, ["encode", "a.wav"], "a.wav: a.json: exists and is no clip", "-y replaces it")
+        self.assertFalse(fresh("-y"))
 
     def test_a_bad_file_does_not_stop_the_others_and_every_failure_is_listed(self):
         for name in ("a.wav", "c.wav"):
@@ -125,7 +126,8 @@ class Encode(CommandTest):
         self.put("a.wav", content)
         os.symlink("a.wav", self.folder / "link.wav")
         for output in ("a.wav", "./a.wav", "link.wav"):
-            self.fails(1, ["encode", "a.wav", "-o", output], "would be overwritten", "-o")
+            self.fails(2, ["encode", "a.wav", "-o", output], "named like a sound")
+            self.fails(1, ["encode", "a.wav", "-o", output, "--format", "json"], "would be overwritten", "-o")
         self.assertEqual((self.folder / "a.wav").read_bytes(), content)
 
     def test_opposite_channels_do_not_cancel(self):

@@ -4,7 +4,7 @@ import subprocess
 import sys
 import unittest
 
-from command import COMMAND, SANITIZED, CommandTest, wav_header
+from command import COMMAND, CommandTest, wav_header
 
 
 def peak_of(arguments, folder):
@@ -16,7 +16,6 @@ def peak_of(arguments, folder):
     return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
-@unittest.skipIf(SANITIZED, "sanitizers need memory of their own")
 class Memory(CommandTest):
     def peak(self, *arguments):
         return peak_of(arguments, self.folder)

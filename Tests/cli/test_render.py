@@ -35,14 +35,14 @@ class Render(CommandTest):
     def test_the_result_lies_beside_the_clip_and_is_as_long(self):
         self.clip(seconds=1.5)
         text = self.succeeds("render", "clip.json")
-        self.assertRegex(text, r"^wrote clip\.wav: 1\.50 s\n1 rendered: 1\.50 s, \d+ times real time\n$")
-        rate, samples = read_float_wav(self.folder / "clip.wav")
+        self.assertRegex(text, r"^wrote clip\.haptic\.wav: 1\.50 s\n1 rendered: 1\.50 s, \d+ times real time\n$")
+        rate, samples = read_float_wav(self.folder / "clip.haptic.wav")
         self.assertEqual((rate, len(samples)), (48000, 72000))
         self.assertGreater(rms(samples), 0.05)
 
     def test_every_rate_of_the_range_gives_the_same_signal(self):
         self.steady()
-        for rate in (2000, 8000, 44100, 48000, 192000):
+        for rate in (2000, 8000, 44100, 48000, 192000, 768000):
             got, samples = self.rendered("--rate", str(rate))
             self.assertEqual((got, len(samples)), (rate, rate))
             self.assertAlmostEqual(level_at(samples, rate, 100.0), 0.5, delta=0.02)
@@ -99,8 +99,25 @@ class Render(CommandTest):
         self.assertEqual((self.folder / "out.flac").read_bytes()[:4], b"fLaC")
         sound = self.report("info", "out.flac")
         self.assertEqual((sound["frames"], sound["sampleRate"]), (48000, 48000))
-        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--encoding", "pcm16", "--gain", "20"],
-                   "warning: ", "samples were clipped", "--gain")
+        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--encoding", "pcm16", "--gain", "20",
+                       "--no-protection"], "warning: ", "samples were clipped", "--gain")
+
+    def test_nothing_exceeds_full_drive_unasked(self):
+        self.steady()
+        _, plain = self.rendered()
+        _, loud = self.rendered("--gain", "20", "--no-protection")
+        self.assertAlmostEqual(max(map(abs, loud)), 5.0, delta=0.2)
+        self.fails(0, ["render", "clip.json", "-o", "out.wav", "--gain", "20"],
+                   "warning: ", "up to 14.", "of the 20.0 dB of --gain are taken away again")
+        _, kept = read_float_wav(self.folder / "out.wav")
+        self.assertLessEqual(max(map(abs, kept)), 1.0)
+        self.assertAlmostEqual(level_at(kept[24000:], 48000, 100.0), 1.0, delta=0.03)
+        report = json.loads(self.succeeds("render", "clip.json", "-o", "out.wav", "--gain", "20", "--json"))
+        self.assertAlmostEqual(report["files"][0]["gainReduction"], 14.0, delta=0.5)
+        report = json.loads(self.succeeds("render", "clip.json", "-o", "out.wav", "--json"))
+        self.assertEqual(report["files"][0]["gainReduction"], 0.0)
+        self.assertEqual(read_float_wav(self.folder / "out.wav")[1], plain)
+        self.assertEqual(plain, self.rendered("--no-protection")[1])
 
     def test_explain_names_what_is_left_out(self):
         self.clip()
@@ -138,8 +155,8 @@ class Render(CommandTest):
 
     def test_wrong_options_are_usage_errors_that_name_the_range(self):
         self.clip()
-        for option, value, says in (("--rate", "1999", "2000 to 192000"), ("--rate", "192001", "2000 to 192000"),
-                                    ("--rate", "nan", "2000 to 192000"), ("--stretch", "nan", "0.01 to 100"),
+        for option, value, says in (("--rate", "1999", "2000 to 768000"), ("--rate", "768001", "2000 to 768000"),
+                                    ("--rate", "nan", "2000 to 768000"), ("--stretch", "nan", "0.01 to 100"),
                                     ("--stretch", "0", "0.01 to 100"), ("--gain", "inf", "-120 to 60"),
                                     ("--transpose", "nan", "-96 to 96"), ("--delay", "-1", "0 to 3600"),
                                     ("--variation", "1.01", "0 to 1"), ("--seed", "-1", "0 to 2^64 - 1"),
@@ -198,10 +215,10 @@ class Part(CommandTest):
 
     def test_its_length_is_reported_and_nonsense_is_refused(self):
         self.clip(seconds=2.0)
-        report = self.report("render", "clip.json", "--from", "0.5", "--to", "1.25")["files"][0]
+        report = self.report("render", "clip.json", "-o", "part.wav", "--from", "0.5", "--to", "1.25")["files"][0]
         self.assertAlmostEqual(report["duration"], 0.75, places=4)
         self.assertEqual(report["clippedSamples"], 0)
-        os.remove(self.folder / "clip.wav")
+        os.remove(self.folder / "part.wav")
         self.fails(2, ["render", "clip.json", "--from", "1", "--to", "1"], "--from must be before --to")
         self.fails(2, ["render", "clip.json", "--from", "-1"], "--from: '-1' is not a number from 0 to 86400 = 24 h")
         self.fails(2, ["render", "clip.json", "--to", "nan"], "--to: 'nan' is not a number")

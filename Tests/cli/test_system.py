@@ -64,8 +64,8 @@ class Disks(CommandTest):
         self.put("a.json", "old")
         self.put("x.json", "old")
         for arguments, output in ((["render", "clip.json", "-o", "out.wav"], "out.wav"),
-                                  (["encode", "a.wav"], "a.json"),
-                                  (["convert", "clip.json", "x.json"], "x.json")):
+                                  (["encode", "a.wav", "-y"], "a.json"),
+                                  (["convert", "clip.json", "-o", "x.json"], "x.json")):
             self.fails(1, arguments, f"{output}: the file would be larger than the system allows", file_limit=500)
             self.assertEqual((self.folder / output).read_text(), "old")
         self.fails(1, ["convert", "clip.json", "/dev/full", "--format", "json"], "/dev/full: the disk is full")
@@ -85,6 +85,25 @@ class Disks(CommandTest):
         finally:
             subprocess.run(["umount", str(small)], check=True)
 
+    @unittest.skipUnless(os.geteuid() == 0, "needs root to mount a small disk")
+    def test_a_full_disk_stops_a_batch_at_once_with_one_line(self):
+        for i in range(12):
+            self.clip(f"in/{i:02}.json", seconds=60)
+        small = self.folder / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "pacini-test", str(small)],
+                          stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("mounting is not allowed here")
+        try:
+            for jobs in ("1", "4"):
+                done = self.fails(1, ["render", "in", "-o", "small", "--json", "-j", jobs], "the disk is full")
+                report = json.loads(done.stdout)
+                self.assertEqual(len(report["failures"]), 12)
+                self.assertIn("was not tried", report["failures"][-1]["message"])
+                self.assertEqual(os.listdir(small), [])
+        finally:
+            subprocess.run(["umount", str(small)], check=True)
+
     def test_outputs_that_cannot_be_are_named(self):
         self.put("a.wav", wav(sine(100, 0.2)))
         self.put("file", "kept")
@@ -93,30 +112,28 @@ class Disks(CommandTest):
                    "create the folder first")
         self.fails(1, ["encode", "a.wav", "-o", "file/a.json"], "pacini: a.wav: file/a.json: ", "is not a folder")
         self.fails(1, ["encode", "a.wav", "-o", "file/"], "the folder file", "name another with -o")
-        self.fails(1, ["encode", "a.wav", "a.wav", ".", "-o", "file"], "name another with -o")
+        self.fails(2, ["encode", "a.wav", "a.wav", ".", "-o", "file"], "file: is no folder", "name a folder with -o")
         self.assertEqual((self.folder / "file").read_text(), "kept")
         self.clip()
         self.fails(1, ["render", "clip.json", "--profile", "dir"], "dir: is neither a file nor a shipped profile")
         os.chmod(self.folder / "file", 0o444)
-        self.fails(1, ["convert", "clip.json", "file", "--format", "json"], "file: is marked read-only")
+        self.fails(1, ["convert", "clip.json", "-o", "file", "--format", "json"], "file: is marked read-only")
 
     def test_inputs_that_cannot_be_are_named(self):
         os.mkdir(self.folder / "empty")
         os.symlink("nowhere", self.folder / "dangling.wav")
         os.symlink("loop.wav", self.folder / "loop.wav")
-        os.mkfifo(self.folder / "pipe.wav")
         for name, says in (("empty", "holds no files that this command reads"), ("dangling.wav", "does not exist"),
-                           ("loop.wav", "symbolic links"), ("pipe.wav", "is a pipe or a device"),
-                           ("/dev/null", "is a pipe or a device"), ("x" * 300 + ".wav", "name is too long"),
+                           ("loop.wav", "symbolic links"), ("/dev/null", "is a device"),
+                           ("x" * 300 + ".wav", "name is too long"),
                            ("", "no file name")):
-            self.fails(1, ["encode", name, "-o", "out.json"], says)
+            self.fails(1, ["encode", name, "-o", "out/"], says)
         self.fails(1, ["info", "empty"], "pacini: empty: is a folder")
 
     def test_rights_are_respected_and_told(self):
-        if os.geteuid() == 0 and subprocess.run([COMMAND, "--version"], user=NOBODY, group=NOBODY, cwd="/",
-                                                capture_output=True).returncode != 0:
-            self.skipTest("the command lies where only root can run it")
-        other = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
+        # A copy, as the command may lie where only its owner can run it.
+        command = {"executable": shutil.copy(COMMAND, self.folder)}
+        other = {**command, "user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else command
         self.put("closed.wav", wav(sine(100, 0.2)))
         self.put("in/a.wav", wav(sine(100, 0.2)))
         self.put("locked/a.wav", wav(sine(100, 0.2)))
@@ -150,7 +167,7 @@ class Names(CommandTest):
             self.assertEqual(text.count("haptic clip"), 1)
             self.assertNotIn("\x1b", text)
             self.assertIsInstance(self.report("info", b"./" + stem + b".json"), dict)
-            self.assertIsInstance(self.report("render", b"./" + stem + b".json"), dict)
+            self.assertIsInstance(self.report("render", b"./" + stem + b".json", "-y"), dict)
 
     def test_messages_about_strange_names_stay_on_one_line(self):
         self.put("new\nline \x1b[31m.wav", "no sound")
@@ -168,8 +185,8 @@ class Names(CommandTest):
 
 
 class Signals(CommandTest):
-    def interrupted(self, number, start=None):
-        """Renders for long, sends the signal once the temporary is there; returns the exit code."""
+    def interrupted(self, *numbers, start=None):
+        """Renders for long, sends the signals once the temporary is there; returns the exit code."""
         process = subprocess.Popen([COMMAND, "render", "clip.json", "-o", "out.wav"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=start)
         until = time.monotonic() + 60
@@ -177,7 +194,8 @@ class Signals(CommandTest):
             self.assertLess(time.monotonic(), until, "nothing is being written")
             self.assertIsNone(process.poll(), "ended too early")
             time.sleep(0.002)
-        process.send_signal(number)
+        for number in numbers:
+            process.send_signal(number)
         try:
             process.communicate(timeout=60)
         finally:
@@ -198,14 +216,58 @@ class Signals(CommandTest):
         self.assertEqual(self.interrupted(signal.SIGKILL), -signal.SIGKILL)
         self.assertEqual((self.folder / "out.wav").read_text(), "old")
         rest = [name for name in os.listdir(self.folder) if ".pacini-" in name]
+        self.assertEqual(len(rest), 1)
         self.assertTrue(all(name.startswith(".out.wav.pacini-") and name.endswith(".tmp") for name in rest), rest)
-        for name in rest:
-            os.unlink(self.folder / name)
+        self.clip("short.json")
+        self.succeeds("render", "short.json")  # the next run in that folder clears up
+        self.assertEqual(self.names(), ["clip.json", "out.wav", "short.haptic.wav", "short.json"])
+
+    def test_two_quick_signals_leave_nothing_either(self):
+        for i in range(8):
+            self.clip(f"in/{i}.json", seconds=600)
+        for attempt in range(20):
+            process = subprocess.Popen([COMMAND, "render", "in", "-o", "out", "-j", "8"], cwd=self.folder,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            out = self.folder / "out"
+            until = time.monotonic() + 60
+            while not out.exists() or len(os.listdir(out)) < 8:
+                self.assertLess(time.monotonic(), until, "nothing is being written")
+                self.assertIsNone(process.poll(), "ended too early")
+            process.send_signal(signal.SIGTERM)
+            process.send_signal((signal.SIGTERM, signal.SIGINT)[attempt % 2])
+            process.communicate(timeout=60)
+            self.assertIn(process.returncode, (-signal.SIGTERM, -signal.SIGINT))
+            self.assertEqual([name for name in os.listdir(out) if name.endswith(".tmp")], [], attempt)
+
+    def test_temporaries_of_running_programs_and_files_of_people_are_left(self):
+        self.clip("long.json", seconds=3600)
+        self.clip("short.json")
+        theirs = [".a.wav.pacini-12345678", ".a.wav.pacini-xyz.tmp", "a.wav.pacini-12345678.tmp", ".pacini-12345678.tmp",
+                  ".a.wav.pacini-1234567890.tmp", ".strange.pacini-00000000.tmp"]
+        for name in theirs:
+            self.put(name, "mine")
+        process = subprocess.Popen([COMMAND, "render", "long.json", "-o", "out.wav"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            until = time.monotonic() + 60
+            while not any(name.startswith(".out.wav") for name in os.listdir(self.folder)):
+                self.assertLess(time.monotonic(), until, "nothing is being written")
+            self.run_command("render", "short.json")
+            self.assertTrue(any(name.startswith(".out.wav") for name in os.listdir(self.folder)))
+            self.assertIsNone(process.poll(), "ended too early")
+        finally:
+            process.terminate()
+            process.communicate(timeout=60)
+        left = sorted(name for name in os.listdir(self.folder) if "pacini-" in name)
+        self.assertEqual(left, sorted(theirs))
+        os.utime(self.folder / theirs[-1], (1, 1))  # another computer's, and old
+        self.run_command("render", "short.json", "--force")
+        self.assertNotIn(theirs[-1], os.listdir(self.folder))
 
     def test_a_signal_that_was_to_be_ignored_is_ignored(self):
         self.clip(seconds=60)
         ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
-        self.assertEqual(self.interrupted(signal.SIGHUP, ignore), 0)
+        self.assertEqual(self.interrupted(signal.SIGHUP, start=ignore), 0)
         self.assertEqual(self.names(), ["clip.json", "out.wav"])
 
 

@@ -24,6 +24,7 @@ local kind = ARDOUR.PluginType.LV2
 if os.getenv("PLUGIN_KIND") == "VST3" then
   kind = ARDOUR.PluginType.VST3
 end
+print("stage: with the plugin")
 local plugin = ARDOUR.LuaAPI.new_plugin(Session, os.getenv("PLUGIN_ID"), kind, "")
 assert(not plugin:isnil(), "the host does not know the plugin")
 assert(music:add_processor_by_index(plugin, 0, nil, true) == 0, "the host does not insert the plugin")
@@ -67,4 +68,5 @@ Session:disable_record(false, false)
 Session:save_state("")
 sleep(1)
 close_session()
+print("stage: done")
 quit()

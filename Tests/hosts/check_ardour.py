@@ -3,8 +3,11 @@
 
 check_ardour.py FOLDER_OF_PLUGINS     exit 0, 1 on a failed check, 77 when Ardour is not there
 """
+import contextlib
+import io
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -19,7 +22,8 @@ except ImportError as error:
     skip(error)
 
 HERE = Path(__file__).resolve().parent
-ATTEMPTS = 4  # Ardour without a screen crashes now and then by itself
+ATTEMPTS = 4  # Ardour without a screen crashes now and then while it starts
+WITH_PLUGIN, DONE = "stage: with the plugin", "stage: done"  # as the scripts print
 
 
 def find(pattern):
@@ -34,14 +38,64 @@ if not LUA:
     skip("ardour is missing")
 
 
-def run(script, environment):
-    for attempt in range(ATTEMPTS):
+def how_it_ended(code, text):
+    """None when the script came to its end, else what went wrong."""
+    if code is None:
+        return "hangs"
+    if code < 0:
+        return f"crashes ({signal.Signals(-code).name})"
+    if code != 0 or DONE not in text:
+        return f"gives up (exit {code})"
+    return None
+
+
+def attempts(execute, script):
+    """Yields before each try; `execute` returns the exit code, None after a hang, and what was printed. Ardour may fail to
+    start, and is then started anew; once it has the plugin, whatever fails is the plugin's until shown otherwise."""
+    for attempt in range(1, ATTEMPTS + 1):
         yield attempt
-        done = subprocess.run([LUA, str(HERE / script)], env=environment, capture_output=True, text=True, timeout=180)
-        print(f"   {script}, attempt {attempt + 1}: exit {done.returncode}")
-        if done.returncode == 0 and "assertion failed" not in done.stdout + done.stderr:
+        code, text = execute()
+        wrong = how_it_ended(code, text)
+        print(f"   {script}, attempt {attempt}: {wrong or 'done'}", flush=True)
+        if wrong is None:
             return
-        print("\n".join((done.stdout + done.stderr).splitlines()[-8:]))
+        print("\n".join(text.splitlines()[-8:]), flush=True)
+        if WITH_PLUGIN in text:
+            check(f"{script}: Ardour keeps running with the plugin", False, wrong)
+            return
+    check(f"{script}: Ardour starts", False, f"not in {ATTEMPTS} attempts")
+
+
+def run(script, environment):
+    def execute():
+        try:
+            done = subprocess.run([LUA, str(HERE / script)], env=environment, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, errors="replace", timeout=180)
+        except subprocess.TimeoutExpired as error:
+            return None, (error.stdout or b"").decode(errors="replace")
+        return done.returncode, done.stdout
+
+    return attempts(execute, script)
+
+
+def check_the_check():
+    """A crash with the plugin is not tried again, one before it is."""
+    def tries(*ends):
+        left = list(ends)
+        with contextlib.redirect_stdout(io.StringIO()):
+            count = len(list(attempts(lambda: left.pop(0), "script")))
+        found = bool(failures)
+        failures.clear()
+        return count, found
+
+    crash, fine = -signal.SIGSEGV, (0, WITH_PLUGIN + DONE)
+    assert tries(fine) == (1, False)
+    assert tries((crash, "starting"), fine) == (2, False)
+    assert tries((crash, WITH_PLUGIN), fine) == (1, True)
+    assert tries((crash, WITH_PLUGIN + DONE), fine) == (1, True)
+    assert tries((None, WITH_PLUGIN), fine) == (1, True)
+    assert tries((0, WITH_PLUGIN), fine) == (1, True), "an assertion of the script"
+    assert tries(*[(crash, "starting")] * ATTEMPTS) == (ATTEMPTS, True)
 
 
 def tone(samples, frequency):
@@ -69,6 +123,7 @@ def main():
                                      env=dict(environment, LD_LIBRARY_PATH=str(Path(scanner).parent)),
                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             check("Ardour scans the VST3", scanned.returncode == 0)
+        check_the_check()
         for _ in run("ardour_make.lua", environment):
             shutil.rmtree(folder / "session", ignore_errors=True)
         sounds = folder / "session" / "interchange" / "session" / "audiofiles"

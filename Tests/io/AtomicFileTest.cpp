@@ -59,11 +59,32 @@ TEST_CASE("Until commit the target is untouched and the temporary has a recognis
             CAPTURE(name);
             CHECK(name.starts_with(".clip.json.pacini-"));
             CHECK(name.ends_with(".tmp"));
-            CHECK(name.size() == std::string(".clip.json.pacini-XXXX.tmp").size());
+            CHECK(name.size() == std::string(".clip.json.pacini-XXXXXXXX.tmp").size());
         }
     }
     CHECK(bytesOf(folder / "clip.json") == "old");
     CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("A file that is to be kept is kept, also one that appears while ours is written", "[io]")
+{
+    const TempFolder folder;
+    put(folder / "old", "old");
+    CHECK_FALSE(writeFileAtomically(folder / "old", std::string_view("new"), Existing::keep).ok());
+    CHECK(bytesOf(folder / "old") == "old");
+
+    auto file = AtomicFile::create(folder / "x", Existing::keep);
+    REQUIRE(file.ok());
+    file->write(std::as_bytes(std::span(std::string_view("ours"))));
+    put(folder / "x", "theirs");
+    const auto done = file->commit();
+    REQUIRE_FALSE(done.ok());
+    CHECK(message(done.error()) == "has appeared meanwhile and was left as it is; choose another name");
+    CHECK(bytesOf(folder / "x") == "theirs");
+
+    REQUIRE(writeFileAtomically(folder / "y", std::string_view("ours"), Existing::keep).ok());
+    CHECK(bytesOf(folder / "y") == "ours");
+    CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("A name of the longest length can be written", "[io]")

@@ -3,6 +3,7 @@
 #include "io/AudioBytes.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
+#include "support/Skip.h"
 #include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
@@ -91,7 +92,7 @@ TEST_CASE("Lossy formats deliver a tone of the right level and length", "[io][au
         if (!audio.ok() && std::string(name) == "tone.mp3" &&
             audio.error().message.starts_with("is not audio in a known format"))
         {
-            WARN("this libsndfile reads no MP3");
+            test::skip("this libsndfile reads no MP3");
             continue;
         }
         REQUIRE(audio.ok());
@@ -130,13 +131,13 @@ TEST_CASE("Channels and rates outside the accepted range are refused", "[io][aud
     CHECK(failureOf(folder, wavBytes({.channels = 65}, data)).message ==
           "has 65 channels, 1 to 64 are accepted; mix it down");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 7999}, data)).message ==
-          "has a sample rate of 7999 Hz, 8000 to 384000 Hz are accepted; resample it");
+          "has a sample rate of 7999 Hz, 8000 to 768000 Hz are accepted; resample it");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 384001}, data)).code == ErrorCode::invalidData);
     const AudioReadOptions slow{.lowestSampleRate = 2000};
     CHECK(readAudio(put(folder / "slow", wavBytes({.sampleRate = 2000}, data)), slow)->sampleRate == 2000);
     CHECK(failureOf(folder, wavBytes({.sampleRate = 1999}, data), slow).message ==
-          "has a sample rate of 1999 Hz, 2000 to 384000 Hz are accepted; resample it");
-    CHECK(readAudio(put(folder / "ok", wavBytes({.channels = 64, .sampleRate = 384000}, data))).ok());
+          "has a sample rate of 1999 Hz, 2000 to 768000 Hz are accepted; resample it");
+    CHECK(readAudio(put(folder / "ok", wavBytes({.channels = 64, .sampleRate = 768000}, data))).ok());
     for (std::uint16_t channels : {std::uint16_t(0), std::uint16_t(1025), std::uint16_t(65535)})
         CHECK(failureOf(folder, wavBytes({.channels = channels}, data)).code == ErrorCode::invalidData);
     for (std::uint32_t rate : {0u, 3000000000u})

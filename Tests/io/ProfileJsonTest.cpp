@@ -114,7 +114,7 @@ TEST_CASE("A wrong entry of a profile fails at its place and says what is right"
           "frequencyMapping: must be clamp, rescale or fold, not 'octave'");
     CHECK(profileErrorAfter([](Json& j) { j["transient"]["shape"] = ""; }) ==
           "transient.shape: must be adaptive, square or sine, not ''");
-    CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = 0; }) == "resonance.q: must be 0.01 to 100");
+    CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = 0; }) == "resonance.q: must be 0.01 to 1000");
     CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = "10"; }) == "resonance.q: must be a number");
     CHECK(profileErrorAfter([](Json& j) { j["resonance"]["q"] = nullptr; }) == "resonance.q: must be a number");
     CHECK(profileErrorAfter(

@@ -155,6 +155,23 @@ TEST_CASE("the plan names what an actuator does not need", "[realtime]")
     translator.setSetup(setup);
     CHECK_FALSE(has(translator.plan({}), "protection"));
 
+    const auto said = [](const Profile& profile)
+    {
+        TranslatorSetup of;
+        of.profile = profile;
+        const TranslatorPlan plan = designTranslator(of, 48000.0).plan;
+        const auto saving =
+            std::find_if(plan.begin(), plan.end(), [](const TranslatorSaving& s) { return s.what == "protection"; });
+        return saving == plan.end() ? std::string() : saving->reason;
+    };
+    Profile bounded = narrowLra();
+    CHECK(said(bounded) == "the profile names no limit of travel; the profile names no limit of heat");
+    bounded.drive.excursion = 1e-5;
+    bounded.drive.maxExcursion = 2e-4;
+    CHECK(said(bounded) == "no drive reaches the limit of travel; the profile names no limit of heat");
+    bounded.drive.overdrive = 3.0;
+    CHECK(said(bounded).empty());
+
     TranslatorParams muted;
     muted.texture.muted = true;
     CHECK(has(translator.plan(muted), "texture"));

@@ -121,6 +121,22 @@ TEST_CASE("No other method has a lower maximum error than the optimum, or fewer 
     }
 }
 
+TEST_CASE("The search for a count ends on the smallest and keeps the count on the largest values there are",
+          "[simplify]")
+{
+    for (double largest : {5e-324, 4e-323, 1e-310, 1e308, 1.79e308})
+    {
+        CAPTURE(largest);
+        auto values = test::uniformNoise(200, 21);
+        for (double& v : values)
+            v = (2.0 * v - 1.0) * largest;
+        const auto kept = optimalToCount(test::curveOfValues(values), 50);
+        CHECK(kept.size() <= 50);
+        if (largest > 1e-320)
+            CHECK(kept.size() > 40);
+    }
+}
+
 TEST_CASE("Weights decide where the optimum spends its points", "[simplify]")
 {
     // Two equal bumps; the weighted one gets the one free point.

@@ -4,6 +4,7 @@
 #include <pacini/simplify/CurveError.h>
 #include <pacini/simplify/Simplify.h>
 
+#include <cmath>
 #include <limits>
 
 using namespace pacini;
@@ -274,4 +275,76 @@ TEST_CASE("Broken input and parameters are errors that name their place", "[simp
     auto hasty = toBound(SimplifyMethod::streaming, 0.1);
     hasty.streamingDelay = 0;
     CHECK(failure(dense, hasty).where == "params.streamingDelay");
+}
+
+TEST_CASE("Every method ends and keeps its promise at any magnitude from 5e-324 to 1e308", "[simplify]")
+{
+    const auto scaled = [](Curve curve, double value, double time)
+    {
+        for (Breakpoint& p : curve)
+            p = {p.time * time, p.value * value};
+        return curve;
+    };
+    const auto largestError = [](const Curve& dense, const Curve& curve)
+    {
+        // In long double, whose range holds the square of any double.
+        long double largest = 0.0L;
+        std::size_t k = 0;
+        for (const Breakpoint& p : dense)
+        {
+            while (k + 2 < curve.size() && curve[k + 1].time < p.time)
+                ++k;
+            const auto &a = curve[k], &b = curve[k + 1];
+            const long double part =
+                (test::wide(p.time) - test::wide(a.time)) / (test::wide(b.time) - test::wide(a.time));
+            largest =
+                std::max(largest, std::abs(test::wide(a.value) + part * (test::wide(b.value) - test::wide(a.value)) -
+                                           test::wide(p.value)));
+        }
+        return largest;
+    };
+    std::vector<double> wide = test::uniformNoise(300, 8); // of both signs: differences exceed the largest double
+    for (double& v : wide)
+        v = 2.0 * v - 1.0;
+    const Curve noise = test::curveOfValues(wide);
+    for (double value : {5e-324, 1e-320, 1e-310, 1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300, 1e308, 1.7e308})
+        for (double time : {1.0, 1e-300, 1e300})
+            for (SimplifyMethod method : everyMethod)
+            {
+                CAPTURE(value, time, static_cast<int>(method));
+                const Curve dense = scaled(noise, value, time);
+                const Curve counted = simplify(dense, toCount(method, 50)).value();
+                CHECK(counted.size() <= 50);
+                CHECK(counted.front() == dense.front());
+                CHECK(counted.back() == dense.back());
+                if (value > 1e-310 && method != SimplifyMethod::streaming && method != SimplifyMethod::optimal)
+                    CHECK(counted.size() == 50);
+                if (value > 1e-310 && method == SimplifyMethod::optimal)
+                    CHECK(counted.size() > 40);
+                const double bound = 0.3 * value;
+                auto params = toBound(method, bound);
+                const Curve within = simplify(dense, params).value();
+                CHECK(largestError(dense, within) <= test::wide(bound) * 1.000001L + 5e-324L);
+                params.refit = true;
+                const Curve fitted = simplify(dense, params).value();
+                for (const Breakpoint& p : fitted)
+                    REQUIRE((std::isfinite(p.time) && std::isfinite(p.value)));
+            }
+}
+
+TEST_CASE("The choice of points is the same at extreme magnitudes as at ordinary ones", "[simplify]")
+{
+    for (const auto& [name, dense] : test::testCurves(300))
+        for (SimplifyMethod method : everyMethod)
+            for (double scale : {0x1.0p-900, 0x1.0p+1000})
+            {
+                CAPTURE(name, static_cast<int>(method), scale);
+                Curve scaled = dense;
+                for (Breakpoint& p : scaled)
+                    p.value *= scale;
+                Curve expected = simplify(dense, toCount(method, 25)).value();
+                for (Breakpoint& p : expected)
+                    p.value *= scale;
+                CHECK(simplify(scaled, toCount(method, 25)).value() == expected);
+            }
 }

@@ -7,6 +7,7 @@
 #include <pacini/simplify/StreamingSimplifier.h>
 #include <pacini/simplify/Visvalingam.h>
 
+#include <algorithm>
 #include <limits>
 
 using namespace pacini;
@@ -69,10 +70,11 @@ TEST_CASE("The stream never keeps more points than its rate allows, and keeps po
                 CHECK(static_cast<double>(out.size()) <= 3.0 + raised * static_cast<double>(dense.size()));
                 CHECK(out.front() == dense.front());
                 CHECK(out.back() == dense.back());
-                CHECK(std::includes(dense.begin(), dense.end(), out.begin(), out.end(),
-                                    [](const Breakpoint& a, const Breakpoint& b) {
-                                        return a.time < b.time || (a.time == b.time && a.value < b.value);
-                                    }) != (name == "irregular"));
+                // In the input's order, both sides of steps too.
+                std::size_t found = 0;
+                for (const Breakpoint& p : dense)
+                    found += found < out.size() && out[found] == p ? 1 : 0;
+                CHECK(found == out.size());
             }
 }
 

@@ -219,6 +219,84 @@ void checkSilenceIsCheap(const typename B::Params& params, std::size_t callFrame
     CHECK(y.back() == 0.0f);
 }
 
+/// Checks a source: what plays without an input. `make(fs)` returns a fresh one (in a pointer) with totalFrames() and
+/// process(out), and reset() if it can start again. It is finite, never denormal and within `bound`, sounds, does not
+/// depend on the block size, makes no heap traffic, and after its end it is silent, unless filters behind it `ring`;
+/// all of it from 8 to 768 kHz.
+template <typename Make>
+void checkSourceContract(Make&& make, double bound, bool ring = false)
+{
+    for (double fs : {8000.0, 44100.0, 48000.0, 192000.0, 768000.0})
+    {
+        CAPTURE(fs);
+        const auto play = [](auto& source, std::size_t frames, std::size_t blockFrames)
+        {
+            std::vector<float> out(frames, 1.0f);
+            for (std::size_t i = 0; i < frames; i += blockFrames)
+                source.process(std::span(out).subspan(i, std::min(blockFrames, frames - i)));
+            return out;
+        };
+        auto reference = make(fs);
+        const auto sounding = static_cast<std::size_t>(reference->totalFrames());
+        const std::size_t frames = sounding + 500;
+        const auto expected = play(*reference, frames, 4096);
+        REQUIRE(std::all_of(expected.begin(), expected.end(), [](float v) { return v == 0.0f || std::isnormal(v); }));
+        double largest = 0.0;
+        for (float v : expected)
+            largest = std::max(largest, std::abs(static_cast<double>(v)));
+        REQUIRE(largest <= bound);
+        REQUIRE(largest > 0.0);
+        const auto end = expected.begin() + static_cast<std::ptrdiff_t>(sounding);
+        if (!ring)
+            REQUIRE(std::count(end, expected.end(), 0.0f) == 500);
+
+        for (std::size_t size : {std::size_t(1), std::size_t(7), std::size_t(64), std::size_t(511), frames})
+        {
+            CAPTURE(size);
+            auto source = make(fs);
+            source->process(std::span<float>());
+            REQUIRE(play(*source, frames, size) == expected);
+        }
+
+        if constexpr (requires { reference->reset(); })
+        {
+            reference->reset();
+            REQUIRE(play(*reference, frames, 512) == expected);
+            reference->reset();
+            (void)play(*reference, sounding / 3, 512);
+            reference->reset();
+            REQUIRE(play(*reference, frames, 512) == expected);
+        }
+
+        {
+            auto source = make(fs);
+            std::vector<float> out(4096);
+            const HeapGuard guard;
+            for (std::size_t i = 0; i < frames; i += out.size())
+                source->process(out);
+            if constexpr (requires { source->reset(); })
+                source->reset();
+            REQUIRE(guard.traffic() == 0);
+        }
+    }
+}
+
+/// Numbers that no setter may stumble over: not finite, enormous, tiny, of the wrong sign, ordinary.
+inline constexpr double anyNumber[] = {std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::infinity(),
+                                       -std::numeric_limits<double>::infinity(),
+                                       1e308,
+                                       -1e308,
+                                       1e30,
+                                       -1e30,
+                                       5e-324,
+                                       -5e-324,
+                                       0.0,
+                                       -1.0,
+                                       0.5,
+                                       1.0,
+                                       12.0};
+
 /// One output of a DspBank as a block, so that the contract of blocks can be checked on banks too.
 template <DspBank Bank>
 class OutputOf

@@ -28,7 +28,7 @@ def main():
     root = Path(sys.argv[1])
     command = formatter()
     if command is None:
-        print(f"skipped: clang-format {VERSION} is missing (Debian 12: apt-get install clang-format)")
+        print(f"SKIPPED: clang-format {VERSION} is missing (Debian 12: apt-get install clang-format)")
         return 77
     files = sorted(str(path) for folder in FOLDERS for path in (root / folder).rglob("*") if path.suffix in {".h", ".cpp"})
     wrong = set()

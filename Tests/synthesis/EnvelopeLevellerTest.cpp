@@ -1,9 +1,16 @@
 #include "support/Catch.h"
+#include "support/Measure.h"
+#include "support/Render.h"
 
+#include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 using namespace pacini;
 
@@ -44,6 +51,42 @@ TEST_CASE("A steady sinusoid comes out at the wanted level", "[synthesis]")
         0.5, 20);
     for (std::size_t n = 200; n < m.size(); ++n)
         REQUIRE(m[n] == Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("Neighbouring bands do not beat up to 50 times a second, and stay rough from 150 on", "[synthesis]")
+{
+    // How far the power of the rendered sum of two bands swings at their distance, over its mean: 1 when they are
+    // equal.
+    const auto swing = [](double beat, double ratio, bool levelled)
+    {
+        Clip clip;
+        clip.duration = 3.0;
+        clip.envelope = {{0.0, 0.5}};
+        for (const auto& [frequency, amplitude] : {std::pair(300.0, 0.4), std::pair(300.0 + beat, 0.4 * ratio)})
+            clip.bands.push_back({frequency, frequency, frequency, 0, {{0.0, amplitude}}, {}});
+        DecoderParams params;
+        params.sampleRate = 8000.0;
+        params.followEnvelope = levelled;
+        Decoder decoder(clip, params);
+        auto power = test::render(decoder, 4096);
+        for (float& v : power)
+            v *= v;
+        const auto steady = std::span<const float>(power).subspan(4000, 16000); // 2 s: whole beats
+        return 2.0 * std::abs(test::spectrumAt(steady, beat, 8000.0)) / std::abs(test::spectrumAt(steady, 0.0, 8000.0));
+    };
+    for (const double ratio : {1.0, 0.7})
+    {
+        CAPTURE(ratio);
+        for (const double beat : {2.0, 5.0, 8.0, 15.0, 20.0, 30.0, 40.0, 50.0, 80.0, 100.0, 150.0, 200.0})
+        {
+            CAPTURE(beat);
+            CHECK(swing(beat, ratio, false) > 0.9);
+            const double left = swing(beat, ratio, true);
+            CHECK(left < (beat <= 30.0 ? 0.02 : beat <= 50.0 ? 0.09 : beat <= 100.0 ? 0.6 : 1.01));
+            if (beat >= 150.0)
+                CHECK(left > 0.8);
+        }
+    }
 }
 
 TEST_CASE("Slow beats of two sinusoids are levelled, fast ones stay", "[synthesis]")

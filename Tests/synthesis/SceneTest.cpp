@@ -87,17 +87,41 @@ Scene crowd(std::uint64_t seed, std::size_t count, std::size_t audible)
 }
 } // namespace
 
-TEST_CASE("A scene of one play is that clip", "[scene]")
+TEST_CASE("A scene of one play is that clip, within full drive", "[scene]")
 {
     for (std::uint64_t seed = 1; seed < 6; ++seed)
     {
+        CAPTURE(seed);
         Scene scene;
         scene.clips = {test::randomClip(seed)};
         scene.plays = {ScenePlay{}};
         Decoder decoder(scene.clips[0], {});
         std::vector<float> alone(static_cast<std::size_t>(decoder.totalFrames()));
         decoder.process(alone);
-        CHECK((render(scene, playEverything()).front() == alone));
+        const auto peakOf = [](const std::vector<float>& y)
+        {
+            float peak = 0.0f;
+            for (float v : y)
+                peak = std::max(peak, std::abs(v));
+            return peak;
+        };
+        const auto plan = compilePlan(scene, nullptr, playEverything());
+        REQUIRE(plan.ok());
+        ScenePlayer plain(*plan, {.protect = false});
+        CHECK((test::renderChannels(plain, 1, 1000).front() == alone));
+        CHECK(plain.mostReduction() == 0.0);
+        REQUIRE(peakOf(alone) > 1.0f);
+        ScenePlayer kept(*plan);
+        const auto within = test::renderChannels(kept, 1, 1000).front();
+        CHECK(peakOf(within) <= 1.0f);
+        CHECK(peakOf(within) > 0.95f);
+        CHECK(kept.mostReduction() == Approx(20.0 * std::log10(static_cast<double>(peakOf(alone)))).epsilon(1e-4));
+        // Half as loud it stays within full drive by itself, and is what it was bit for bit.
+        scene.gain = -20.0 * std::log10(1.1 * static_cast<double>(peakOf(alone)));
+        const auto soft = compilePlan(scene, nullptr, playEverything());
+        ScenePlayer quiet(*soft), quietPlain(*soft, {.protect = false});
+        CHECK((test::renderChannels(quiet, 1, 1000) == test::renderChannels(quietPlain, 1, 1000)));
+        CHECK(quiet.mostReduction() == 0.0);
     }
 }
 

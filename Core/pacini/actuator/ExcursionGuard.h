@@ -22,8 +22,8 @@ namespace pacini
 struct ExcursionParams
 {
     double frequency = 67.0;    ///< Hz, 1 to 20000
-    double q = 1.0;             ///< 0.01 to 100
-    double excursion = 1e-3;    ///< m at a drive of 1 far below resonance, 1e-9 to 1
+    double q = 1.0;             ///< 0.01 to 1000
+    double excursion = 1e-3;    ///< m at a drive of 1 far below resonance, 1e-9 to 10 (with overdrive)
     double maxExcursion = 1e-3; ///< m from rest, 1e-7 to 0.1
     bool operator==(const ExcursionParams&) const = default;
 };
@@ -58,8 +58,8 @@ struct ExcursionCoefficients
 [[nodiscard]] inline ExcursionCoefficients designExcursionGuard(const ExcursionParams& params, double fs) noexcept
 {
     const double frequency = clampTo(params.frequency, 1.0, 20000.0);
-    const double q = clampTo(params.q, 0.01, 100.0);
-    const double excursion = clampTo(params.excursion, 1e-9, 1.0);
+    const double q = clampTo(params.q, 0.01, 1000.0);
+    const double excursion = clampTo(params.excursion, 1e-9, 10.0);
     const double travel = clampTo(params.maxExcursion, 1e-7, 0.1);
 
     const double angle = 2.0 * std::numbers::pi * frequency / fs;

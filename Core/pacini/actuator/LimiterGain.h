@@ -1,6 +1,6 @@
 #pragma once
 
-// The gain of a limiter: soft knee, hold, release, look-ahead.
+// The gain of a limiter: knee, hold, release, look-ahead.
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +29,22 @@ struct SoftKnee
     static constexpr double endSquared = 1.2589254117941673;   ///< +1 dB
 };
 
+/// No knee: unity up to the limit, so that what keeps it by itself is not touched, exactly the limit above it.
+struct HardKnee
+{
+    [[nodiscard]] static double gain(double ratioSquared) noexcept
+    {
+        return ratioSquared > startSquared ? 1.0 / std::sqrt(ratioSquared) : 1.0;
+    }
+    static constexpr double startSquared = 1.0; ///< up to it the gain is 1
+};
+
 /// The gain that brings a level down to its limit. It holds the highest level for the time of `hold` (half a period of
 /// the lowest tone: the gain does not follow the waveform), then lets it go by 40 dB/s. With a look-ahead of n frames
 /// the gain is the mean of its newest n + 1 values, so that it arrives gradually at the frame that needs it, n frames
 /// after the level was told; hold must not be shorter than the look-ahead. Without look-ahead the gain acts at once.
-class LimiterGain
+template <typename Knee>
+class KneeLimiterGain
 {
 public:
     static constexpr double releaseRate = 40.0; ///< dB/s
@@ -55,7 +66,7 @@ public:
     void reset() noexcept
     {
         std::fill(window.begin(), window.end(), 1.0);
-        held = SoftKnee::startSquared;
+        held = Knee::startSquared;
         left = 0;
         target = 1.0;
         position = 0;
@@ -64,7 +75,7 @@ public:
         unity = length;
     }
 
-    /// Whether the gain is 1, and stays so as long as no level exceeds SoftKnee::startSquared.
+    /// Whether the gain is 1, and stays so as long as no level exceeds Knee::startSquared.
     [[nodiscard]] bool idle() const noexcept { return unity >= length; }
 
     /// Takes the square of the level over its limit and returns the gain, between 0 and 1.
@@ -72,7 +83,7 @@ public:
     {
         if (idle())
         {
-            if (!(ratioSquared > SoftKnee::startSquared))
+            if (!(ratioSquared > Knee::startSquared))
                 return 1.0;
             position = 0;
             sum = static_cast<double>(length);
@@ -86,9 +97,9 @@ public:
         else if (left > 0)
             --left;
         else
-            held = std::max({ratioSquared, held * decay, SoftKnee::startSquared}); // all lower ones are the same
+            held = std::max({ratioSquared, held * decay, Knee::startSquared}); // all lower ones are the same
         if (held != before)
-            target = held > SoftKnee::startSquared ? SoftKnee::gain(held) : 1.0;
+            target = held > Knee::startSquared ? Knee::gain(held) : 1.0;
         unity = target == 1.0 ? unity + 1 : 0;
 
         sum += target - window[position];
@@ -108,7 +119,7 @@ private:
 
     std::size_t hold = 1;
     double decay = 1.0;
-    double held = SoftKnee::startSquared;
+    double held = Knee::startSquared;
     std::size_t left = 0;
     double target = 1.0;
     std::size_t unity = 1; // how often the target has been 1 of late
@@ -118,5 +129,7 @@ private:
     double lap = 0.0;
     std::vector<double> window = std::vector<double>(1, 1.0);
 };
+
+using LimiterGain = KneeLimiterGain<SoftKnee>;
 
 } // namespace pacini

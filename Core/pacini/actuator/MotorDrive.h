@@ -2,14 +2,17 @@
 
 // The voltage of a motor with an eccentric mass, from the strength that is wanted.
 
+#include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/FirstOrderInverse.h>
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/ProtectionParams.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace pacini
@@ -24,6 +27,7 @@ struct MotorDriveParams
     double stallVoltage = 0.125; ///< below this a turning motor stops
     double kickTime = 0.020;     ///< s of start voltage when the spin-up time is not known
     bool braking = true;         ///< whether the voltage may be reversed to stop sooner
+    std::optional<CoilHeatParams> heat{}; ///< at the largest voltage; none: no limit
     bool operator==(const MotorDriveParams&) const = default;
 };
 
@@ -40,6 +44,7 @@ struct MotorDriveParams
     MotorDriveParams params;
     params.speedTimes = speedTimes(profile.response);
     params.overdrive = profile.drive.overdrive;
+    params.heat = protectionParams(profile, Seconds(0.0)).heat;
     return params;
 }
 
@@ -51,7 +56,10 @@ struct MotorDriveParams
 ///   higher than in motion), or for the kick time,
 /// - a strength that the motor cannot hold is raised to the weakest it can, stallVoltage^2; below a quarter of that it
 /// is
-///   0: there is nothing between.
+///   0: there is nothing between,
+/// - the voltage stays below what a coil that may not get hotter bears (see CoilHeat). A bound on a voltage distorts
+///   nothing, so that no gain has to go before it, and the modelled speed knows of it: a motor that was held back is
+///   not braked for a speed that it never had.
 ///
 /// Out of [-overdrive, overdrive], not negative without braking. No latency.
 class MotorDrive
@@ -67,7 +75,11 @@ public:
     }
     void setParams(const Params& params) noexcept
     {
+        if (!current.heat)
+            heat.reset();
         current = params;
+        if (params.heat)
+            heat.design(*params.heat, fs);
         speed.design(params.speedTimes, fs);
         highest = clampTo(params.overdrive, 1.0, 10.0);
         start = clampTo(params.startVoltage, 0.0, 1.0);
@@ -78,6 +90,7 @@ public:
     void reset() noexcept
     {
         speed.reset();
+        heat.reset();
         starting = false;
         kickLeft = 0;
     }
@@ -85,7 +98,12 @@ public:
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
         forEachSample(
-            in, out, [this](double strength) { return tick(strength); }, [this] { speed.flush(); });
+            in, out, [this](double strength) { return tick(strength); },
+            [this]
+            {
+                speed.flush();
+                heat.flush();
+            });
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
@@ -102,8 +120,11 @@ private:
             starting = true;
             kickLeft = kickFrames;
         }
-        const double lowest = starting ? start : current.braking ? -highest : 0.0;
-        const double voltage = speed.tick(wanted, lowest, highest);
+        const double most = current.heat ? highest * heat.admit(1.0) : highest;
+        const double lowest = starting ? std::min(start, most) : current.braking ? -most : 0.0;
+        const double voltage = speed.tick(wanted, lowest, most);
+        if (current.heat)
+            heat.advance(voltage / highest);
         if (kickLeft > 0)
             --kickLeft;
         else if (speed.value() >= wanted)
@@ -114,6 +135,7 @@ private:
     double fs = ProcessSpec{}.sampleRate;
     Params current;
     FirstOrderInverse speed;
+    CoilHeat heat;
     double highest = 1.0;
     double start = 0.0;
     double stall = 0.0;

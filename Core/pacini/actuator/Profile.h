@@ -49,7 +49,9 @@ struct ActuatorResponse
     bool operator==(const ActuatorResponse&) const = default;
 };
 
-/// Electrical and mechanical limits. A drive sample of 1 is the peak of a sinusoid of `maxVoltageRms` V.
+/// Electrical and mechanical limits. The rated drive is the peak of a sinusoid of `maxVoltageRms` V, or of a motor that
+/// direct voltage. A sample of 1 of the drive signal is `overdrive` times the rated drive; the limits hold for all of
+/// it.
 struct ActuatorDrive
 {
     std::optional<double> impedance;     ///< ohm
@@ -57,7 +59,7 @@ struct ActuatorDrive
     std::optional<double> maxPower;      ///< W of heat the coil bears for ever; needs impedance and voltage
     std::optional<double> thermalTime;   ///< s, time constant of its heating
     std::optional<double> maxExcursion;  ///< m from rest, of the moving mass against its case
-    std::optional<double> excursion;     ///< m from rest at a drive of 1 far below resonance; times q at resonance
+    std::optional<double> excursion;     ///< m from rest at the rated drive far below resonance; times q at resonance
     double overdrive = 1.0; ///< a driver may push up to this many times the rated drive for moments; a rated amplitude
                             ///< of 1 is then played at 1 / overdrive, so that there is room
     bool operator==(const ActuatorDrive&) const = default;
@@ -124,7 +126,7 @@ struct Profile
 };
 
 /// Checks every number of a profile. Errors name the path as in the file, such as `body.skinMass`. Frequencies are 1 to
-/// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 100; the rest as the messages say.
+/// 20000 Hz (transients 1 to 2000), low below high; q 0.01 to 1000; the rest as the messages say.
 [[nodiscard]] inline Result<void> validate(const Profile& profile)
 {
     std::optional<Error> error;
@@ -146,7 +148,7 @@ struct Profile
             check(where, *value, low, high, message);
     };
     check("resonance.frequency", profile.resonance.frequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
-    check("resonance.q", profile.resonance.q, 0.01, 100.0, "must be 0.01 to 100");
+    check("resonance.q", profile.resonance.q, 0.01, 1000.0, "must be 0.01 to 1000");
     check("range.lowFrequency", profile.range.lowFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
     check("range.highFrequency", profile.range.highFrequency, 1.0, 20000.0, "must be 1 to 20000 Hz");
     if (!(profile.range.lowFrequency < profile.range.highFrequency))

@@ -7,7 +7,10 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Units.h>
 
+#include <array>
+#include <cstdio>
 #include <optional>
+#include <string>
 
 namespace pacini
 {
@@ -18,23 +21,27 @@ struct ProtectionParams
     std::optional<CoilHeatParams> heat;       ///< none: no limit
     Hertz lowFrequency{20.0};                 ///< the lowest tone to be played, 1 to 20000 Hz
     Seconds lookAhead{0.001};                 ///< 0 (live) to 1 ms
+    bool boundsAlone = false;                 ///< without high-passes and gain: for direct voltages, whose mean counts
     bool operator==(const ProtectionParams&) const = default;
 };
 
-/// The most that any drive within +-1 can do to an actuator, and which limits can be reached at all. A limit that the
-/// profile does not name, or that no drive reaches, needs no protection and is left out without any error.
+/// The most that any drive can do to an actuator, and which limits can be reached at all. A limit that the profile does
+/// not name, or that no drive reaches, needs no protection and is left out without any error.
+///
+/// This is the only place where it is judged, and here alone overdrive comes in: the drive is a signal within +-1 whose
+/// 1 is the largest that can occur, `overdrive` times the rated drive. All parameters below are those of that signal.
 struct ProtectionNeeds
 {
     enum class Limit
     {
         unknown,  ///< the profile does not say enough to know the limit
-        unharmed, ///< no drive within +-1 reaches it
+        unharmed, ///< no drive within +-1 reaches it, overdriven or not
         guarded   ///< some drive would exceed it
     };
     Limit excursion = Limit::unknown;
     Limit heat = Limit::unknown;
-    double worstExcursion = 0.0; ///< m, when known
-    double worstPower = 0.0;     ///< W, when known
+    double worstExcursion = 0.0; ///< m with overdrive, when known
+    double worstPower = 0.0;     ///< W with overdrive, when known
 };
 
 /// The time constant of coils whose profile has none: short for them, so that protection acts too early, not too late.
@@ -46,17 +53,21 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const ActuatorDrive& drive = profile.drive;
     if (!drive.maxExcursion || !drive.excursion)
         return std::nullopt;
-    return ExcursionParams{profile.resonance.frequency, profile.resonance.q, *drive.excursion, *drive.maxExcursion};
+    return ExcursionParams{profile.resonance.frequency, profile.resonance.q, drive.overdrive * *drive.excursion,
+                           *drive.maxExcursion};
 }
 
-/// The heat limit of a valid profile, if it has one. A drive of 1 is the peak of a sinusoid of maxVoltageRms, so that
-/// the power of a drive u is 2 maxVoltageRms^2 u^2 / impedance.
+/// The heat limit of a valid profile, if it has one. The rated drive is the peak of a sinusoid of maxVoltageRms, or of
+/// a motor the direct voltage maxVoltageRms, so that the power of a drive u is 2 (1 of a motor) times (overdrive
+/// maxVoltageRms u)^2 / impedance.
 [[nodiscard]] inline std::optional<CoilHeatParams> coilHeatParams(const Profile& profile) noexcept
 {
     const ActuatorDrive& drive = profile.drive;
     if (!drive.maxPower || !drive.impedance || !drive.maxVoltageRms)
         return std::nullopt;
-    return CoilHeatParams{2.0 * *drive.maxVoltageRms * *drive.maxVoltageRms / *drive.impedance, *drive.maxPower,
+    const double most = drive.overdrive * *drive.maxVoltageRms;
+    const double squares = profile.technology == Technology::erm ? 1.0 : 2.0;
+    return CoilHeatParams{squares * most * most / *drive.impedance, *drive.maxPower,
                           drive.thermalTime.value_or(defaultThermalTime)};
 }
 
@@ -89,6 +100,28 @@ inline constexpr double defaultThermalTime = 1.0; // s
     params.lowFrequency = Hertz(profile.range.lowFrequency);
     params.lookAhead = lookAhead;
     return params;
+}
+
+/// What becomes of the limits of a valid profile, in plain words, such as "travel is kept within 0.9 mm; no drive
+/// reaches the heat limit".
+[[nodiscard]] inline std::string protectionText(const Profile& profile)
+{
+    using Limit = ProtectionNeeds::Limit;
+    const ProtectionNeeds needs = protectionNeeds(profile);
+    const auto rounded = [](double value)
+    {
+        std::array<char, 32> digits{};
+        std::snprintf(digits.data(), digits.size(), "%.3g", value);
+        return std::string(digits.data());
+    };
+    const auto text = [](Limit limit, const std::string& what, const std::string& kept)
+    {
+        return limit == Limit::guarded    ? what + " is kept within " + kept
+               : limit == Limit::unharmed ? "no drive reaches the limit of " + what
+                                          : "the profile names no limit of " + what;
+    };
+    return text(needs.excursion, "travel", rounded(1e3 * profile.drive.maxExcursion.value_or(0.0)) + " mm") + "; " +
+           text(needs.heat, "heat", rounded(profile.drive.maxPower.value_or(0.0)) + " W");
 }
 
 } // namespace pacini

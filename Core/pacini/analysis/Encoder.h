@@ -10,6 +10,8 @@
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/filters/RationalDecimator.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +34,8 @@ struct EncoderParams
     BandSpacing spacing = BandSpacing::logarithmic;
     double breakpoints = 20.0; ///< at most this many per second of sound and band, all curves together
     int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
-    bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive
+    bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
+                               ///< above it are scaled down to that
     OnsetParams onsets;        ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
@@ -93,7 +96,7 @@ public:
     {
     }
 
-    /// Begins a sound of 1-64 channels at 8000 to 384000 Hz.
+    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
     void start(int sampleRate, int channels)
     {
         fs = sampleRate;
@@ -109,9 +112,22 @@ public:
         detector.emplace(settings.onsets);
     }
 
-    /// Takes interleaved samples, whole frames, all finite.
+    /// Takes interleaved samples, whole frames. Those beyond +-1e12 are limited to it, those that are not finite count
+    /// as 0: the squares of all others can be computed.
     void push(std::span<const float> interleaved)
     {
+        const auto isSound = [](float x)
+        {
+            return std::abs(x) <= limits::sample;
+        };
+        if (!std::all_of(interleaved.begin(), interleaved.end(), isSound))
+        {
+            limited.resize(interleaved.size());
+            std::transform(interleaved.begin(), interleaved.end(), limited.begin(),
+                           [](float x)
+                           { return std::isfinite(x) ? clampTo(x, -limits::sample, limits::sample) : 0.0f; });
+            interleaved = limited;
+        }
         const std::size_t count = interleaved.size() / channelCount;
         frames += count;
         features->push(interleaved);
@@ -167,7 +183,8 @@ private:
         clip.duration = static_cast<double>(frames) / fs;
         clip.source.sampleRate = fs;
         clip.source.channels = static_cast<int>(channelCount);
-        const double gain = settings.normalise && found.peak > silence ? 1.0 / found.peak : 1.0;
+        const double loudest = settings.normalise ? 1.0 : 0.5 * limits::amplitude;
+        const double gain = found.peak > (settings.normalise ? silence : loudest) ? loudest / found.peak : 1.0;
         clip.encoder = encoderRecord(settings);
         clip.encoder.push_back({"gain", roundedToDigits(gain, 3)});
         for (const BandEdges& edge : edges)
@@ -294,6 +311,7 @@ private:
     std::vector<std::vector<float>> decimated;
     std::vector<std::span<const float>> views;
     std::vector<float> channel;
+    std::vector<float> limited;
 };
 
 } // namespace pacini

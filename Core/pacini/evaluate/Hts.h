@@ -187,7 +187,7 @@ inline void addEnvelopes(LevelSimilarity& similarity, std::span<const float> ref
 }
 
 /// The features of a mono source at `sampleRate` Hz: band-limited and normalised by prepareSource(), then at 4 kHz.
-/// ErrorCode::invalidArgument for rates outside 2000 to 384000 Hz.
+/// ErrorCode::invalidArgument for rates outside 2000 to 768000 Hz.
 template <typename Sample>
 [[nodiscard]] Result<HtsFeatures> htsSourceFeatures(HtsAnalyzer& analyzer, std::span<const Sample> samples,
                                                     int sampleRate)

@@ -242,7 +242,7 @@ inline void compareCentroids(const JudgeFeatures& reference, const JudgeFeatures
 }
 
 /// The features of a mono signal at `sampleRate` Hz, cut or padded to the analyzer's length.
-/// ErrorCode::invalidArgument for rates outside 2000 to 384000 Hz.
+/// ErrorCode::invalidArgument for rates outside 2000 to 768000 Hz.
 template <typename Sample>
 [[nodiscard]] Result<JudgeFeatures> judgeFeatures(JudgeAnalyzer& analyzer, std::span<const Sample> samples,
                                                   int sampleRate)

@@ -15,7 +15,7 @@ namespace pacini
 /// compiler knows: it keeps all coefficients and states in registers and overlaps the recursions of neighbouring
 /// sections, which makes it about twice as fast; the comparison of long recordings spends much of its time here. Takes
 /// samples in double precision too, and does not guard against denormals: recordings end. The direct form is exact
-/// enough here (see Biquad.h): rates are at most 384 kHz, q is near 1, and features are floats.
+/// enough here (see Biquad.h): rates are at most 768 kHz, q is near 1, and features are floats.
 template <std::size_t count>
 class SectionCascade
 {

@@ -22,7 +22,7 @@ namespace pacini
 /// no low-pass below 3674 Hz, where there is nothing to remove), resampled to `outputRate`, and scaled so that the peak
 /// before resampling was 1. Silence stays silence. Samples that are not finite count as 0. The band is that of M.
 /// Weber, "A Framework for Audio-Tactile Signal Translation", 2020, section 4.3. Works in blocks: the limited signal is
-/// never held as a whole. ErrorCode::invalidArgument for rates outside 2000 to 384000 Hz.
+/// never held as a whole. ErrorCode::invalidArgument for rates outside 2000 to 768000 Hz.
 template <typename Sample>
 [[nodiscard]] Result<std::vector<Sample>> prepareSource(std::span<const Sample> samples, int sampleRate, int outputRate)
 {

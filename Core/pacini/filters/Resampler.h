@@ -21,7 +21,7 @@ namespace pacini
 
 /// The rates that resample() and everything built on it accepts.
 inline constexpr int lowestResamplerRate = 2000;    ///< Hz
-inline constexpr int highestResamplerRate = 384000; ///< Hz
+inline constexpr int highestResamplerRate = 768000; ///< Hz
 
 namespace detail
 {
@@ -32,7 +32,7 @@ namespace detail
     const auto rate = static_cast<std::size_t>(std::max(up, down));
     const std::size_t half = 10 * rate;
     // The window is I0(beta sqrt(w)), w = 1 - u^2: as a power series it is a polynomial in w, whose terms are taken for
-    // all taps at once. 20 terms leave 1e-20. (besselI0() would find its terms anew for each of up to 7.7 million
+    // all taps at once. 20 terms leave 1e-20. (besselI0() would find its terms anew for each of up to 15 million
     // taps.)
     constexpr double beta = 5.0;
     constexpr std::size_t terms = 20;
@@ -180,7 +180,7 @@ private:
     std::vector<Sample> taps;
 };
 
-/// Success, or ErrorCode::invalidArgument when `rate` (Hz) is outside 2000 to 384000.
+/// Success, or ErrorCode::invalidArgument when `rate` (Hz) is outside 2000 to 768000.
 [[nodiscard]] inline Result<void> checkResamplerRate(int rate)
 {
     if (rate < lowestResamplerRate || rate > highestResamplerRate)
@@ -191,7 +191,7 @@ private:
 }
 
 /// The whole signal `x` at another rate: see Resampler. The same rate gives a copy, an empty signal an empty one.
-/// ErrorCode::invalidArgument for rates outside 2000 to 384000 Hz.
+/// ErrorCode::invalidArgument for rates outside 2000 to 768000 Hz.
 template <typename Sample>
 [[nodiscard]] Result<std::vector<Sample>> resample(std::span<const Sample> x, int inputRate, int outputRate)
 {

@@ -12,6 +12,19 @@
 namespace pacini
 {
 
+namespace limits
+{
+inline constexpr double lowestRate = 2000.0;    ///< Hz, of blocks and players
+inline constexpr double highestRate = 768000.0; ///< Hz
+inline constexpr float sample = 1e12f;          ///< magnitude of sound: 1 is full scale, integers of 32 bits reach 2e9
+} // namespace limits
+
+/// Whether signals are made at `fs` Hz: 2 to 768 kHz.
+[[nodiscard]] constexpr bool isPlayableRate(double fs) noexcept
+{
+    return fs >= limits::lowestRate && fs <= limits::highestRate;
+}
+
 /// What a block is prepared for. Rates outside 2-768 kHz and empty blocks are the caller's error.
 struct ProcessSpec
 {

@@ -20,6 +20,7 @@ enum class ErrorCode
     notFinite,          ///< a NaN or an infinity where a number is needed
     tooLarge,           ///< a size or a count is beyond what is accepted
     io,                 ///< the file system refused
+    diskFull,           ///< no more can be written there
 };
 
 /// A failure: `where` is a path into the input such as `bands[2].amplitude[7].time`, empty for the whole input.

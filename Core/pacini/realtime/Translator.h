@@ -77,13 +77,14 @@ public:
         return translatorPlan(designTranslator(setup, fs), wanted);
     }
 
-    /// Takes effect on the next point of the control grid, about 1 ms, smoothly; right after reset() at once. [audio]
+    /// Takes effect on the next point of the control grid, about 1 ms, smoothly; right after reset() at once. Values
+    /// that are not finite leave the ones before. [audio]
     void setParams(const Params& wanted) noexcept
     {
-        if (wanted == current)
+        const Params valid = clamped(wanted, current);
+        if (valid == current)
             return;
-        current = wanted;
-        const Params valid = clamped(wanted);
+        current = valid;
         engine.setParams(valid);
         bypassTarget = valid.bypass ? 1.0f : 0.0f;
         if (!begun)
@@ -153,13 +154,16 @@ private:
         Designs::Parcel* parcel = designs->receive();
         if (!parcel)
             return;
+        const TranslatorDesign& design = parcel->content;
+        // Only another actuator is at rest and cold: the same one goes on moving while the drive fades.
+        const bool same = held && held->content.protection == design.protection;
         designs->giveBack(held.release());
         held.reset(parcel);
-        const TranslatorDesign& design = parcel->content;
         engine.adopt(design);
         if (design.protection)
             protection.setParams(*design.protection);
-        protection.reset();
+        if (!same)
+            protection.reset();
         readings->setBands(design.bands.size(), design.feltRange);
     }
 

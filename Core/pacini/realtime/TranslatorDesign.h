@@ -150,21 +150,18 @@ struct TranslatorDesign
                                                   : "the equaliser does it"});
         }
         ProtectionParams limits = protectionParams(profile, Seconds(0.0));
-        if ((limits.excursion || limits.heat) && !design.motor)
+        if (design.motor) // it turns: nothing swings, and the mean of its voltage must stay
         {
-            const double overdrive = profile.drive.overdrive;
-            if (limits.excursion)
-                limits.excursion->excursion *= overdrive;
-            if (limits.heat)
-                limits.heat->fullDrivePower *= overdrive * overdrive;
-            design.protection = limits;
+            limits.boundsAlone = true;
+            limits.excursion.reset();
         }
+        if (limits.excursion || limits.heat)
+            design.protection = limits;
     }
     if (!known)
         plan.push_back({"adaptation", "no actuator is known"});
     if (!design.protection)
-        plan.push_back({"protection", design.motor ? "a motor bears its rated voltage"
-                                                   : "no drive within full scale reaches a limit of the profile"});
+        plan.push_back({"protection", setup.profile ? protectionText(*setup.profile) : "no actuator is known"});
     if (known && design.levels.isIdentity())
         plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
     design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;

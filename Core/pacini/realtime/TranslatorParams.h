@@ -4,7 +4,7 @@
 
 #include <pacini/foundation/Clamp.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace pacini
 {
@@ -19,8 +19,8 @@ struct RoleParams
 
 inline constexpr double lowestBrightness = -60.0; ///< dB, which is off
 
-/// Values outside their ranges are clamped, NaN to the lower end (see clamped()). Every change is smoothed: gains move
-/// within about 20 ms, pitches glide.
+/// Values outside their ranges are clamped, those that are not finite ignored (see clamped()). Every change is
+/// smoothed: gains move within about 20 ms, pitches glide.
 struct TranslatorParams
 {
     double inputGain = 0.0;     ///< dB, -60 to 48: what the analysis sees
@@ -42,21 +42,27 @@ struct TranslatorParams
     bool operator==(const TranslatorParams&) const = default;
 };
 
-[[nodiscard]] inline TranslatorParams clamped(TranslatorParams p) noexcept
+/// `p` within its ranges. Where a value is not finite, that of `before`, which has valid ones, stays.
+[[nodiscard]] inline TranslatorParams clamped(TranslatorParams p, const TranslatorParams& before = {}) noexcept
 {
-    for (RoleParams* role : {&p.rumble, &p.texture, &p.transients})
-        role->level = clampTo(role->level, -60.0, 24.0);
-    p.inputGain = clampTo(p.inputGain, -60.0, 48.0);
-    p.intensity = clampTo(p.intensity, -60.0, 24.0);
-    p.brightness = clampTo(p.brightness, lowestBrightness, 12.0);
-    p.transposition = clampTo(p.transposition, -48.0, 48.0);
-    p.direct = clampTo(p.direct, 0.0, 1.0);
-    p.attack = clampTo(p.attack, 0.0, 200.0);
-    p.release = clampTo(p.release, 0.0, 1000.0);
-    p.transientSensitivity = clampTo(p.transientSensitivity, 0.0, 1.0);
-    p.transientSharpness = clampTo(p.transientSharpness, -1.0, 1.0);
-    p.gateThreshold = clampTo(p.gateThreshold, -120.0, 0.0);
-    p.gateRelease = clampTo(p.gateRelease, 1.0, 2000.0);
+    const auto limit = [](double& value, double low, double high, double otherwise)
+    {
+        value = std::isfinite(value) ? clampTo(value, low, high) : otherwise;
+    };
+    for (RoleParams TranslatorParams::*role :
+         {&TranslatorParams::rumble, &TranslatorParams::texture, &TranslatorParams::transients})
+        limit((p.*role).level, -60.0, 24.0, (before.*role).level);
+    limit(p.inputGain, -60.0, 48.0, before.inputGain);
+    limit(p.intensity, -60.0, 24.0, before.intensity);
+    limit(p.brightness, lowestBrightness, 12.0, before.brightness);
+    limit(p.transposition, -48.0, 48.0, before.transposition);
+    limit(p.direct, 0.0, 1.0, before.direct);
+    limit(p.attack, 0.0, 200.0, before.attack);
+    limit(p.release, 0.0, 1000.0, before.release);
+    limit(p.transientSensitivity, 0.0, 1.0, before.transientSensitivity);
+    limit(p.transientSharpness, -1.0, 1.0, before.transientSharpness);
+    limit(p.gateThreshold, -120.0, 0.0, before.gateThreshold);
+    limit(p.gateRelease, 1.0, 2000.0, before.gateRelease);
     return p;
 }
 

@@ -2,6 +2,7 @@
 
 // Ramer, Douglas and Peucker's line simplification: the point that matters most is kept first.
 
+#include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/Deviation.h>
 #include <pacini/simplify/KeptPoints.h>
 
@@ -61,7 +62,7 @@ namespace pacini
 {
     if (dense.size() < 3)
         return allPoints(dense.size());
-    return splitWorst(dense, {0, dense.size() - 1}, count, 0.0);
+    return splitWorst(ComputableCurve(dense).points(), {0, dense.size() - 1}, count, 0.0);
 }
 
 /// The same split until no point deviates by more than `maxError` (0 or more).
@@ -69,7 +70,8 @@ namespace pacini
 {
     if (dense.size() < 3)
         return allPoints(dense.size());
-    return splitWorst(dense, {0, dense.size() - 1}, dense.size(), maxError);
+    const ComputableCurve computable(dense);
+    return splitWorst(computable.points(), {0, dense.size() - 1}, dense.size(), computable.scaled(maxError));
 }
 
 } // namespace pacini

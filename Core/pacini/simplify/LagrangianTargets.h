@@ -3,6 +3,7 @@
 // Least-squares simplification of one curve to a number of points or to an error bound.
 
 #include <pacini/simplify/BudgetSpread.h>
+#include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/DouglasPeucker.h>
 #include <pacini/simplify/KeptPoints.h>
 #include <pacini/simplify/Lagrangian.h>
@@ -21,8 +22,10 @@ namespace pacini
 /// Where the dense curve has more than 24 samples per point wanted, it is thinned to that first. On the envelopes of 6
 /// recordings at 1 kHz the RMS error was then within 1 % (5 points/s) and 3 % (10) of the search over all samples,
 /// which took 30 and 12 times as long. Segments of up to 8 times the mean length are searched exactly.
-[[nodiscard]] inline KeptPoints lagrangianToCount(std::span<const Breakpoint> dense, std::size_t count)
+[[nodiscard]] inline KeptPoints lagrangianToCount(std::span<const Breakpoint> curve, std::size_t count)
 {
+    const ComputableCurve computable(curve);
+    const auto dense = computable.points();
     constexpr std::size_t samplesPerPoint = 24;
     constexpr std::size_t maxSegmentLength = 8 * samplesPerPoint;
     count = std::max<std::size_t>(count, 2);
@@ -30,8 +33,8 @@ namespace pacini
         return allPoints(dense.size());
     const auto solve = [count](const DenseSamples& samples)
     {
-        const BudgetCurve curve{samples, 1.0, 2};
-        return BudgetSpread(maxSegmentLength).spread(std::span(&curve, 1), count).value().kept.front();
+        const BudgetCurve priced{samples, 1.0, 2};
+        return BudgetSpread(maxSegmentLength).spread(std::span(&priced, 1), count).value().kept.front();
     };
     if (dense.size() / count <= samplesPerPoint)
         return solve(DenseColumns(dense).samples());
@@ -44,8 +47,11 @@ namespace pacini
 /// Few points with a maximum vertical error of at most `maxError` (0 or more): of the solutions at a ladder of prices
 /// per point, each repaired by splits where it breaks the bound, the one with the fewest points. Least squares is not
 /// made for a bound of the maximum; optimalToBound needs fewer points.
-[[nodiscard]] inline KeptPoints lagrangianToBound(std::span<const Breakpoint> dense, double maxError)
+[[nodiscard]] inline KeptPoints lagrangianToBound(std::span<const Breakpoint> curve, double maxError)
 {
+    const ComputableCurve computable(curve);
+    const auto dense = computable.points();
+    maxError = computable.scaled(maxError);
     const std::size_t n = dense.size();
     KeptPoints best = douglasPeuckerToBound(dense, maxError);
     if (n < 3 || !(maxError > 0.0))

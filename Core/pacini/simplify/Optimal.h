@@ -2,6 +2,7 @@
 
 // Exact simplification: the yardstick of the other methods, and the method of choice for short curves.
 
+#include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/DenseSamples.h>
 #include <pacini/simplify/Deviation.h>
 #include <pacini/simplify/GrowingSegment.h>
@@ -24,11 +25,14 @@ namespace pacini
 /// values); among those the ones with the least squared error. Shortest path over the segments that hold the bound,
 /// which a cone of slopes per start finds: Imai and Iri, "Computational-geometric methods for polygonal approximations
 /// of a curve", 1986. O(n s), s the mean length over which a line can hold the bound; O(n^2) for a straight curve.
-[[nodiscard]] inline KeptPoints optimalToBound(std::span<const Breakpoint> dense, double maxError)
+[[nodiscard]] inline KeptPoints optimalToBound(std::span<const Breakpoint> curve, double maxError)
 {
-    const std::size_t n = dense.size();
+    const std::size_t n = curve.size();
     if (n < 3)
         return allPoints(n);
+    const ComputableCurve computable(curve);
+    const auto dense = computable.points();
+    maxError = computable.scaled(maxError);
     const DenseColumns columns(dense);
     const DenseSamples samples = columns.samples();
     double largest = 0.0;
@@ -72,12 +76,14 @@ namespace pacini
 
 /// At most `count` points (2 at least) with the least possible maximum vertical error, to 1e-12 of it: bisection of the
 /// bound, which ends on an error that really occurs. Some 50 times the cost of optimalToBound.
-[[nodiscard]] inline KeptPoints optimalToCount(std::span<const Breakpoint> dense, std::size_t count)
+[[nodiscard]] inline KeptPoints optimalToCount(std::span<const Breakpoint> curve, std::size_t count)
 {
-    const std::size_t n = dense.size();
+    const std::size_t n = curve.size();
     count = std::max<std::size_t>(count, 2);
     if (n <= count)
         return allPoints(n);
+    const ComputableCurve computable(curve);
+    const auto dense = computable.points();
     KeptPoints best = optimalToBound(dense, 0.0);
     if (best.size() <= count)
         return best;
@@ -87,6 +93,8 @@ namespace pacini
     while (high - low > 1e-12 * high)
     {
         const double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high))
+            break; // nothing lies between them
         KeptPoints kept = optimalToBound(dense, middle);
         if (kept.size() > count)
         {

@@ -4,6 +4,7 @@
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/DouglasPeucker.h>
 #include <pacini/simplify/KeptPoints.h>
 #include <pacini/simplify/LagrangianTargets.h>
@@ -47,8 +48,11 @@ namespace detail
 {
 
 /// The streaming method over a whole curve.
-[[nodiscard]] inline Curve streamThrough(std::span<const Breakpoint> dense, const StreamingParams& params)
+[[nodiscard]] inline Curve streamThrough(std::span<const Breakpoint> dense, StreamingParams params)
 {
+    const ComputableCurve computable(dense);
+    params.tolerance = computable.scaled(params.tolerance);
+    params.lowest = computable.scaled(params.lowest);
     Curve curve;
     StreamingSimplifier simplifier;
     simplifier.prepare(params);
@@ -56,10 +60,10 @@ namespace detail
     {
         curve.push_back(p);
     };
-    for (const Breakpoint& p : dense)
+    for (const Breakpoint& p : computable.points())
         simplifier.push(p, sink);
     simplifier.finish(sink);
-    return curve;
+    return computable.unscaled(curve);
 }
 
 [[nodiscard]] inline Curve simplifyToCount(std::span<const Breakpoint> dense, const SimplifyParams& params,
@@ -159,11 +163,12 @@ namespace detail
     }
     if (!params.refit)
         return curve;
+    const ComputableCurve computable(dense);
     RefitParams fit;
-    fit.lowest = params.lowest;
+    fit.lowest = computable.scaled(params.lowest);
     if (holdsBound)
-        fit.maxError = *params.maxError;
-    return refit(dense, curve, {}, fit);
+        fit.maxError = computable.scaled(*params.maxError);
+    return computable.unscaled(refit(computable.points(), computable.scaled(curve), {}, fit));
 }
 
 } // namespace pacini

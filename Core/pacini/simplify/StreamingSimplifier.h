@@ -5,6 +5,7 @@
 #include <pacini/simplify/SwingFilter.h>
 #include <pacini/simplify/WindowedLagrangian.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -54,11 +55,15 @@ public:
         with([](auto& m) { m.reset(); });
     }
 
-    /// The next point, times in order; sink(const Breakpoint&) receives the finished vertices. A point that is not
-    /// finite or goes back in time is ignored.
+    /// The next point, times in order; sink(const Breakpoint&) receives the finished vertices. A point whose value or
+    /// time is not finite or beyond +-1e100, where squares would not be finite, is ignored, as is one that goes back in
+    /// time.
     template <typename Sink>
     void push(const Breakpoint& point, Sink&& sink) noexcept
     {
+        constexpr double largest = 1e100;
+        if (!(std::abs(point.time) <= largest && std::abs(point.value) <= largest))
+            return;
         with([&](auto& m) { m.push(point, sink); });
     }
 

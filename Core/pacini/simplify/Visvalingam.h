@@ -2,6 +2,7 @@
 
 // Visvalingam and Whyatt's line simplification: the point that matters least goes first.
 
+#include <pacini/simplify/ComputableCurve.h>
 #include <pacini/simplify/Deviation.h>
 #include <pacini/simplify/KeptPoints.h>
 
@@ -155,14 +156,18 @@ template <typename MayRemove>
 /// A curve of no more than `count` points is kept whole.
 [[nodiscard]] inline KeptPoints visvalingamToCount(std::span<const Breakpoint> dense, std::size_t count)
 {
-    return detail::eliminate(dense, count, [](std::size_t, std::size_t, std::size_t) { return true; });
+    const ComputableCurve computable(dense);
+    return detail::eliminate(computable.points(), count, [](std::size_t, std::size_t, std::size_t) { return true; });
 }
 
 /// The same order of removal, but no removal that would bring the maximum vertical error above `maxError` (0 or more).
 /// Near O(n log n): a segment's error is bounded by its parts' and the removed point's own deviation, and the points
 /// are only looked at where that bound is too large.
-[[nodiscard]] inline KeptPoints visvalingamToBound(std::span<const Breakpoint> dense, double maxError)
+[[nodiscard]] inline KeptPoints visvalingamToBound(std::span<const Breakpoint> curve, double maxError)
 {
+    const ComputableCurve computable(curve);
+    const auto dense = computable.points();
+    maxError = computable.scaled(maxError);
     std::vector<double> bound(dense.size(), 0.0); // of the segment that starts here
     const auto mayRemove = [&](std::size_t before, std::size_t point, std::size_t after)
     {

@@ -2,6 +2,7 @@
 
 // Scene -> RenderPlan.
 
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/ErrorSum.h>
@@ -27,7 +28,7 @@ struct CompileParams
 {
     double tolerance = -60.0;    ///< dB below the scene's energy that may be lost by leaving things out
     bool leaveOut = true;        ///< false plays everything, for comparison
-    double sampleRate = 48000.0; ///< Hz, of the players to come; levels of the equaliser depend on it a little
+    double sampleRate = 48000.0; ///< Hz, 2000 to 768000, of the players to come; levels of the equaliser depend on it
     DecoderChoice decoder;
     bool adapt = true; ///< fit clips to the actuator; false plays them as they are
     AdaptationParams adaptation;
@@ -229,11 +230,14 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
 
 /// Works out what a scene needs on an actuator (none: the plain drive signal). What costs least is left out first,
 /// until the sum of the errors reaches the tolerance: plays that are silent, too weak to matter or after the end, bands
-/// of the others, sections of the equaliser that are flat. Errors: those of validate(); loops that would unroll to more
-/// than 20 million breakpoints (`plays[i].loop`, tooLarge). [worker]
+/// of the others, sections of the equaliser that are flat. Errors: those of validate(); a rate that nothing plays at
+/// (`sampleRate`, invalidArgument); loops that would unroll to more than 20 million breakpoints (`plays[i].loop`,
+/// tooLarge). [worker]
 [[nodiscard]] inline Result<RenderPlan> compilePlan(const Scene& scene, const Profile* profile = nullptr,
                                                     const CompileParams& params = {})
 {
+    if (!isPlayableRate(params.sampleRate))
+        return Error{ErrorCode::invalidArgument, "sampleRate", "must be 2000 to 768000 Hz"};
     if (auto valid = validate(scene); !valid)
         return valid.error();
     if (profile != nullptr)

@@ -4,6 +4,8 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
@@ -35,9 +37,12 @@ namespace pacini
 class Decoder
 {
 public:
-    /// `changes` happen while it plays, in order of time.
+    /// `changes` happen while it plays, in order of time; those that are not finite do not.
     Decoder(const Clip& clip, const DecoderParams& wanted, std::vector<DecoderChange> changes = {})
-        : params(clamped(wanted)), scheduled(std::move(changes)), clock(scheduled.size())
+        : params(clamped(wanted)),
+          playable(isPlayableRate(wanted.sampleRate)),
+          scheduled(finiteOnes(std::move(changes))),
+          clock(scheduled.size())
     {
         const Clip varied = vary(clip, params.variation);
         const double fs = params.sampleRate;
@@ -45,9 +50,9 @@ public:
         delayFrames = static_cast<std::int64_t>(std::floor(params.delay * fs + 0.5));
         clipFrames = clip.duration * params.stretch * fs;
 
-        double most = params.transposition + std::max(0.0, params.headroom);
+        double most = params.transposition + params.headroom;
         for (const DecoderChange& change : scheduled)
-            most = std::max(most, change.transposition);
+            most = std::max(most, clampTo(change.transposition, lowestTransposition, highestTransposition));
         const double highest =
             std::max(params.reach, highestFrequency(varied, params.carriers)) * std::pow(2.0, most / 12.0);
         ratio = params.fullRate
@@ -79,9 +84,12 @@ public:
 
     /// From the next frame on the clip plays at another pitch and speed. What has been computed ahead stays, at most
     /// one hop (64 inner frames, up to 16 ms) and the delay of the leveller; scheduled changes come on their sample.
-    /// Scheduled changes still to come are dropped. Clamped like the parameters. [audio]
+    /// Scheduled changes still to come are dropped. Clamped like the parameters; a change that is not finite is
+    /// ignored. [audio]
     void change(double transposition, double stretch) noexcept
     {
+        if (!std::isfinite(transposition) || !std::isfinite(stretch))
+            return;
         // The clock holds no change ahead of what is computed but scheduled ones. Events are begun where the output is,
         // the envelope is read back by the leveller's delay.
         clock.dropAfter(static_cast<double>(innerFrame));
@@ -149,19 +157,40 @@ private:
 
     static DecoderParams clamped(DecoderParams p)
     {
-        p.sampleRate = std::clamp(p.sampleRate, 2000.0, 192000.0);
-        p.transposition = std::clamp(p.transposition, lowestTransposition, highestTransposition);
-        p.stretch = std::clamp(p.stretch, shortest, longest);
-        p.delay = std::clamp(p.delay, 0.0, 3600.0);
-        p.pulses.frequency = std::clamp(p.pulses.frequency, 1.0, 20000.0);
-        p.pulses.cycles = std::clamp(p.pulses.cycles, 0.0, 100.0);
+        const DecoderParams usual;
+        const auto within = [](double value, double low, double high, double otherwise)
+        {
+            return std::isfinite(value) ? clampTo(value, low, high) : otherwise;
+        };
+        p.sampleRate = within(p.sampleRate, limits::lowestRate, limits::highestRate, usual.sampleRate);
+        p.transposition = within(p.transposition, lowestTransposition, highestTransposition, usual.transposition);
+        p.stretch = within(p.stretch, shortest, longest, usual.stretch);
+        p.gain = within(p.gain, 0.0, limits::amplitude, usual.gain);
+        p.delay = within(p.delay, 0.0, 3600.0, usual.delay);
+        p.headroom = within(p.headroom, 0.0, highestTransposition - lowestTransposition, usual.headroom);
+        p.reach = within(p.reach, 0.0, limits::frequency, usual.reach);
+        PulseParams& pulse = p.pulses;
+        pulse.frequency = within(pulse.frequency, 1.0, 20000.0, usual.pulses.frequency);
+        pulse.cycles = within(pulse.cycles, 0.0, 100.0, usual.pulses.cycles);
+        pulse.lowest = within(pulse.lowest, 1.0, 20000.0, usual.pulses.lowest);
+        pulse.highest = within(pulse.highest, pulse.lowest, 20000.0, usual.pulses.highest);
         return p;
+    }
+
+    static std::vector<DecoderChange> finiteOnes(std::vector<DecoderChange> changes)
+    {
+        std::erase_if(changes,
+                      [](const DecoderChange& change) {
+                          return !std::isfinite(change.time) || !std::isfinite(change.transposition) ||
+                                 !std::isfinite(change.stretch);
+                      });
+        return changes;
     }
 
     void addChange(double from, double transposition, double stretch) noexcept
     {
-        const double semitones = std::clamp(transposition, lowestTransposition, highestTransposition);
-        clock.change(std::max(from, 0.0), params.stretch / std::clamp(stretch, shortest, longest),
+        const double semitones = clampTo(transposition, lowestTransposition, highestTransposition);
+        clock.change(std::max(from, 0.0), params.stretch / clampTo(stretch, shortest, longest),
                      std::pow(2.0, (semitones - params.transposition) / 12.0));
         setEnd();
     }
@@ -169,7 +198,7 @@ private:
     /// Where the clip ends, by what the clock knows.
     void setEnd() noexcept
     {
-        endFrame = delayFrames + static_cast<std::int64_t>(std::floor(outputFrameOf(clipFrames) + 0.5));
+        endFrame = !playable ? 0 : delayFrames + static_cast<std::int64_t>(std::floor(outputFrameOf(clipFrames) + 0.5));
     }
 
     /// The output frame after the delay at which the clip gets to `clipFrame`, both in output frames.
@@ -274,7 +303,7 @@ private:
             if (leveller)
                 leveller->process(re, im, [this](std::size_t pass) { return envelopeOf(pass); });
             for (std::size_t n = 0; n < hopFrames; ++n)
-                inner[n] = static_cast<float>(im[n]); // sines, as in Eq. 4.13
+                inner[n] = toSample(im[n]); // sines, as in Eq. 4.13
             interpolator->process(inner, ready);
             innerFrame += static_cast<std::int64_t>(hopFrames);
             const std::size_t skipped = std::min(skip, ready.size());
@@ -340,6 +369,7 @@ private:
     }
 
     DecoderParams params;
+    bool playable = true; // at the rate that is wanted
     std::vector<DecoderChange> scheduled;
     PlayClock clock; // in inner frames, from the end of the delay on
     std::int64_t delayFrames = 0;

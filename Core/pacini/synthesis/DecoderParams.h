@@ -22,19 +22,20 @@ enum class CarrierMode
     none,     ///< no sinusoids: the sum of the amplitudes itself, for motors
 };
 
+/// Values outside their ranges are clamped to the nearest end, those that are not finite to the default.
 struct DecoderParams
 {
-    double sampleRate = 48000.0; ///< Hz, 2000 to 192000
+    double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a clip at any other rate has no frames
     CarrierMode carriers = CarrierMode::pitch;
     bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
     bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
     PulseParams pulses;
     VariationParams variation;
-    double transposition = 0.0; ///< semitones
-    double stretch = 1.0;       ///< 2 = twice as long; pitches stay
-    double gain = 1.0;          ///< linear
-    double delay = 0.0;         ///< s of silence before the clip
-    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition
+    double transposition = 0.0; ///< semitones, -96 to 96
+    double stretch = 1.0;       ///< 2 = twice as long; pitches stay; 0.001 to 1000
+    double gain = 1.0;          ///< linear, 0 to 1000
+    double delay = 0.0;         ///< s of silence before the clip, 0 to 3600
+    double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition, 0 to 192
     double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
     bool operator==(const DecoderParams&) const = default;
 };

@@ -2,9 +2,12 @@
 
 // RenderPlan -> drive signals.
 
+#include <pacini/actuator/LevelLimiter.h>
 #include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/CurvePieces.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DelayTap.h>
@@ -26,10 +29,10 @@ namespace pacini
 
 struct ScenePlayerParams
 {
-    double sampleRate = 48000.0;                                 ///< Hz, 2000 to 192000
+    double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a scene at any other rate has no frames
     double builtUntil = std::numeric_limits<double>::infinity(); ///< s: makes the decoders of plays that start before
-    bool protect = true;                                         ///< keep within the limits of the profile
-    Seconds lookAhead{0.001}; ///< of the protection, 0 to 1 ms; taken out of the output
+    bool protect = true;      ///< keep within full drive and the limits of the profile
+    Seconds lookAhead{0.001}; ///< of that, 0 to 1 ms; taken out of the output
 };
 
 /// What the decoder of a play was made to play.
@@ -49,8 +52,9 @@ class ScenePlayer
 public:
     explicit ScenePlayer(RenderPlan planToPlay, const ScenePlayerParams& params = {})
         : plan(std::move(planToPlay)),
-          fs(std::clamp(params.sampleRate, 2000.0, 192000.0)),
-          endFrame(static_cast<std::int64_t>(std::floor(plan.duration * fs + 0.5)))
+          fs(clampTo(params.sampleRate, limits::lowestRate, limits::highestRate)),
+          endFrame(isPlayableRate(params.sampleRate) ? static_cast<std::int64_t>(std::floor(plan.duration * fs + 0.5))
+                                                     : 0)
     {
         for (const PlannedPlay& planned : plan.plays)
         {
@@ -59,11 +63,11 @@ public:
             voice.levels.assign(plan.actuators, Level{});
             voices.push_back(std::move(voice));
         }
-        if (plan.profile)
+        if (plan.profile || params.protect)
             for (std::size_t a = 0; a < plan.actuators; ++a)
-                outputs.push_back(makeOutput(*plan.profile, params));
+                outputs.push_back(plan.profile ? makeOutput(*plan.profile, params) : makeOutput(params));
         if (!outputs.empty())
-            preRoll = outputs.front().protection ? outputs.front().protection->latencyFrames() : 0;
+            preRoll = outputs.front().latencyFrames();
         discarded.resize(plan.actuators * blockFrames);
         build(params.builtUntil);
     }
@@ -97,6 +101,9 @@ public:
     /// Largest number of plays that sound at a time so far, for reports.
     [[nodiscard]] std::size_t mostSounding() const noexcept { return most; }
 
+    /// The most that the protection of any actuator has taken so far, dB, for reports.
+    [[nodiscard]] double mostReduction() const noexcept { return reduction; }
+
     /// Writes the next frames: one span for each actuator, all of the same length; silence after the end. [audio]
     void process(std::span<const std::span<float>> out) noexcept
     {
@@ -124,14 +131,17 @@ public:
     /// one; null when nothing is protected. [audio]
     [[nodiscard]] const ProtectionMeter* protectionMeter(std::size_t actuator = 0) const noexcept
     {
-        const bool any = actuator < outputs.size() && outputs[actuator].protection;
-        return any ? &outputs[actuator].protection->meter() : nullptr;
+        return actuator < outputs.size() ? outputs[actuator].meter() : nullptr;
     }
 
-    /// From the next frame on, glides play `play` of the scene (its index there) to `gain` (linear, on top of the
-    /// scene's own) within 5 ms. Plays that the plan leaves out stay out. [audio]
+    /// From the next frame on, glides play `play` of the scene (its index there) to `gain` (linear, -1000 to 1000, on
+    /// top of the scene's own) within 5 ms. Gains beyond are clamped, those that are not finite ignored. Plays that the
+    /// plan leaves out stay out. [audio]
     void setGain(std::size_t play, double gain) noexcept
     {
+        if (!std::isfinite(gain))
+            return;
+        gain = clampTo(gain, -mostGain, mostGain);
         forPlay(play,
                 [&](Voice& voice, const PlannedPlay&)
                 {
@@ -140,7 +150,7 @@ public:
                 });
     }
 
-    /// Changes pitch (semitones) and speed of a play, as Decoder::change does. [audio]
+    /// Changes pitch (semitones) and speed of a play, as Decoder::change does: what is not finite is ignored. [audio]
     void setPitchAndSpeed(std::size_t play, double transposition, double stretch) noexcept
     {
         forPlay(play,
@@ -153,6 +163,7 @@ public:
 
 private:
     static constexpr std::size_t blockFrames = 1024;
+    static constexpr double mostGain = 1000.0; // 60 dB, as in scenes
 
     /// Where a curve has been read to.
     struct Level
@@ -176,35 +187,60 @@ private:
     /// What stands between the sum of the plays and an actuator.
     struct Output
     {
-        OutputFilter filter;
+        std::unique_ptr<OutputFilter> filter;
         std::unique_ptr<MotorDrive> motor;
         std::unique_ptr<Protection> protection;
+        std::unique_ptr<LevelLimiter> limiter; ///< where there is no profile
         double scale = 1.0;
+
+        [[nodiscard]] std::size_t latencyFrames() const noexcept
+        {
+            return protection ? protection->latencyFrames() : limiter ? limiter->latencyFrames() : 0;
+        }
+        [[nodiscard]] const ProtectionMeter* meter() const noexcept
+        {
+            return protection ? &protection->meter() : limiter ? &limiter->meter() : nullptr;
+        }
     };
+
+    /// For plain drive signals: full drive is the one limit that is known.
+    Output makeOutput(const ScenePlayerParams& params) const
+    {
+        Output output;
+        output.limiter = std::make_unique<LevelLimiter>();
+        output.limiter->prepare({fs, blockFrames});
+        LevelLimiterParams limits;
+        limits.lookAhead = params.lookAhead;
+        output.limiter->setParams(limits);
+        output.limiter->reset();
+        return output;
+    }
 
     Output makeOutput(const Profile& profile, const ScenePlayerParams& params) const
     {
         Output output;
-        output.filter.prepare({fs, blockFrames});
-        output.filter.setParams({profile.equalizer, plan.flattening});
         // Room for overdrive: the rated drive is played at 1 / overdrive.
         output.scale = 1.0 / profile.drive.overdrive;
         if (plan.motor)
         {
             output.motor = std::make_unique<MotorDrive>();
             output.motor->prepare({fs, blockFrames});
-            output.motor->setParams(motorDriveParams(profile));
+            MotorDriveParams motor = motorDriveParams(profile);
+            if (!params.protect)
+                motor.heat.reset();
+            output.motor->setParams(motor);
         }
-        else if (params.protect)
+        else
         {
-            ProtectionParams limits = protectionParams(profile, params.lookAhead);
-            if (limits.excursion)
-                limits.excursion->excursion *= profile.drive.overdrive;
-            if (limits.heat)
-                limits.heat->fullDrivePower *= profile.drive.overdrive * profile.drive.overdrive;
+            output.filter = std::make_unique<OutputFilter>();
+            output.filter->prepare({fs, blockFrames});
+            output.filter->setParams({profile.equalizer, plan.flattening});
+        }
+        if (!plan.motor && params.protect)
+        {
             output.protection = std::make_unique<Protection>();
             output.protection->prepare({fs, blockFrames});
-            output.protection->setParams(limits);
+            output.protection->setParams(protectionParams(profile, params.lookAhead));
             output.protection->reset();
         }
         return output;
@@ -214,13 +250,17 @@ private:
     {
         if (output.motor)
             output.motor->process(samples, samples);
-        else
-            output.filter.process(samples, samples);
+        if (output.filter)
+            output.filter->process(samples, samples);
         if (output.scale != 1.0)
             for (float& sample : samples)
                 sample = static_cast<float>(output.scale * static_cast<double>(sample));
         if (output.protection)
             output.protection->process(samples, samples);
+        if (output.limiter)
+            output.limiter->process(samples, samples);
+        if (const ProtectionMeter* meter = output.meter())
+            reduction = std::max(reduction, meter->gainReduction);
     }
 
     void make(Voice& voice, const PlannedPlay& planned)
@@ -330,7 +370,7 @@ private:
             return;
         for (float& sample : block)
         {
-            sample = static_cast<float>(voice.liveGain * static_cast<double>(sample));
+            sample = toSample(voice.liveGain * static_cast<double>(sample));
             const double next = voice.liveGain + voice.liveStep;
             voice.liveGain = voice.liveStep > 0.0 ? std::min(next, voice.liveTarget) : std::max(next, voice.liveTarget);
         }
@@ -376,6 +416,7 @@ private:
     std::size_t first = 0;     // voices before it have ended
     std::size_t firstKept = 0; // voices before it have ended and are freed
     std::size_t most = 0;
+    double reduction = 0.0; // dB
 };
 
 } // namespace pacini

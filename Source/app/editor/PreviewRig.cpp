@@ -3,6 +3,8 @@
 
 #include "app/OpenDevice.h"
 
+#include <pacini/foundation/DspBlock.h>
+
 #include <algorithm>
 #include <span>
 #include <thread>
@@ -51,7 +53,9 @@ void PreviewRig::handleAsyncUpdate()
     running.store(false);
     while (inside.load())
         std::this_thread::yield();
-    const double now = std::clamp(rate.load(), 2000.0, 192000.0);
+    const double now = rate.load();
+    if (!isPlayableRate(now))
+        return; // silence rather than another pitch
     player.prepare(now);
     soundLevel.prepare(now);
     hapticLevel.prepare(now);

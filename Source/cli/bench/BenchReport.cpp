@@ -2,6 +2,8 @@
 
 #include "cli/plot/WorkPrecisionFigure.h"
 #include "io/AtomicFile.h"
+#include "io/InputFile.h"
+#include "io/JsonTree.h"
 
 #include <fmt/format.h>
 
@@ -42,6 +44,23 @@ plot::WorkPrecisionFigure makeFigure(const BenchReport& report, const BenchFigur
                                   wanted.label.empty() ? "" : table.text(r, wanted.label)});
     }
     return figure;
+}
+
+std::string figureName(const BenchReport& report, const BenchFigure& figure, const std::string& format)
+{
+    return report.bench.name + (figure.name.empty() ? "" : "-" + figure.name) + "." + format;
+}
+
+/// Whether a file is the JSON of an earlier report of this bench.
+bool isReport(const std::filesystem::path& path, const std::string& bench)
+{
+    constexpr std::size_t largest = std::size_t(256) << 20;
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown))
+        return false;
+    const auto text = readWholeFile(path, largest);
+    const auto tree = text ? readJsonTree(*text, largest) : Result<nlohmann::json>(text.error());
+    return tree && tree->is_object() && tree->contains("rows") && tree->value("bench", nlohmann::json()) == bench;
 }
 } // namespace
 
@@ -85,12 +104,20 @@ std::string toMarkdown(const BenchReport& report)
 }
 
 Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report, const std::filesystem::path& folder,
-                                                       const std::string& format)
+                                                       const std::string& format, Replaceable replaceable)
 {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
         return Error{ErrorCode::io, "", "cannot make the folder: " + error.message()};
+    const std::string& name = report.bench.name;
+    std::vector<std::string> names = {name + ".csv", name + ".json"};
+    for (const BenchFigure& figure : report.bench.figures)
+        names.push_back(figureName(report, figure, format));
+    if (replaceable != Replaceable::any && !isReport(folder / (name + ".json"), name))
+        for (const std::string& file : names)
+            if (isOccupied(folder / file))
+                return notReplaced(folder / file, "exists, beside no report of this bench");
     std::vector<std::filesystem::path> written;
     const auto write = [&](const std::string& name, const std::string& text) -> Result<void>
     {
@@ -99,7 +126,6 @@ Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report
             return bytes.error();
         return {};
     };
-    const std::string& name = report.bench.name;
     if (const auto done = write(name + ".csv", report.rows.csv()); !done)
         return done.error();
     if (const auto done =
@@ -108,7 +134,7 @@ Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report
         return done.error();
     for (const BenchFigure& figure : report.bench.figures)
     {
-        written.push_back(folder / (name + (figure.name.empty() ? "" : "-" + figure.name) + "." + format));
+        written.push_back(folder / figureName(report, figure, format));
         if (const auto done = plot::writeWorkPrecision(written.back(), makeFigure(report, figure)); !done)
             return done.error();
     }

@@ -2,6 +2,7 @@
 
 // What came of a bench, and the files that keep it.
 
+#include "cli/Overwrite.h"
 #include "cli/bench/Bench.h"
 
 #include <pacini/foundation/Result.h>
@@ -48,8 +49,11 @@ struct BenchReport
 [[nodiscard]] std::string toMarkdown(const BenchReport& report);
 
 /// Writes NAME.csv (every sound), NAME.json and the figures (NAME.svg, NAME-FIGURE.svg; `format` svg or png) into
-/// `folder`, which is made if need be; returns their paths. Errors: io.
-[[nodiscard]] Result<std::vector<std::filesystem::path>>
-writeReport(const BenchReport& report, const std::filesystem::path& folder, const std::string& format);
+/// `folder`, which is made if need be; returns their paths. Files that exist are replaced beside an earlier report
+/// of the same bench, or when any may be. Errors: io.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report,
+                                                                     const std::filesystem::path& folder,
+                                                                     const std::string& format,
+                                                                     Replaceable replaceable);
 
 } // namespace pacini::cli

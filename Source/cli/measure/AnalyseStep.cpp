@@ -156,6 +156,11 @@ Exit AnalyseStep::run(Console& console)
     if (!picture.empty() && !plot::pictureFormatOf(picture))
         return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
                     Exit::usage);
+    for (const std::string& result : {output, picture})
+        if (!result.empty() && sameFileKey(result) == sameFileKey(options.sweep))
+            return fail(result,
+                        {ErrorCode::invalidArgument, "", "is the description of the sweep; name another output"},
+                        Exit::usage);
     Profile profile;
     profile.technology = Technology::vca;
     profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();

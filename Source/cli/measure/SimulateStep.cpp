@@ -4,6 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
 #include "io/AudioFile.h"
+#include "io/Fingerprint.h"
 
 #include <pacini/actuator/Wearer.h>
 #include <pacini/linearize/SimulatedRig.h>
@@ -76,6 +77,7 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->capture_default_str()
         ->check(countingNumber())
         ->type_name("N");
+    overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
                     "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
     return command;
@@ -111,6 +113,12 @@ Exit SimulateStep::run(Console& console)
         const std::string target = wearers > 0 ? numbered(output, who) : output;
         if (sameFileKey(target) == sameFileKey(input))
             return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own recording"});
+        if (overwriting.keepsAll() && isOccupied(target))
+            continue;
+        const FileOrigin origin = originOf(input, target, Fingerprint().text());
+        const auto existing = mayReplace(target, origin, overwriting.of(wearers == 0));
+        if (!existing)
+            return fail(input, existing.error());
         RigParams rig;
         rig.body = bodyOn(who, *actuator->body);
         rig.resonance = actuator->resonance;
@@ -133,6 +141,9 @@ Exit SimulateStep::run(Console& console)
         writing.sampleRate = sound->sampleRate;
         writing.channels = static_cast<int>(channels.size());
         writing.encoding = SampleEncoding::pcm24;
+        if (wearers > 0)
+            writing.origin = origin;
+        writing.existing = *existing;
         if (const auto written = writeAudio(target, interleaved, writing); !written)
             return fail(target, written.error());
         console.wrote(target);

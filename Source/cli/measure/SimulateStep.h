@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/Overwrite.h"
 
 #include <cstdint>
 #include <string>
@@ -28,6 +29,7 @@ private:
     double distortion = 0.0;
     int bits = 12;
     std::uint64_t seed = 1;
+    OverwriteOptions overwriting;
 };
 
 } // namespace pacini::cli

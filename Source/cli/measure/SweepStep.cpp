@@ -5,6 +5,7 @@
 #include "cli/ProfileInput.h"
 #include "cli/measure/SweepNames.h"
 #include "io/AudioWriter.h"
+#include "io/Fingerprint.h"
 #include "io/SweepFile.h"
 
 #include <pacini/linearize/EqualizedSweep.h>
@@ -22,11 +23,12 @@ namespace pacini::cli
 CLI::App* SweepStep::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("sweep", "Make the sound that an actuator is measured with");
-    command
-        ->add_option("-o,--output", output,
-                     "Sound to play (.wav or .flac); what was in it goes beside it, as .json of the same name")
-        ->capture_default_str()
-        ->type_name("OUT");
+    outputOption =
+        command
+            ->add_option("-o,--output", output,
+                         "Sound to play (.wav or .flac); what was in it goes beside it, as .json of the same name")
+            ->capture_default_str()
+            ->type_name("OUT");
     command->add_option("--low", low, "Frequency at which sweeps start, Hz")->capture_default_str()->type_name("HZ");
     command->add_option("--high", high, "Frequency at which sweeps end, Hz")->capture_default_str()->type_name("HZ");
     command
@@ -53,6 +55,7 @@ CLI::App* SweepStep::declare(CLI::App& app)
         ->type_name("HZ");
     command->add_option("--profile", profile, "Play through the equaliser of this profile, to verify it")
         ->type_name("PROFILE");
+    overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
                     "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows from where on it distorts\n"
                     "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
@@ -85,6 +88,18 @@ Exit SweepStep::run(Console& console)
     const std::string description = sweepFileBeside(output).string();
     if (sameFileKey(description) == sameFileKey(output))
         return fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
+    if (overwriting.keepsAll() && (isOccupied(output) || isOccupied(description)))
+    {
+        console.note(fmt::format("{} or {} exists and was left", printable(output), printable(description)));
+        return Exit::ok;
+    }
+    const FileOrigin origin = originOf(description, output, Fingerprint().text());
+    const bool named = outputOption->count() > 0;
+    const auto existing = mayReplace(output, origin, overwriting.of(named));
+    if (!existing)
+        return fail("", existing.error());
+    if (isOccupied(description) && !overwriting.replacesAll() && !readSweepFile(description))
+        return fail("", notReplaced(description, "exists and does not describe a sweep"));
     EqualizerSections sections;
     if (!profile.empty())
     {
@@ -113,6 +128,9 @@ Exit SweepStep::run(Console& console)
     writing.sampleRate = rate;
     writing.encoding = SampleEncoding::pcm24;
     writing.expectedFrames = signal.size();
+    if (!named)
+        writing.origin = origin;
+    writing.existing = *existing;
     const auto written = writeAudio(output, signal, writing);
     if (!written)
         return fail(output, written.error());

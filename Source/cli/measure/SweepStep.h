@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/Overwrite.h"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ public:
     Exit run(Console& console) override;
 
 private:
+    CLI::Option* outputOption = nullptr;
     std::string output = "sweep.wav";
     std::string profile;
     double low = 10.0;
@@ -25,6 +27,7 @@ private:
     int repeats = 1;
     std::vector<double> levels{-6.0};
     int rate = 48000;
+    OverwriteOptions overwriting;
 };
 
 } // namespace pacini::cli

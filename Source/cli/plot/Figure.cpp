@@ -79,9 +79,11 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style)
     }
 }
 
-Result<std::size_t> writeFigure(const std::filesystem::path& path, const Figure& figure, const FigureStyle& style)
+Result<std::size_t> writeFigure(const std::filesystem::path& path, const Figure& figure, const FigureStyle& style,
+                                cli::Replaceable replaceable)
 {
-    return writePicture(path, style.size, figure.title, [&](Canvas& canvas) { drawFigure(canvas, figure, style); });
+    return writePicture(
+        path, style.size, figure.title, [&](Canvas& canvas) { drawFigure(canvas, figure, style); }, replaceable);
 }
 
 } // namespace pacini::plot

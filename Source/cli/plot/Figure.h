@@ -35,6 +35,7 @@ void drawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style);
 
 /// Draws the figure into a file; returns its size in bytes. Errors as in writePicture.
 [[nodiscard]] Result<std::size_t> writeFigure(const std::filesystem::path& path, const Figure& figure,
-                                              const FigureStyle& style);
+                                              const FigureStyle& style,
+                                              cli::Replaceable replaceable = cli::Replaceable::named);
 
 } // namespace pacini::plot

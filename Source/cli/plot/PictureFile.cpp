@@ -38,7 +38,7 @@ std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path)
 }
 
 Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size, const std::string& title,
-                                 const std::function<void(Canvas&)>& draw)
+                                 const std::function<void(Canvas&)>& draw, cli::Replaceable replaceable)
 {
     const auto format = pictureFormatOf(path);
     if (!format)
@@ -48,7 +48,10 @@ Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize 
     const auto bytes = canvas->finish();
     if (!bytes)
         return bytes.error();
-    return writeFileAtomically(path, std::string_view(*bytes));
+    const auto existing = cli::mayReplace(path, std::string_view(*bytes), replaceable);
+    if (!existing)
+        return existing.error();
+    return writeFileAtomically(path, std::string_view(*bytes), *existing);
 }
 
 } // namespace pacini::plot

@@ -2,6 +2,7 @@
 
 // Pictures in files.
 
+#include "cli/Overwrite.h"
 #include "cli/plot/Canvas.h"
 
 #include <cstddef>
@@ -29,8 +30,9 @@ struct PictureSize
 [[nodiscard]] std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path);
 
 /// Calls `draw`, then puts the picture at `path`, complete or not at all; returns its size in bytes. Errors:
-/// invalidArgument for another extension, tooLarge, io as in AtomicFile.
+/// invalidArgument for another extension, tooLarge, io as in AtomicFile and when what is there is not to be replaced.
 [[nodiscard]] Result<std::size_t> writePicture(const std::filesystem::path& path, PictureSize size,
-                                               const std::string& title, const std::function<void(Canvas&)>& draw);
+                                               const std::string& title, const std::function<void(Canvas&)>& draw,
+                                               cli::Replaceable replaceable = cli::Replaceable::named);
 
 } // namespace pacini::plot

@@ -23,6 +23,7 @@ void readEffects(FieldsReader& reader, const char* name, std::vector<HjifEffect>
                     reader.optionalNumber("id", effect.id);
                     reader.optionalNumber("phase", effect.phase);
                     reader.optionalText("base_signal", effect.baseSignal);
+                    reader.optionalText("wavelet_stream", effect.stream);
                     reader.list("keyframes", effect.keyframes, mostElements, "keyframes",
                                 [&](HjifKeyframe& keyframe)
                                 {
@@ -48,8 +49,10 @@ void readPerception(FieldsReader& reader, HjifPerception& perception)
                                 [&](HjifBand& band)
                                 {
                                     reader.text("band_type", band.type);
+                                    reader.optionalText("curve_type", band.curve);
                                     reader.number("lower_frequency_limit", band.low, Need::required);
                                     reader.number("upper_frequency_limit", band.high, Need::required);
+                                    reader.optionalNumber("block_length", band.blockLength);
                                     readEffects(reader, "effects", band.effects);
                                 });
                 });

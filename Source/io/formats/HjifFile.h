@@ -26,13 +26,16 @@ struct HjifEffect
     double position = 0.0; ///< ticks
     std::optional<double> id, phase;
     std::string baseSignal = "Sine";
+    std::optional<std::string> stream; ///< of a block of wavelet coefficients
     std::vector<HjifKeyframe> keyframes;
 };
 
 struct HjifBand
 {
     std::string type;
-    double low = 0.0, high = 0.0; ///< Hz
+    std::string curve;                 ///< how a waveform goes through its keyframes
+    double low = 0.0, high = 0.0;      ///< Hz; of a WaveletWave band `high` is the sample rate
+    std::optional<double> blockLength; ///< ticks
     std::vector<HjifEffect> effects;
 };
 

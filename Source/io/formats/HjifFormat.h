@@ -12,10 +12,12 @@ namespace pacini
 {
 
 /// Reads all vibrotactile channels as bands of one clip; several channels sound together at 1 / n of their amplitude.
-/// VectorialWave bands become bands, Curve bands too (half a period between extrema), Transient bands events. Errors
-/// have a place such as `perceptions[0].channels[0].bands[2].effects[1].position`: what must be there for a signal is
-/// missing or of the wrong kind, the version is none, nothing is left to play. Warnings: what is out of range is
-/// clamped; WaveletWave bands, composite effects, spatial and non-vibrating perceptions are left out.
+/// VectorialWave bands become bands, Curve bands too (half a period between extrema), Transient bands events. Curve and
+/// WaveletWave bands of a channel with wavelets are one waveform (see HjifWaveform), which is translated as a sound is;
+/// with nothing beside it, it is levelled by an envelope. Errors have a place such as
+/// `perceptions[0].channels[0].bands[2].effects[1].position`: what must be there for a signal is missing or of the
+/// wrong kind, the version is none, nothing is left to play; tooLarge for waveforms of more than 2^25 samples.
+/// Warnings: what is out of range is clamped; composite effects, spatial and non-vibrating perceptions are left out.
 [[nodiscard]] Result<ImportedClip> readHjif(std::string_view bytes);
 
 /// Each band becomes a VectorialWave band whose keyframes carry the amplitude as it is played (see playedClip()) and

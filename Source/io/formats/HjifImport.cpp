@@ -2,8 +2,13 @@
 
 #include "io/JsonText.h"
 #include "io/formats/HjifFormat.h"
+#include "io/formats/HjifWaveform.h"
 #include "io/formats/HjifWaves.h"
 #include "io/formats/ImportedClip.h"
+#include "io/formats/PlayedClip.h"
+#include "io/formats/WithinShare.h"
+
+#include <pacini/filters/Resampler.h>
 
 #include <fmt/format.h>
 
@@ -25,13 +30,32 @@ bool vibrates(std::string_view modality)
     return std::find(known.begin(), known.end(), modality) != known.end();
 }
 
+bool isWavelet(const HjifBand& band)
+{
+    return band.type == "WaveletWave";
+}
+
+/// The rate at which waveforms are drawn: that of the fastest band, or the lowest that the encoder takes.
+int waveformRate(const std::vector<HjifPerception>& perceptions)
+{
+    constexpr double lowest = 8000.0;
+    double rate = lowest;
+    for (const HjifPerception& perception : perceptions)
+        for (const HjifChannel& channel : perception.channels)
+            for (const HjifBand& band : channel.bands)
+                if (vibrates(perception.modality) && isWavelet(band))
+                    rate = std::max(rate, std::min(band.high, static_cast<double>(highestResamplerRate)));
+    return static_cast<int>(rate);
+}
+
 /// Turns the parts of a file into one clip.
 class HjifImporter
 {
 public:
-    HjifImporter(double ticksPerSecond, std::vector<std::string>& warnings) : report(warnings)
+    HjifImporter(const HjifFile& file, std::vector<std::string>& warnings)
+        : report(warnings), waveform(waveformRate(file.perceptions))
     {
-        scale.ticks = ticksPerSecond;
+        scale.ticks = file.ticks;
     }
 
     ImportReport report;
@@ -62,13 +86,6 @@ public:
     }
 
 private:
-    /// An effect of a band, looked up, and where it stands in ticks.
-    struct Placed
-    {
-        const HjifEffect* effect = nullptr;
-        double position = 0.0;
-    };
-
     static std::size_t countChannels(const std::vector<HjifPerception>& perceptions)
     {
         std::size_t channels = 0;
@@ -87,27 +104,30 @@ private:
         scale.level = std::abs(channel.gain) * std::pow(10.0, exponent) * share;
         if (channel.rate && channel.samples && *channel.rate > 0.0 && *channel.samples >= 0.0)
             wantedDuration = std::max(wantedDuration, *channel.samples / *channel.rate);
+        drawn = std::any_of(channel.bands.begin(), channel.bands.end(), isWavelet);
+        if (drawn)
+            waveform.addChannel();
         for (std::size_t i = 0; i < channel.bands.size() && !report.error; ++i)
         {
             const HjifBand& band = channel.bands[i];
             const std::string place = fmt::format("{}.bands[{}]", where, i);
             if (!(band.low >= 0.0 && band.low <= band.high && band.high <= limits::frequency))
                 return report.fail(place, "needs 0 <= lower_frequency_limit <= upper_frequency_limit <= 400000");
-            if (band.type == "VectorialWave" || band.type == "Curve" || band.type == "Transient")
+            if (band.type == "VectorialWave" || band.type == "Curve" || band.type == "Transient" || isWavelet(band))
                 addBand(band, place);
-            else if (band.type == "WaveletWave")
-                report.warn(place, "WaveletWave bands are not read; left out");
             else
                 return report.fail(place + ".band_type",
                                    fmt::format("must be Transient, Curve, VectorialWave or WaveletWave, "
                                                "not '{}'",
                                                shownText(band.type)));
         }
+        if (drawn)
+            waveform.scale(scale.level);
     }
 
     void addBand(const HjifBand& band, const std::string& where)
     {
-        std::vector<Placed> waves;
+        std::vector<HjifPlaced> waves;
         for (std::size_t i = 0; i < band.effects.size(); ++i)
         {
             const std::string place = fmt::format("{}.effects[{}]", where, i);
@@ -119,15 +139,22 @@ private:
                 return;
             if (band.type == "Transient")
                 addEvents(*basis, position, place);
-            else if ((band.type == "Curve" || !addPulse(*basis, position)) && !basis->keyframes.empty())
+            else if (isWavelet(band) ||
+                     ((band.type == "Curve" || !addPulse(*basis, position)) && !basis->keyframes.empty()))
                 waves.push_back({basis, position});
         }
         std::stable_sort(waves.begin(), waves.end(),
-                         [](const Placed& a, const Placed& b) { return a.position < b.position; });
-        addWaves(waves, band, where);
+                         [](const HjifPlaced& a, const HjifPlaced& b) { return a.position < b.position; });
+        if (isWavelet(band))
+            waveform.addWavelet(band, waves, scale.ticks, report, where);
+        else if (drawn && band.type == "Curve")
+            waveform.addCurve(band, waves, scale.ticks, report, where);
+        else
+            return addWaves(waves, band, where);
+        waveform.endBand();
     }
 
-    void addWaves(const std::vector<Placed>& waves, const HjifBand& band, const std::string& where)
+    void addWaves(const std::vector<HjifPlaced>& waves, const HjifBand& band, const std::string& where)
     {
         ImportLanes lanes;
         const std::size_t room = limits::bands - std::min(clip.bands.size(), limits::bands);
@@ -226,8 +253,30 @@ private:
         return true;
     }
 
+    /// What was drawn becomes part of the clip. Bands beside it are not levelled to its envelope.
+    void addWaveform()
+    {
+        if (waveform.empty() || report.error)
+            return;
+        Clip translated = waveform.translated(wantedDuration);
+        duration = std::max(duration, translated.duration);
+        if (clip.bands.empty() && clip.transients.empty())
+        {
+            clip = std::move(translated);
+            return;
+        }
+        Clip played = playedClip(translated);
+        for (Band& band : played.bands)
+        {
+            band.amplitude = withinShare(band.amplitude, 0.03, 5e-4);
+            clip.bands.push_back(std::move(band));
+        }
+        clip.transients.insert(clip.transients.end(), played.transients.begin(), played.transients.end());
+    }
+
     void finish()
     {
+        addWaveform();
         double lastEvent = 0.0;
         for (const Transient& event : clip.transients)
             lastEvent = std::max(lastEvent, event.time);
@@ -235,12 +284,15 @@ private:
         clip.duration =
             wantedDuration > 0.0 ? std::max({wantedDuration, duration, lastEvent}) : std::max(duration, latestEvent);
         for (Band& band : clip.bands)
-            if (band.amplitude.back().value > 0.0 && band.amplitude.back().time < clip.duration - 1e-9)
+            if (!band.amplitude.empty() && band.amplitude.back().value > 0.0 &&
+                band.amplitude.back().time < clip.duration - 1e-9)
                 band.amplitude.push_back({band.amplitude.back().time, 0.0});
         finishImported(clip);
     }
 
     HjifScale scale; ///< of the channel being read
+    HjifWaveform waveform;
+    bool drawn = false; ///< the channel being read, as far as it has no parameters
     const std::vector<HjifEffect>* library = nullptr;
     double duration = 0.0, latestEvent = 0.0, wantedDuration = 0.0;
 };
@@ -248,7 +300,7 @@ private:
 
 Result<Clip> clipOfHjif(const HjifFile& file, std::vector<std::string>& warnings)
 {
-    HjifImporter importer(file.ticks, warnings);
+    HjifImporter importer(file, warnings);
     importer.add(file.perceptions);
     if (importer.report.error)
         return *importer.report.error;

@@ -20,6 +20,13 @@ struct HjifScale
     double level = 1.0;    ///< amplitude of 1
 };
 
+/// An effect of a band, looked up, and where it stands.
+struct HjifPlaced
+{
+    const HjifEffect* effect = nullptr;
+    double position = 0.0; ///< ticks
+};
+
 /// The event that a short wave of one frequency stands for, which rises from 0 and falls back to it; none for others.
 /// Its sharpness is the one that the decoder plays with this frequency: pulses in fast trains have more periods.
 /// `position` in ticks.

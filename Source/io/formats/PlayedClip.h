@@ -38,7 +38,7 @@ namespace pacini
 /// `curve` with at most `pointsPerSecond`, where it has more; values keep their least squared error.
 [[nodiscard]] Curve thinned(const Curve& curve, double pointsPerSecond, double duration);
 
-/// The drive signal of the clip at `sampleRate` Hz (2000 to 192000), made for `profile` when there is one. Errors:
+/// The drive signal of the clip at `sampleRate` Hz (2000 to 768000), made for `profile` when there is one. Errors:
 /// those of compilePlan().
 [[nodiscard]] Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate,
                                                      const std::optional<Profile>& profile);

@@ -98,6 +98,31 @@ TEST_CASE("Broken HJIF is refused with its place", "[formats]")
                  {R"("position": 1000, "id": 7)", R"("position": 1000)", channel + ".bands[0].effects[2].id"}});
 }
 
+TEST_CASE("Broken wavelet bands of HJIF are refused with their place", "[formats]")
+{
+    const std::string band = "perceptions[0].channels[0].bands[0]";
+    const std::string block = R"({"effect_type": "Basis", "position": 0, "wavelet_stream": "K3bDLtlxkLsMt"})";
+    const std::string sample = test::hjifWith(R"({"band_type": "WaveletWave", "lower_frequency_limit": 0,
+        "upper_frequency_limit": 8000, "block_length": 2, "effects": [)" +
+                                              block + "]}");
+    REQUIRE(readHjif(sample));
+    std::string longest = block;
+    for (int i = 0; i < 600; ++i)
+        longest += ", " + block;
+    checkBroken(
+        hjifFormat(), sample,
+        {{R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 8000.5)", band + ".upper_frequency_limit"},
+         {R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 400000)", band + ".upper_frequency_limit"},
+         {R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 0)", band + ".upper_frequency_limit"},
+         {R"("block_length": 2, )", "", band + ".block_length"},
+         {R"("block_length": 2)", R"("block_length": 3)", band + ".block_length"},
+         {R"("block_length": 2)", R"("block_length": 0)", band + ".block_length"},
+         {R"("block_length": 2)", R"("block_length": 1048576)", band + ".block_length"},
+         {R"(, "wavelet_stream": "K3bDLtlxkLsMt")", "", band + ".effects[0].wavelet_stream"},
+         {"K3bD", "K3 bD", band + ".effects[0].wavelet_stream"},
+         {R"(2, "effects": [)" + block, R"(8192, "effects": [)" + longest, band}}); // half an hour of each
+}
+
 TEST_CASE("What HJIF players let pass is read with a warning", "[formats]")
 {
     const auto warned = [](const std::string& from, const std::string& to, const std::string& words)
@@ -115,7 +140,6 @@ TEST_CASE("What HJIF players let pass is read with a warning", "[formats]")
     warned(R"("amplitude_modulation": 0.8)", R"("amplitude_modulation": -0.8)", "sign");
     warned(R"("frequency_modulation": 90)", R"("frequency_modulation": 900)", "limits");
     warned(R"("position": 1000, "id": 7)", R"("position": 1000, "id": 8)", "library");
-    warned(R"("band_type": "Transient")", R"("band_type": "WaveletWave")", "WaveletWave");
     warned(R"("effect_type": "Basis", "position": 600)", R"("effect_type": "Composite", "position": 600)", "composite");
 }
 

@@ -76,7 +76,7 @@ inline constexpr std::array<double, 4> squarePartials{1.0, 3.0, 5.0, 7.0};
 /// instrument): the spectral centroid on a logarithmic scale sets the pitch, 40 to 400 Hz; the flatness cross-fades at
 /// equal power between a sine (noise) and a square wave (tones); the envelope, whose decay is the follower's release,
 /// is the amplitude. The square wave is made of its partials 1, 3, 5 and 7, one band each. They have one pitch curve,
-/// so a player whose carriers start together keeps them in phase. `mono` may have any length, fs is 8000 to 384000 Hz.
+/// so a player whose carriers start together keeps them in phase. `mono` may have any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip centroidFlatnessClip(std::span<const float> mono, double fs,
                                                const CentroidFlatnessParams& params = {})
 {

@@ -26,7 +26,7 @@ struct EnvelopeCentroidParams
 };
 
 /// The thesis's model with a single band: the envelope of the sound, and its spectral centroid as the pitch of the
-/// carrier (Weber 2020, section 4.3.3). `mono` may have any length, fs is 8000 to 384000 Hz.
+/// carrier (Weber 2020, section 4.3.3). `mono` may have any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip envelopeCentroidClip(std::span<const float> mono, double fs,
                                                const EnvelopeCentroidParams& params = {})
 {

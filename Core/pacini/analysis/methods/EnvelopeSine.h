@@ -23,7 +23,7 @@ struct EnvelopeSineParams
 
 /// An envelope follower that modulates a signal generator, as it has been used for whole-body vibration in a concert
 /// seat (Weber 2020, section 1.3): one band whose pitch never moves. Nothing of the spectrum survives. `mono` may have
-/// any length, fs is 8000 to 384000 Hz.
+/// any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip envelopeSineClip(std::span<const float> mono, double fs,
                                            const EnvelopeSineParams& params = {})
 {

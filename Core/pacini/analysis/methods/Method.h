@@ -89,7 +89,7 @@ struct MethodChoices
     bool operator==(const MethodChoices&) const = default;
 };
 
-/// The clip that a method makes of a mono sound of any length at 8000 to 384000 Hz: valid, of the sound's duration,
+/// The clip that a method makes of a mono sound of any length at 8000 to 768000 Hz: valid, of the sound's duration,
 /// with `name` and `source` left to the caller. Only for methods whose output is a clip, and not for a2vt, which takes
 /// several channels as a stream (see Encoder): others are the caller's error (asserted) and give an empty clip.
 [[nodiscard]] inline Clip translateToClip(Method method, std::span<const float> mono, double fs,

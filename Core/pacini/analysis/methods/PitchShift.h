@@ -154,7 +154,7 @@ private:
 /// onset over four windows; here it stays within one. Windows are 46 ms (Hann, applied before and after), a quarter
 /// apart, transformed at twice their length, so that shifts by whole bins cost at most 0.2 dB; what they add to a
 /// steady tone stays 50 dB below it (an eighth apart 75 dB, for twice the time). As long as the input; fs is 8000 to
-/// 384000 Hz; NaN and infinities count as 0. What would land above half the sample rate is left out.
+/// 768000 Hz; NaN and infinities count as 0. What would land above half the sample rate is left out.
 [[nodiscard]] inline std::vector<float> pitchShift(std::span<const float> mono, double fs,
                                                    const PitchShiftParams& params = {})
 {

@@ -101,7 +101,7 @@ private:
 /// points per second of active time, the centroid too; everything on uniform grids. The bank is the Linkwitz-Riley
 /// tree, since its parallel band-passes are not specified; envelopes go to the simplifier at 1 kHz, not at the sample
 /// rate, which no 2 ms attack needs. Transients have no sharpness (0). Play it with thesisDecoderParams(). `mono` may
-/// have any length, fs is 8000 to 384000 Hz.
+/// have any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip thesisClip(std::span<const float> mono, double fs, const ThesisMethodParams& params = {})
 {
     const MethodSound sound = prepareSound(mono, fs, params.range);

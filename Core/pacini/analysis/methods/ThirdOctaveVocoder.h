@@ -34,7 +34,7 @@ struct ThirdOctaveVocoderParams
 /// a carrier of 100 Hz. There each channel had its own actuator; here the carriers share one, in phase, so all
 /// envelopes are scaled down together where their sum would pass full drive. The carriers were square waves; of these
 /// only the fundamental is left. Channels are third octaves of the base-two series by band-pass filters of sixth order
-/// (Butterworth, as in IEC 61260). `mono` may have any length, fs is 8000 to 384000 Hz.
+/// (Butterworth, as in IEC 61260). `mono` may have any length, fs is 8000 to 768000 Hz.
 [[nodiscard]] inline Clip thirdOctaveVocoderClip(std::span<const float> mono, double fs,
                                                  const ThirdOctaveVocoderParams& params = {})
 {

@@ -31,8 +31,8 @@ void Overview::sessionChanged(unsigned changes)
 {
     if ((changes & Session::content) != 0)
     {
-        const auto before = std::exchange(drawn, session.clip());
-        const bool same = before && drawn && before->duration == drawn->duration && before->envelope == drawn->envelope;
+        const auto last = std::exchange(drawn, session.clip());
+        const bool same = last && drawn && last->duration == drawn->duration && last->envelope == drawn->envelope;
         if (!same)
             repaint();
     }

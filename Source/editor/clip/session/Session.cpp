@@ -134,9 +134,9 @@ Result<void> Session::openProject(const std::filesystem::path& file)
     return {};
 }
 
-void Session::openProject(Project content)
+void Session::openProject(Project made)
 {
-    take(Document(std::move(content)));
+    take(Document(std::move(made)));
 }
 
 Result<void> Session::recover(const Recoverable& entry)

@@ -132,7 +132,7 @@ public:
     void newProject();
     Result<void> openProject(const std::filesystem::path& file);
     /// One that has no file; a host keeps it.
-    void openProject(Project content);
+    void openProject(Project made);
     Result<void> recover(const Recoverable& entry);
     Result<void> save();
     Result<void> saveAs(const std::filesystem::path& file);

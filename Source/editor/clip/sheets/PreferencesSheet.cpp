@@ -104,11 +104,11 @@ void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Compo
     rows.push_back(std::move(row));
 }
 
-void PreferencesSheet::addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& choices,
+void PreferencesSheet::addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& offered,
                                  int chosen, std::function<void(int)> choose)
 {
     auto box = std::make_unique<juce::ComboBox>();
-    box->addItemList(choices, 1);
+    box->addItemList(offered, 1);
     box->setSelectedItemIndex(chosen, juce::dontSendNotification);
     box->setTooltip(help);
     box->onChange = [choose = std::move(choose), now = box.get()]

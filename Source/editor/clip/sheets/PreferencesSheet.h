@@ -33,7 +33,7 @@ private:
     juce::Component* firstFocus() override { return rows.front()->control.get(); }
     void addLanguages();
     void add(const juce::String& name, std::unique_ptr<juce::Component> control);
-    void addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& choices, int chosen,
+    void addChoice(const juce::String& name, const juce::String& help, const juce::StringArray& offered, int chosen,
                    std::function<void(int)> choose);
     void addSwitch(const juce::String& name, const juce::String& help, bool on, std::function<void(bool)> turn);
 

@@ -1,0 +1,102 @@
+#pragma once
+
+// Keeps a drive signal within full scale where no actuator is known.
+
+#include <pacini/actuator/LimiterGain.h>
+#include <pacini/actuator/Protection.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+struct LevelLimiterParams
+{
+    Hertz lowFrequency{20.0}; ///< the lowest tone to be played, 1 to 20000 Hz: the gain does not follow its waveform
+    Seconds lookAhead{0.001}; ///< 0 to 1 ms
+    bool operator==(const LevelLimiterParams&) const = default;
+};
+
+/// The level's part of Protection: for every input the output stays within +-1. A signal that stays there by itself
+/// passes bit for bit, only later by the look-ahead, which is why the knee is hard and no mean is taken out: what is
+/// rendered without a profile is looked at, measured and taken further by other programs.
+class LevelLimiter
+{
+public:
+    using Params = LevelLimiterParams;
+
+    void prepare(const ProcessSpec& spec)
+    {
+        fs = spec.sampleRate;
+        line.assign(static_cast<std::size_t>(Protection::maxLookAhead * fs) + 1, 0.0f);
+        gain.prepare(line.size() - 1);
+        setParams(current);
+        reset();
+    }
+
+    /// A changed look-ahead starts again from silence. NaN counts as the lower end.
+    void setParams(const Params& params) noexcept
+    {
+        current = params;
+        const double seconds = clampTo(params.lookAhead.value, 0.0, Protection::maxLookAhead);
+        const auto frames = std::min(static_cast<std::size_t>(seconds * fs), line.size() - 1);
+        if (frames != latency)
+        {
+            latency = frames;
+            std::fill(line.begin(), line.end(), 0.0f);
+            position = 0;
+        }
+        const double low = clampTo(params.lowFrequency.value, 1.0, 20000.0);
+        gain.design(latency, static_cast<std::size_t>(clampTo(0.5 / low, 0.002, 0.05) * fs), fs);
+    }
+
+    void reset() noexcept
+    {
+        gain.reset();
+        std::fill(line.begin(), line.end(), 0.0f);
+        position = 0;
+        lastCall = {};
+    }
+
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        double smallest = 1.0;
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            const double x = finiteOrZero(in[i]);
+            const double g = gain.tick(x * x);
+            smallest = std::min(smallest, g);
+            line[position] = static_cast<float>(x);
+            position = position == latency ? 0 : position + 1;
+            // The mean of gains can be above each of them by its rounding.
+            out[i] = toSample(clampTo(g * static_cast<double>(line[position]), -1.0, 1.0));
+        }
+        lastCall.level = smallest < 1.0;
+        lastCall.gainReduction = -20.0 * std::log10(smallest);
+    }
+
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
+
+    /// What happened in the last call of process(); of the thread that calls it.
+    [[nodiscard]] const ProtectionMeter& meter() const noexcept { return lastCall; }
+
+private:
+    double fs = ProcessSpec{}.sampleRate;
+    Params current;
+    KneeLimiterGain<HardKnee> gain;
+    std::vector<float> line = std::vector<float>(1, 0.0f); ///< the newest latency + 1 frames, as a ring
+    std::size_t latency = 0;
+    std::size_t position = 0; ///< where the next frame goes
+    ProtectionMeter lastCall;
+};
+
+static_assert(DspBlock<LevelLimiter>);
+
+} // namespace pacini

@@ -1,0 +1,80 @@
+#include "cli/ConvertManifest.h"
+
+#include "support/Catch.h"
+#include "support/TempFolder.h"
+
+#include <string>
+
+using namespace pacini;
+using namespace pacini::cli;
+using test::bytesOf;
+using test::put;
+using test::TempFolder;
+
+namespace
+{
+ManifestEntry entryFor(const std::string& name)
+{
+    ManifestEntry entry;
+    entry.inputSha256 = "of " + name;
+    entry.settings = "as usual";
+    entry.outputs = {{name + ".haptic", 12, "abc"}};
+    entry.duration = 1.5;
+    entry.warnings = {"one", "two\nlines"};
+    entry.losses = {{LossKind::text, 0.5, 0.25, 0.125, "said"}};
+    return entry;
+}
+} // namespace
+
+TEST_CASE("A manifest grows by whole lines and is read as far as it goes", "[cli]")
+{
+    const TempFolder folder;
+    const auto path = folder / "manifest.json";
+    {
+        GrowingManifest growing;
+        REQUIRE(growing.start(path, {{"old", entryFor("old")}}).ok());
+        growing.add("b", entryFor("b"));
+        growing.add("a", entryFor("a"));
+    } // as if killed: never finished
+    const std::string torn = bytesOf(path);
+    const auto whole = readManifest(path);
+    REQUIRE(whole.has_value());
+    CHECK(*whole == ConvertManifest{{"old", entryFor("old")}, {"a", entryFor("a")}, {"b", entryFor("b")}});
+
+    // Cut anywhere, all but the last line is kept.
+    for (std::size_t size = torn.rfind("{\"input\":\"a\""); size < torn.size() - 2; size += 7)
+    {
+        put(path, torn.substr(0, size));
+        const auto part = readManifest(path);
+        REQUIRE(part.has_value());
+        CHECK(part->size() == 2);
+        CHECK(part->at("b") == entryFor("b"));
+    }
+}
+
+TEST_CASE("A finished manifest is one JSON document in the order of its names", "[cli]")
+{
+    const TempFolder folder;
+    const auto path = folder / "manifest.json";
+    GrowingManifest growing;
+    REQUIRE(growing.start(path, {}).ok());
+    for (const char* name : {"c", "a", "b"})
+        growing.add(name, entryFor(name));
+    REQUIRE(growing.finish().ok());
+    const ConvertManifest all{{"a", entryFor("a")}, {"b", entryFor("b")}, {"c", entryFor("c")}};
+    CHECK(bytesOf(path) == manifestText(all));
+    CHECK(nlohmann::json::parse(bytesOf(path))["files"].size() == 3);
+    CHECK(readManifest(path) == all);
+    CHECK(nlohmann::json::parse(manifestText({}))["files"].empty());
+}
+
+TEST_CASE("What is no manifest is told from none", "[cli]")
+{
+    const TempFolder folder;
+    CHECK(readManifest(folder / "missing") == ConvertManifest());
+    for (const char* text : {"", "notes", "[]", "{}", "{\"format\": \"pacini.clip\", \"version\": 1, \"files\": []}"})
+    {
+        put(folder / "file", text);
+        CHECK_FALSE(readManifest(folder / "file").has_value());
+    }
+}

@@ -1,0 +1,136 @@
+#include "io/FileOrigin.h"
+
+#include "io/AudioFile.h"
+#include "io/ClipJson.h"
+#include "io/ClipSeal.h"
+#include "support/Catch.h"
+#include "support/RandomClip.h"
+#include "support/TempFolder.h"
+
+#include <pacini/clip/PackedClip.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace pacini;
+using test::bytesOf;
+using test::put;
+using test::TempFolder;
+
+namespace fs = std::filesystem;
+
+namespace
+{
+AudioWriteParams made(const fs::path& input, const fs::path& output, SampleEncoding encoding)
+{
+    AudioWriteParams params;
+    params.encoding = encoding;
+    params.origin = originOf(input, output, std::string(16, '7'));
+    return params;
+}
+} // namespace
+
+TEST_CASE("A sound file says what it was made from, and whether it is still as it was made", "[io]")
+{
+    const TempFolder folder;
+    const std::vector<float> samples(200000, 0.25f);
+    for (const auto& [name, encoding] :
+         {std::pair("a.wav", SampleEncoding::float32), std::pair("b.wav", SampleEncoding::pcm24),
+          std::pair("c.flac", SampleEncoding::pcm16)})
+    {
+        CAPTURE(name);
+        const fs::path path = folder / name;
+        const auto params = made(folder / "door.json", path, encoding);
+        REQUIRE(writeAudio(path, samples, params).ok());
+        const auto found = readOrigin(path);
+        REQUIRE(found.has_value());
+        CHECK(*found == *params.origin);
+        CHECK(found->input == "door.json");
+        CHECK(isAsMade(path));
+        CHECK(readAudio(path)->samples == samples);
+
+        const std::string whole = bytesOf(path);
+        for (const std::size_t at : {std::size_t{10}, whole.size() / 2, whole.size() - 1})
+        {
+            std::string other = whole;
+            other[at] = static_cast<char>(other[at] ^ 1);
+            put(path, other);
+            CHECK_FALSE(isAsMade(path));
+        }
+        put(path, whole + "x");
+        CHECK_FALSE(isAsMade(path));
+        put(path, whole.substr(0, whole.size() - 1));
+        CHECK_FALSE(isAsMade(path));
+        put(path, whole);
+        CHECK(isAsMade(path));
+    }
+}
+
+TEST_CASE("A long sound in an RF64 carries its origin as well", "[io]")
+{
+    const TempFolder folder;
+    auto params = made(folder / "door.json", folder / "a.wav", SampleEncoding::float32);
+    params.expectedFrames = 2'000'000'000; // announced, so that the container is chosen for it
+    REQUIRE(AudioWriter::create(folder / "a.wav", params)->finish().ok());
+    CHECK(readOrigin(folder / "a.wav") == params.origin);
+    CHECK(isAsMade(folder / "a.wav"));
+}
+
+TEST_CASE("What was not made by Pacini has no origin", "[io]")
+{
+    const TempFolder folder;
+    REQUIRE(writeAudio(folder / "a.wav", std::vector<float>(100, 0.5f), {}).ok());
+    put(folder / "text", "Made by Pacini from \"x\" (place 0123");
+    put(folder / "long", "Made by Pacini from \"x\" (place 0123456789abcdeg, substance 0123456789abcdef, seal "
+                         "0123456789abcdef)");
+    for (const char* name : {"a.wav", "text", "long", "missing", "."})
+    {
+        CHECK_FALSE(readOrigin(folder / name).has_value());
+        CHECK_FALSE(isAsMade(folder / name));
+    }
+}
+
+TEST_CASE("The place of an input is told as seen from the output, so that a tree may move", "[io]")
+{
+    const TempFolder folder;
+    const auto place = [&](const char* input, const char* output)
+    {
+        return originOf(folder / input, folder / output, {}).place;
+    };
+    CHECK(place("a/x.json", "a/x.wav") == place("b/x.json", "b/x.wav"));
+    CHECK(place("a/x.json", "out/x.wav") != place("b/x.json", "out/x.wav"));
+    CHECK(place("a/x.json", "a/x.wav") == place("a/../a/./x.json", "b/../a/x.wav"));
+    CHECK(originOf("/a/h\xC3\xA4 \"ptik\n.json", "/a/x.wav", {}).input == "h__ _ptik_.json");
+}
+
+TEST_CASE("The seal of a clip holds in both its forms and breaks with any change", "[io]")
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    {
+        Clip clip = test::randomFullClip(seed);
+        clip = unpackClip(packClip(clip, packParamsFor(clip))).value();
+        CHECK(sealOf(clip) == ClipSeal::missing);
+        sealClip(clip);
+        CHECK(sealOf(clip) == ClipSeal::whole);
+        const Clip once = clip;
+        sealClip(clip);
+        CHECK(clip == once);
+        CHECK(sealOf(readClipJson(writeClipJson(clip)).value()) == ClipSeal::whole);
+        CHECK(sealOf(unpackClip(packClip(clip, packParamsFor(clip))).value()) == ClipSeal::whole);
+
+        Clip changed = clip;
+        changed.name += "x";
+        CHECK(sealOf(changed) == ClipSeal::broken);
+        changed = clip;
+        changed.duration += 1e-6;
+        CHECK(sealOf(changed) == ClipSeal::broken);
+        changed = clip;
+        changed.markers.push_back({0.0, "here"});
+        CHECK(sealOf(changed) == ClipSeal::broken);
+        changed = clip;
+        changed.encoder.back().value = std::string("no number");
+        CHECK(sealOf(changed) == ClipSeal::broken);
+    }
+}

@@ -1,0 +1,87 @@
+#include "realtime/LimitSweep.h"
+
+#include "support/BlockContract.h"
+#include "support/Catch.h"
+#include "support/Measure.h"
+
+#include <cstdint>
+
+using namespace pacini;
+
+TEST_CASE("No drive takes one of a thousand random actuators beyond its limits", "[realtime][protection]")
+{
+    // Not by the steps of the guard nor by those of the long sweep, but by an integration of its own.
+    using Mass = test::SimulatedResonator;
+    std::array<int, 3> pushed{};
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed)
+    {
+        const auto [limitCase, strain] = test::runLimitCase<Mass>(seed);
+        CAPTURE(seed, limitCase.way, limitCase.fs, limitCase.profile.drive.overdrive);
+        CHECK(strain.travel <= test::Witness<Mass>::tolerance);
+        CHECK(strain.heat <= test::Witness<Mass>::tolerance);
+        CHECK(strain.level <= 1.0);
+        pushed[static_cast<std::size_t>(limitCase.way)] += std::max(strain.travel, strain.heat) > 0.9 ? 1 : 0;
+    }
+    // The limits are really reached, on every way.
+    CHECK(pushed[0] > 300);
+    CHECK(pushed[1] > 100);
+    CHECK(pushed[2] > 50);
+}
+
+TEST_CASE("The mass of the long sweep swings as the integrated one", "[realtime][protection]")
+{
+    for (const double q : {0.1, 0.4, 0.6, 5.0, 1000.0})
+        for (const double fs : {8000.0, 192000.0})
+        {
+            CAPTURE(q, fs);
+            test::SwingingMass swinging(400.0, q, 1e-3, fs);
+            test::SimulatedResonator integrated(400.0, q, 1e-3, fs);
+            for (const float u : test::noise(4000, 3))
+            {
+                swinging.hold(static_cast<double>(u));
+                integrated.hold(static_cast<double>(u));
+            }
+            CHECK(swinging.displacement() == Approx(integrated.displacement()).epsilon(1e-5));
+            CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(1e-5));
+            CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
+        }
+}
+
+TEST_CASE("A new set-up does not forget that the actuator moves and is warm", "[realtime][protection]")
+{
+    const double fs = 8000.0;
+    TranslatorSetup setup;
+    Profile& profile = setup.profile.emplace();
+    profile.technology = Technology::lra;
+    profile.resonance = {175.0, 50.0};
+    profile.range = {100.0, 400.0, 60.0};
+    profile.drive.excursion = 1e-4;
+    profile.drive.maxExcursion = 1e-3;
+    profile.drive.impedance = 8.0;
+    profile.drive.maxVoltageRms = 2.0;
+    profile.drive.maxPower = 0.2;
+    profile.drive.thermalTime = 1.0;
+    setup.maxBoost = 0.0;
+    Translator translator;
+    translator.setSetup(setup);
+    translator.prepare({fs, 100});
+    TranslatorParams params;
+    params.intensity = 24.0;
+    translator.setParams(params);
+    test::Witness<test::SimulatedResonator> witness(profile, fs);
+    auto x = test::sine(32000, 175.0, fs);
+    for (std::size_t i = 0; i < x.size(); i += 100)
+    {
+        if (i % 400 == 0)
+        {
+            setup.bands.bands = 1 + (i / 400) % 6;
+            translator.setSetup(setup);
+        }
+        const auto block = std::span(x).subspan(i, 100);
+        translator.process(block, block);
+        witness.hold(block);
+    }
+    CHECK(witness.strain().travel > 0.9);
+    CHECK(witness.strain().travel <= 1.001);
+    CHECK(witness.strain().heat <= 1.001);
+}

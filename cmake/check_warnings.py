@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Compiles every source and every Core header of its own, without making code: no file hides behind another, as it can
+where many are compiled as one, and every warning is an error.
+
+check_warnings.py BUILD [-j N] [--only REGEX]    BUILD: a folder configured with the preset `ci`. Exit 1 and what the
+compiler says, or 0
+"""
+import argparse
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LONE_HEADER = "_verify_interface_header_sets"  # CMake writes a source for each header, which includes only that
+
+
+def of_kind(path, build):
+    """'source' and 'header': to be compiled alone. 'made': what those include. None: other people's."""
+    if LONE_HEADER in path:
+        return "header"
+    if Path(path).is_relative_to(build):
+        return "made"
+    return "source" if Path(path).is_relative_to(ROOT) else None
+
+
+class Compilation:
+    """An entry of compile_commands.json."""
+
+    def __init__(self, entry, build):
+        self.folder = entry["directory"]
+        self.path = os.path.relpath(entry["file"], ROOT)
+        self.kind = of_kind(entry["file"], build)
+        words = shlex.split(entry["command"])
+        at = words.index("-o")
+        self.output = words[at + 1]
+        self.command = words[:at] + words[at + 2:]
+
+    def is_precompiled(self):
+        return self.output.endswith(".gch")
+
+    def make(self):
+        return subprocess.run([*self.command, "-o", self.output], cwd=self.folder).returncode == 0
+
+    def warnings(self):
+        return [word for word in self.command if word.startswith("-W")]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=Path)
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="", help="files whose path below the checkout has this, to try a part")
+    options = parser.parse_args()
+    build = options.build.resolve()
+    everything = [Compilation(entry, build) for entry in json.loads((build / "compile_commands.json").read_text())]
+    started = time.monotonic()
+
+    # What the programs have packed into them, with its headers.
+    made = [one for one in everything if one.kind == "made" and not one.is_precompiled()]
+    if subprocess.run(["cmake", "--build", str(build), "-j", str(options.jobs), "--target", *(one.output for one in made)],
+                      stdout=subprocess.DEVNULL).returncode != 0:
+        return 1
+    # Precompiled headers by hand: as targets they wait for programs that their tests run.
+    with ThreadPoolExecutor(options.jobs) as workers:
+        if not all(workers.map(Compilation.make, filter(Compilation.is_precompiled, everything))):
+            return 1
+
+    own = [one for one in everything if one.kind in ("source", "header") and re.search(options.only, one.path)]
+    # A library of headers has no warnings of its own to be compiled with: they get those of the command.
+    usual = next(one.warnings() for one in everything if one.path == "Source/cli/main.cpp")
+
+    def check(one):
+        extra = usual if one.kind == "header" else []
+        done = subprocess.run([*one.command, *extra, "-fsyntax-only", "-Werror"], cwd=one.folder,
+                              capture_output=True, text=True)
+        if done.returncode != 0:
+            print(done.stderr, flush=True)
+        return done.returncode == 0
+
+    with ThreadPoolExecutor(options.jobs) as workers:
+        good = list(workers.map(check, own))
+    for one, fine in zip(own, good):
+        if not fine:
+            print("warnings in", one.path)
+    print(f"{len(own)} sources and headers compiled alone, {good.count(False)} with warnings, "
+          f"{time.monotonic() - started:.0f} s")
+    return 1 if not own or not all(good) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
