@@ -98,11 +98,12 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     app.fallthrough(false);
     auto commands = allCommands();
     std::vector<CLI::App*> declared;
-    bool quiet = false, json = false;
+    bool quiet = false, json = false, strict = false;
     const auto addCommon = [&](CLI::App& where)
     {
         where.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
         where.add_flag("--json", json, "Print one JSON object instead of text, also when something fails");
+        where.add_flag("--strict", strict, "Refuse clips, scenes and profiles with keys that are not known");
     };
     addCommon(app);
     for (auto& command : commands)
@@ -143,6 +144,8 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     }
     if (quiet)
         console.beQuiet();
+    if (strict)
+        console.beStrict();
     if (json)
         console.beJson(commandPath(app));
     for (std::size_t i = 0; i < commands.size(); ++i)

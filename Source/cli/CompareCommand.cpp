@@ -100,6 +100,7 @@ void report(Console& console, const CompareTask& task)
         return;
     }
     const CompareResult& r = *task.result;
+    console.warnings(task.pair.events.string(), r.warnings);
     if (std::abs(r.duration - r.candidateDuration) > 0.05)
         console.warning(task.pair.candidate.string(),
                         fmt::format("lasts {:.3f} s and its reference {:.3f} s; compared over the reference's length, "
@@ -171,6 +172,7 @@ Exit CompareCommand::run(Console& console)
     }
     CompareSettings settings;
     settings.allowTruncated = allowTruncated;
+    settings.strict = console.isStrict();
     if (!onsets.empty() && !readOnsetFiles(console, onsets, *paired, settings))
         return Exit::failed;
     for (const InputFailure& failure : paired->failures)

@@ -2,7 +2,7 @@
 
 #include "cli/ReadingAdvice.h"
 #include "cli/Stopwatch.h"
-#include "io/ClipFile.h"
+#include "io/AnyClip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,11 +129,12 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     std::vector<double> events = target.judge.onsets;
     if (!pair.events.empty())
     {
-        const auto clip = readClip(pair.events);
-        if (!clip)
-            return InputFailure{pair.events, clip.error()};
+        const auto read = readAnyClip(pair.events, settings.strict);
+        if (!read)
+            return InputFailure{pair.events, read.error()};
+        result.warnings = read->warnings;
         events.clear();
-        for (const Transient& transient : clip->transients)
+        for (const Transient& transient : read->clip.transients)
             events.push_back(transient.time);
     }
     work.run(

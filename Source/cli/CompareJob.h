@@ -13,7 +13,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -21,6 +23,7 @@ namespace pacini::cli
 struct CompareSettings
 {
     bool allowTruncated = false;
+    bool strict = false; ///< see readAnyClip()
     std::optional<Onsets> onsets;
     Onsets ambiguous; ///< events that count neither for nor against
 };
@@ -28,10 +31,11 @@ struct CompareSettings
 /// What came of one pair.
 struct CompareResult
 {
-    double duration = 0.0;          ///< s of the reference
-    double candidateDuration = 0.0; ///< s
-    double seconds = 0.0;           ///< s of work, without access to files
-    std::uint64_t notFinite = 0;    ///< frames of both files that were NaN or infinite
+    double duration = 0.0;             ///< s of the reference
+    double candidateDuration = 0.0;    ///< s
+    double seconds = 0.0;              ///< s of work, without access to files
+    std::uint64_t notFinite = 0;       ///< frames of both files that were NaN or infinite
+    std::vector<std::string> warnings; ///< of the clip whose events were compared
     HtsScore hts;
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
@@ -48,7 +52,7 @@ public:
 
     /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 768 kHz.
     /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
-    /// hours, and of readClip.
+    /// hours, and of readAnyClip.
     [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,
                                                                 const std::function<void(double)>& progress);
 

@@ -1,5 +1,7 @@
 #include "cli/ComparePairs.h"
 
+#include "io/AnyClip.h"
+
 #include <map>
 #include <set>
 #include <system_error>
@@ -62,7 +64,7 @@ Result<ComparePairs> pairFiles(const std::string& reference, const std::string& 
 
     const InputFiles references = findInputs({reference}, audioExtensions());
     const InputFiles candidates = findInputs({candidate}, audioExtensions());
-    const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, clipExtensions());
+    const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, anyClipExtensions());
     for (const InputFiles* found : {&references, &candidates, &clips})
         result.failures.insert(result.failures.end(), found->failures.begin(), found->failures.end());
     const FilesByStem candidatesByStem = byStem(candidates);

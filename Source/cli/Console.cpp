@@ -85,6 +85,12 @@ void Console::warning(std::string_view file, std::string_view what)
     message(fmt::format("{}: warning: {}", file, what));
 }
 
+void Console::warnings(std::string_view file, const std::vector<std::string>& all)
+{
+    for (const std::string& what : all)
+        warning(file, what);
+}
+
 void Console::message(std::string_view line)
 {
     const std::lock_guard lock(mutex);

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -32,6 +33,10 @@ class Console
 public:
     /// No notes and no progress from now on; results, warnings and errors stay.
     void beQuiet() { quiet = true; }
+
+    /// Clips, scenes and profiles with keys that are not known are to be refused.
+    void beStrict() { strict = true; }
+    [[nodiscard]] bool isStrict() const { return strict; }
 
     /// From now on everything is collected for one JSON object, and no text goes to stdout.
     void beJson(std::string command) { report.emplace(std::move(command)); }
@@ -63,6 +68,9 @@ public:
     /// `pacini: FILE: warning: what` on stderr, always one line.
     void warning(std::string_view file, std::string_view what);
 
+    /// Each of them as a warning.
+    void warnings(std::string_view file, const std::vector<std::string>& all);
+
     /// Shows the `share` that is done (0 to 1) with a text, on a terminal only: first after half a second, then at
     /// most twice a second.
     void progress(double share, std::string_view text);
@@ -81,6 +89,7 @@ private:
     std::mutex mutex;
     std::optional<JsonReport> report;
     bool quiet = false;
+    bool strict = false;
     bool stdoutFree = false;
     bool lineShown = false;
     double nextProgress = -1.0; ///< s of the steady clock; negative before the first call

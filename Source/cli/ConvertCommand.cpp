@@ -134,8 +134,8 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
             fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName))
         ->type_name("FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -193,7 +193,12 @@ Exit ConvertCommand::convertProfile(Console& console)
     const auto read = [&]() -> Result<Profile>
     {
         if (!hasAcfExtension(input))
-            return readProfile(input);
+        {
+            ReadWarnings doubts(console.isStrict());
+            auto own = readProfile(input, &doubts);
+            warnings = doubts.texts();
+            return own;
+        }
         auto imported = readAcfFile(input);
         if (!imported)
             return imported.error();
@@ -208,13 +213,16 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     if (overwritesInput(console))
         return Exit::failed;
-    ConvertTask task;
-    task.input = input;
-    task.output = output;
-    task.skipped = overwriting.keepsAll() && isOccupied(output);
-    if (task.skipped && !dryRun)
+    if (dryRun)
     {
-        console.addToReport(jsonReport(std::vector<ConvertTask>{task}, [](const ConvertTask& t) { return toJson(t); }));
+        std::vector<ConvertTask> tasks{{input, output, ConvertResult(), {}, {}, {}}};
+        tasks.front().skipped = overwriting.keepsAll() && isOccupied(output);
+        reportPlan(console, tasks);
+        return Exit::ok;
+    }
+    if (overwriting.keepsAll() && isOccupied(output))
+    {
+        console.addToReport(fileList(nlohmann::ordered_json::array(), false));
         console.note(fmt::format("{} exists and was left", printable(output)));
         return Exit::ok;
     }
@@ -227,16 +235,11 @@ Exit ConvertCommand::convertProfile(Console& console)
         return acfText(exported.acf);
     };
     const std::string text = textOf();
-    const auto existing = task.skipped ? Result<Existing>(Existing::replace) : mayReplace(output, text, replaceable());
+    const auto existing = mayReplace(output, text, replaceable());
     if (!existing)
     {
         console.error("", existing.error());
         return Exit::failed;
-    }
-    if (dryRun)
-    {
-        reportPlan(console, std::vector<ConvertTask>{task});
-        return Exit::ok;
     }
     const auto written = writeFileAtomically(output, text, *existing);
     if (!written)
@@ -282,6 +285,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
     settings.quantise = quantise;
     settings.force = force;
     settings.dryRun = dryRun;
+    settings.strict = console.isStrict();
     settings.record =
         fmt::format("Pacini {}: {}, quantise {}, {}", PACINI_VERSION, target->name, quantise, options.record());
     if (params->profile)

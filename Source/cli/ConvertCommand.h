@@ -44,9 +44,9 @@ private:
     int quantise = 0;
     unsigned jobs = 0;
     bool force = false;
-    bool dryRun = false;
     OverwriteOptions overwriting;
     bool byName = true; ///< the output was named with -o
+    bool dryRun = false;
 };
 
 } // namespace pacini::cli

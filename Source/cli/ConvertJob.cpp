@@ -56,7 +56,7 @@ Result<Existing> mayConvertTo(const std::filesystem::path& main, const ExportedC
 Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
                                   Replaceable replaceable, const ConvertSettings& settings, const ManifestEntry* before)
 {
-    auto read = readAnyClip(input);
+    auto read = readAnyClip(input, settings.strict);
     if (!read)
         return read.error();
     ConvertResult result;
@@ -91,6 +91,8 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
     }
     result.entry.duration = read->clip.duration;
     result.entry.warnings = std::move(read->warnings);
+    if (const auto stray = strayCompanion(output, settings.target, *exported); !stray.empty())
+        result.entry.warnings.push_back(strayWarning(stray));
     result.losses = std::move(exported->losses);
     result.entry.losses = lossesByKind(result.losses);
     return result;

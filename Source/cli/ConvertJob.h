@@ -21,6 +21,7 @@ struct ConvertSettings
     std::filesystem::path folder; ///< the outputs' names in the entry count from here
     bool force = false;
     bool dryRun = false; ///< write nothing
+    bool strict = false; ///< see readAnyClip()
 };
 
 /// What came of one clip.

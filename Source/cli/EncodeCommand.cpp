@@ -177,8 +177,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
                       "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -347,6 +347,8 @@ Exit EncodeCommand::run(Console& console)
                                          counted(task.result->replacedSamples,
                                                  "sample was no number or absurdly large and was taken as 0",
                                                  "samples were no numbers or absurdly large and were taken as 0"));
+                     if (task.result && !task.result->stray.empty())
+                         console.warning(task.input.string(), strayWarning(task.result->stray));
                  };
              });
 

@@ -43,8 +43,8 @@ private:
     bool allowNan = false;
     bool allowTruncated = false;
     bool force = false;
-    bool dryRun = false;
     OverwriteOptions overwriting;
+    bool dryRun = false;
     unsigned jobs = 0;
 };
 

@@ -154,6 +154,7 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     const auto written = writeExport(output, **exported, existing);
     if (!written)
         return atOutput(output, written.error());
+    result.stray = strayCompanion(output, settings.target, **exported);
     std::size_t bytes = 0;
     for (const WrittenFile& file : *written)
         bytes += file.bytes;
@@ -214,7 +215,7 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
 
 Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work)
 {
-    work.run([&] { encoder.start(reader.sampleRate(), reader.channels()); });
+    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0)); });
     const auto read =
         forEachPiece(reader, progress, [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
     if (!read)

@@ -2,9 +2,9 @@
 
 #include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
+#include "cli/SceneReport.h"
 #include "io/AnyClip.h"
 #include "io/AudioReader.h"
-#include "io/ClipFile.h"
 #include "io/ClipJson.h"
 
 #include <pacini/clip/ClipSize.h>
@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace pacini::cli
 {
@@ -24,15 +25,14 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-Json describe(const AnyClip& read)
+Json describe(const Clip& clip, const std::string& format)
 {
-    const Clip& clip = read.clip;
     Json encoder = Json::object();
     for (const EncoderParameter& parameter : clip.encoder)
         std::visit([&](const auto& value) { encoder[parameter.name] = value; }, parameter.value);
     const auto packed = packClip(clip, packParamsFor(clip)).size();
     return {{"kind", "clip"},
-            {"format", read.format},
+            {"format", format},
             {"name", clip.name},
             {"duration", clip.duration},
             {"source",
@@ -63,9 +63,9 @@ std::string encoderText(const std::vector<EncoderParameter>& encoder)
 }
 
 /// Of a clip of another program, the program.
-std::string titleOf(const AnyClip& read)
+std::string titleOf(const std::string& formatName)
 {
-    const ForeignFormat* format = foreignFormatNamed(read.format);
+    const ForeignFormat* format = foreignFormatNamed(formatName);
     return format == nullptr ? "" : fmt::format(" ({})", format->title);
 }
 
@@ -81,12 +81,11 @@ std::string soundText(const ClipSource& source)
     return text.empty() ? "" : " (" + text + ")";
 }
 
-std::string text(const std::string& file, const AnyClip& read)
+std::string text(const std::string& file, const Clip& clip, const std::string& format)
 {
-    const Clip& clip = read.clip;
-    const Json j = describe(read);
+    const Json j = describe(clip, format);
     std::string lines = fmt::format("{}: haptic clip \"{}\"{}, {}\n", printable(file), printable(clip.name),
-                                    titleOf(read), durationText(clip.duration));
+                                    titleOf(format), durationText(clip.duration));
     if (!clip.source.file.empty())
         lines += fmt::format("  made from     {}{}\n", printable(clip.source.file), soundText(clip.source));
     if (!clip.encoder.empty())
@@ -132,10 +131,13 @@ Result<Json> describeAudio(const std::string& file)
 
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("info", "Say what a clip of any format, a sound or an actuator profile holds");
-    command->add_option("inputs", inputs, "Clips, audio files, profiles or names of shipped profiles")
+    auto* command =
+        app.add_subcommand("info", "Say what a clip of any format, a scene, a sound or an actuator profile holds");
+    command->add_option("inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles")
         ->required()
         ->type_name("FILE|PROFILE");
+    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
+        ->type_name("DIR");
     command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
                     "  pacini info l5-wristband                       a profile that comes with Pacini");
     return command;
@@ -152,8 +154,10 @@ Exit InfoCommand::run(Console& console)
     bool failed = false;
     for (const std::string& file : inputs)
     {
-        if (const auto profile = profileIn(file))
+        ReadWarnings keys(console.isStrict());
+        if (const auto profile = profileIn(file, &keys))
         {
+            console.warnings(file, keys.texts());
             if (!*profile)
             {
                 console.error(file, profile->error());
@@ -166,17 +170,25 @@ Exit InfoCommand::run(Console& console)
             }
             continue;
         }
-        const auto clip = readAnyClip(file);
-        if (clip)
+        const auto read = readClipOrScene(file, {clipFolder, console.isStrict()});
+        if (read)
         {
-            for (const std::string& warning : clip->warnings)
-                console.warning(file, warning);
-            add(file, describe(*clip));
-            console.print(text(file, *clip));
+            console.warnings(file, read->warnings);
+            if (const auto* clip = std::get_if<Clip>(&read->content))
+            {
+                add(file, describe(*clip, read->format));
+                console.print(text(file, *clip, read->format));
+            }
+            else
+            {
+                const Scene& scene = std::get<Scene>(read->content);
+                add(file, sceneReport(scene));
+                console.print(sceneText(file, scene));
+            }
             continue;
         }
         // A file that is no clip may be a sound; a broken clip should be reported as a clip.
-        const auto audio = clipFormatOf(file) ? Result<Json>(clip.error()) : describeAudio(file);
+        const auto audio = looksLikeClip(file) ? Result<Json>(read.error()) : describeAudio(file);
         if (!audio)
         {
             console.error(file, audio.error());

@@ -8,7 +8,7 @@
 namespace pacini::cli
 {
 
-/// `pacini info`: what a clip, a sound file or a profile holds.
+/// `pacini info`: what a clip, a scene, a sound file or a profile holds.
 class InfoCommand : public Command
 {
 public:
@@ -17,6 +17,7 @@ public:
 
 private:
     std::vector<std::string> inputs;
+    std::string clipFolder;
 };
 
 } // namespace pacini::cli

@@ -167,6 +167,13 @@ fs::path sameFileKey(const fs::path& path)
     return error ? path.lexically_normal() : folder / path.filename();
 }
 
+fs::path realPlace(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
+    return error || place.empty() ? sameFileKey(path) : place;
+}
+
 std::string lowerExtension(const fs::path& path)
 {
     std::string extension = path.extension().string();

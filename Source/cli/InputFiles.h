@@ -59,8 +59,8 @@ struct OutputPlace
 };
 
 /// Where the result for `input` goes: beside it when nothing is given; into the folder `given` when it is one, ends in
-/// a slash or several inputs were named; else to `given` itself. Folders are made as needed, if `makeFolders`.
-/// Errors: io.
+/// a slash or several inputs were named; else to `given` itself. Folders are made as needed, if `makeFolders`. Errors:
+/// io.
 [[nodiscard]] Result<OutputPlace> outputFor(const InputFile& input, const OutputNames& names, bool several,
                                             bool makeFolders = true);
 
@@ -70,6 +70,9 @@ struct OutputPlace
 
 /// The same for all ways of naming one file, whether it exists or not.
 [[nodiscard]] std::filesystem::path sameFileKey(const std::filesystem::path& path);
+
+/// Where a file really is, with its own links resolved too, as far as they can be.
+[[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
 
 /// The extension in lower case.
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);

@@ -4,6 +4,8 @@
 #include "cli/ConvertManifest.h"
 #include "cli/Counted.h"
 #include "cli/InputFiles.h"
+#include "cli/SceneCheck.h"
+#include "cli/SceneTimeline.h"
 #include "io/AnyClip.h"
 #include "io/ClipExport.h"
 
@@ -11,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 namespace pacini::cli
 {
@@ -38,12 +42,15 @@ Json targetsJson()
                            {"readOnly", format.write == nullptr}});
     return {{"targets", targets}};
 }
+/// What is found in a scene itself, among the kinds of losses.
+constexpr std::string_view sceneKind = "scene";
 
 std::vector<std::string> kindNames()
 {
     std::vector<std::string> names;
     for (int kind = 0; kind <= static_cast<int>(LossKind::text); ++kind)
         names.emplace_back(lossName(static_cast<LossKind>(kind)));
+    names.emplace_back(sceneKind);
     return names;
 }
 
@@ -68,15 +75,19 @@ std::string errorText(const FormatLoss& loss)
 
 CLI::App* LintCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("lint", "Say what another format will lose of clips, where and how much");
-    command->add_option("inputs", inputs, "Clips of any format, or folders of them")->type_name("CLIP");
+    auto* command = app.add_subcommand(
+        "lint", "Say what another format will lose of clips, where and how much, and what a scene does not play");
+    command->add_option("inputs", inputs, "Clips of any format, scenes, or folders of them")->type_name("CLIP");
     std::vector<std::string> names;
     for (const ClipTarget& known : clipTargets())
         if (known.foreign != nullptr)
             names.emplace_back(known.name);
-    command->add_option("--target", target, "The format, see --targets")->check(oneOf(names));
+    command->add_option("--target", target, "The format, see --targets; scenes are also looked at without one")
+        ->check(oneOf(names));
     command->add_flag("--targets", listTargets, "List the formats and do nothing else");
     options.declare(*command);
+    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
+        ->type_name("DIR");
     command
         ->add_option("--max-error", maxError,
                      "Fail when an amplitude is off by more (1 = full drive): bands, points, events, noise")
@@ -85,19 +96,112 @@ CLI::App* LintCommand::declare(CLI::App& app)
         ->check(numberFrom(0.0, 100.0));
     command->add_option("--max-time", maxTime, "Fail when a time is off by more seconds")
         ->check(numberFrom(0.0, limits::duration, "24 h"));
-    command->add_option("--fail-on", forbidden, "Fail on any loss of these kinds")
+    command
+        ->add_option("--fail-on", forbidden, "Fail on any loss of these kinds, or on what is found in a scene (scene)")
         ->check(oneOf(kindNames()))
         ->delimiter(',');
-    command->footer("Examples:\n  pacini lint door.json --target ahap\n"
-                    "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 when a clip loses more");
+    command->footer(
+        "Examples:\n  pacini lint door.json --target ahap\n"
+        "  pacini lint clips/ --target haptic --max-error 0.1   exits with 1 when a clip loses more\n"
+        "  pacini lint hall.scene.json --fail-on scene   exits with 1 when something in it is never played");
     return command;
+}
+
+bool LintCommand::failsOn(std::string_view kind) const
+{
+    return std::find(forbidden.begin(), forbidden.end(), kind) != forbidden.end();
 }
 
 bool LintCommand::isTooMuch(const FormatLoss& loss) const
 {
     const double limit = loss.kind == LossKind::frequency ? maxOctaves : isTime(loss.kind) ? maxTime : maxError;
-    return (limit >= 0.0 && loss.error > limit) ||
-           std::find(forbidden.begin(), forbidden.end(), lossName(loss.kind)) != forbidden.end();
+    return (limit >= 0.0 && loss.error > limit) || failsOn(lossName(loss.kind));
+}
+
+nlohmann::ordered_json LintCommand::lintScene(Console& console, const std::string& name, const Scene& scene,
+                                              std::size_t& tooMuch) const
+{
+    Json found = Json::array();
+    const bool over = failsOn(sceneKind);
+    for (const SceneFinding& finding : checkScene(scene))
+    {
+        tooMuch += over ? 1u : 0u;
+        found.push_back({{"where", finding.where}, {"message", finding.message}, {"tooMuch", over}});
+        console.print(
+            fmt::format("{}: {}: {}{}", printable(name), finding.where, finding.message, over ? "  TOO MUCH" : ""));
+    }
+    return found;
+}
+
+Result<nlohmann::ordered_json> LintCommand::lintClip(Console& console, const std::string& name, const Clip& clip,
+                                                     const ExportParams& params, std::size_t& tooMuch) const
+{
+    const auto exported = foreignFormatNamed(target)->write(clip, params);
+    if (!exported)
+        return exported.error();
+    Json losses = Json::array();
+    for (const FormatLoss& loss : exported->losses)
+    {
+        const bool over = isTooMuch(loss);
+        tooMuch += over ? 1u : 0u;
+        losses.push_back(toJson(loss));
+        losses.back()["tooMuch"] = over;
+        console.print(fmt::format("{}: {:8.3f} s {:>7}  {:<10}{:>13}  {}{}", printable(name), loss.time,
+                                  loss.duration > 0.0 ? fmt::format("+{:.3f}", loss.duration) : "", lossName(loss.kind),
+                                  errorText(loss), loss.message, over ? "  TOO MUCH" : ""));
+    }
+    return losses;
+}
+
+Result<nlohmann::ordered_json> LintCommand::lint(Console& console, const InputFile& file, const ExportParams& params,
+                                                 std::size_t& tooMuch) const
+{
+    const std::string name = file.path.string();
+    const auto read = readClipOrScene(file.path, {clipFolder, console.isStrict()});
+    if (!read)
+        return read.error();
+    const auto* scene = std::get_if<Scene>(&read->content);
+    if (scene == nullptr && target.empty())
+        return Error{ErrorCode::invalidArgument, "",
+                     "is a clip, and --target is missing; 'pacini lint --targets' lists them"};
+    console.warnings(name, read->warnings);
+    std::size_t beyond = 0;
+    Json found = Json::array(), losses = Json::array();
+    double duration = 0.0;
+    if (scene == nullptr)
+    {
+        const Clip& clip = std::get<Clip>(read->content);
+        auto all = lintClip(console, name, clip, params, beyond);
+        if (!all)
+            return all.error();
+        losses = std::move(*all);
+        duration = clip.duration;
+    }
+    else
+    {
+        found = lintScene(console, name, *scene, beyond);
+        duration = timelineOf(*scene).duration;
+        for (std::size_t i = 0; i < scene->clips.size() && !target.empty(); ++i)
+        {
+            auto all = lintClip(console, fmt::format("{}: clips[{}]", name, i), scene->clips[i], params, beyond);
+            if (!all)
+                return Error{all.error().code, fmt::format("clips[{}]", i), all.error().text()};
+            for (Json& loss : *all)
+            {
+                loss["clip"] = i;
+                losses.push_back(std::move(loss));
+            }
+        }
+    }
+    if (found.empty() && losses.empty())
+        console.note(fmt::format("{}: {}", printable(name), target.empty() ? "plays all" : "loses nothing"));
+    tooMuch += beyond;
+    Json report{
+        {"input", name},        {"format", read->format}, {"target", target.empty() ? Json(nullptr) : Json(target)},
+        {"duration", duration}, {"ok", beyond == 0},      {"losses", std::move(losses)}};
+    if (scene != nullptr)
+        report["findings"] = std::move(found);
+    return report;
 }
 
 Exit LintCommand::run(Console& console)
@@ -108,23 +212,22 @@ Exit LintCommand::run(Console& console)
         console.print(targetList());
         return Exit::ok;
     }
-    if (inputs.empty() || target.empty())
+    if (inputs.empty())
     {
-        console.error("", {ErrorCode::invalidArgument, "lint",
-                           inputs.empty() ? "a file to work on is missing; try 'pacini lint --help'"
-                                          : "--target is missing; 'pacini lint --targets' lists them"});
+        console.error("",
+                      {ErrorCode::invalidArgument, "lint", "a file to work on is missing; try 'pacini lint --help'"});
         return Exit::usage;
     }
     const auto params = options.params(console);
     if (!params)
         return Exit::failed;
-    const ForeignFormat& format = *foreignFormatNamed(target);
 
     const InputFiles found = findInputs(inputs, anyClipExtensions());
     Json files = Json::array();
-    bool failed = false;
+    bool failed = false, wrongUsage = false;
     const auto fail = [&](const std::string& file, const Error& error)
     {
+        wrongUsage = wrongUsage || error.code == ErrorCode::invalidArgument;
         console.error(file, error);
         failed = true;
     };
@@ -133,42 +236,18 @@ Exit LintCommand::run(Console& console)
     std::size_t tooMuch = 0;
     for (const InputFile& file : found.files)
     {
-        const std::string name = file.path.string();
-        const auto read = readAnyClip(file.path);
-        const auto exported = read ? format.write(read->clip, *params) : Result<ExportedClip>(read.error());
-        if (!exported)
-        {
-            fail(name, exported.error());
-            continue;
-        }
-        for (const std::string& warning : read->warnings)
-            console.warning(name, warning);
-        Json losses = Json::array();
-        std::size_t beyond = 0;
-        for (const FormatLoss& loss : exported->losses)
-        {
-            const bool over = isTooMuch(loss);
-            beyond += over ? 1u : 0u;
-            losses.push_back(toJson(loss));
-            losses.back()["tooMuch"] = over;
-            console.print(fmt::format("{}: {:8.3f} s {:>7}  {:<10}{:>13}  {}{}", printable(name), loss.time,
-                                      loss.duration > 0.0 ? fmt::format("+{:.3f}", loss.duration) : "",
-                                      lossName(loss.kind), errorText(loss), loss.message, over ? "  TOO MUCH" : ""));
-        }
-        tooMuch += beyond;
-        if (exported->losses.empty())
-            console.note(fmt::format("{}: loses nothing", printable(name)));
-        files.push_back({{"input", name},
-                         {"format", read->format},
-                         {"target", target},
-                         {"duration", read->clip.duration},
-                         {"ok", beyond == 0},
-                         {"losses", losses}});
+        auto report = lint(console, file, *params, tooMuch);
+        if (report)
+            files.push_back(std::move(*report));
+        else
+            fail(file.path.string(), report.error());
     }
     console.addToReport({{"files", files}});
     if (tooMuch > 0)
         console.error("", {ErrorCode::invalidData, "lint",
                            fmt::format("{} more than is allowed", counted(tooMuch, "loss is", "losses are"))});
+    if (wrongUsage && target.empty())
+        return Exit::usage;
     return tooMuch > 0 || failed ? Exit::failed : Exit::ok;
 }
 

@@ -182,14 +182,13 @@ Exit PlayCommand::run(Console& console)
         console.error("", *wrong);
         return Exit::usage;
     }
-    const auto read = readAnyClip(input);
+    const auto read = readAnyClip(input, console.isStrict());
     if (!read)
     {
         console.error(input, read.error());
         return Exit::failed;
     }
-    for (const std::string& warning : read->warnings)
-        console.warning(input, warning);
+    console.warnings(input, read->warnings);
     const auto range = rangeIn(read->clip);
     if (!range)
     {

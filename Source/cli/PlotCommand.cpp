@@ -5,10 +5,12 @@
 #include "cli/InputFiles.h"
 #include "cli/ProfileInput.h"
 #include "cli/RenderJob.h"
+#include "cli/SceneTimeline.h"
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/ProfileFigure.h"
+#include "cli/plot/SceneFigure.h"
+#include "io/AnyClip.h"
 #include "io/AudioReader.h"
-#include "io/ClipFile.h"
 
 #include <pacini/synthesis/ScenePlayer.h>
 
@@ -21,6 +23,7 @@
 #include <functional>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace pacini::cli
@@ -49,14 +52,6 @@ std::optional<plot::PictureSize> parseSize(const std::string& text)
         return side >= smallestSide && side <= largestSide;
     };
     return allowed(size.width) && allowed(size.height) ? std::optional(size) : std::nullopt;
-}
-
-/// The clip in a file, or what `pacini encode` makes of a sound.
-Result<Clip> clipOf(const std::string& file, bool isClip, const Progress& progress)
-{
-    if (isClip)
-        return readClip(file);
-    return EncodeJob(EncodeSettings{}).encode(file, progress);
 }
 
 Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plot::TimeRange range, std::size_t columns)
@@ -117,10 +112,10 @@ Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<
 
 CLI::App* PlotCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand("plot", "Draw a clip, a sound and the clip it becomes, or an actuator");
+    auto* command = app.add_subcommand("plot", "Draw a clip, a scene, a sound and the clip it becomes, or an actuator");
     command
         ->add_option("input", input,
-                     "Clip (JSON or packed), sound, which is encoded first, or actuator profile: a file or the "
+                     "Clip of any format, scene, sound, which is encoded first, or actuator profile: a file or the "
                      "name of a shipped one")
         ->required()
         ->type_name("IN|PROFILE");
@@ -132,6 +127,8 @@ CLI::App* PlotCommand::declare(CLI::App& app)
         ->add_option("--profile", profile,
                      "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it")
         ->type_name("PROFILE");
+    command->add_option("--clips", clipFolder, "Where the clip files of a scene are [beside the scene]")
+        ->type_name("DIR");
     command->add_option("--size", size, "Size of the picture in pixels")
         ->capture_default_str()
         ->check(CLI::Validator(
@@ -152,6 +149,8 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                     "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"
+                    "  pacini plot door.haptic -o door.png\n"
+                    "  pacini plot hall.scene.json -o hall.png        when each clip plays, and where\n"
                     "  pacini plot l5-wristband -o l5.png");
     return command;
 }
@@ -189,8 +188,10 @@ Exit PlotCommand::run(Console& console)
     }
 
     const plot::FigureStyle style{*parseSize(size), dark};
-    if (const auto shown = profileIn(input))
+    ReadWarnings keys(console.isStrict());
+    if (const auto shown = profileIn(input, &keys))
     {
+        console.warnings(input, keys.texts());
         if (!*shown)
             return fail(input, shown->error());
         if (from || to || !sound.empty() || !profile.empty())
@@ -209,16 +210,29 @@ Exit PlotCommand::run(Console& console)
             return Exit::failed;
     }
 
-    const bool isClip = clipFormatOf(path).has_value();
-    const auto clip = clipOf(input, isClip, progress);
-    if (!clip)
-        return fail(input, clip.error());
-    constexpr double shortest = 1e-6; // s
-    const double end = clip->duration > shortest ? clip->duration : 1.0;
-    const plot::TimeRange range{from.value_or(0.0), std::min(to.value_or(end), end)};
-    if (range.to - range.from < shortest)
-        return fail(input, {ErrorCode::invalidArgument, "--from",
-                            fmt::format("is not before --to and the end of the clip, {:.3f} s", clip->duration)});
+    const bool isClip = looksLikeClip(path);
+    std::optional<Clip> clip;
+    if (isClip)
+    {
+        auto read = readClipOrScene(path, {clipFolder, console.isStrict()});
+        if (!read)
+            return fail(input, read.error());
+        console.warnings(input, read->warnings);
+        if (const auto* scene = std::get_if<Scene>(&read->content))
+            return plotScene(console, *target, *scene, style);
+        clip = std::get<Clip>(std::move(read->content));
+    }
+    else
+    {
+        auto encoded = EncodeJob(EncodeSettings{}).encode(path, progress);
+        if (!encoded)
+            return fail(input, encoded.error());
+        clip = std::move(*encoded);
+    }
+    const auto shownRange = rangeWithin(clip->duration);
+    if (!shownRange)
+        return fail(input, shownRange.error());
+    const plot::TimeRange range = *shownRange;
 
     const auto columns = static_cast<std::size_t>(style.size.width);
     std::vector<plot::NamedWaveform> waveforms;
@@ -241,6 +255,35 @@ Exit PlotCommand::run(Console& console)
 
     const std::string title = clip->name.empty() ? path.filename().string() : clip->name;
     return write(console, *target, makeClipFigure(*clip, title, waveforms, range, style), style);
+}
+
+Result<plot::TimeRange> PlotCommand::rangeWithin(double duration) const
+{
+    constexpr double shortest = 1e-6; // s
+    const double end = duration > shortest ? duration : 1.0;
+    const plot::TimeRange range{from.value_or(0.0), std::min(to.value_or(end), end)};
+    if (range.to - range.from < shortest)
+        return Error{ErrorCode::invalidArgument, "--from",
+                     fmt::format("is not before --to and the end, {:.3f} s", duration)};
+    return range;
+}
+
+Exit PlotCommand::plotScene(Console& console, const std::filesystem::path& target, const Scene& scene,
+                            const plot::FigureStyle& style) const
+{
+    if (!sound.empty() || !profile.empty())
+    {
+        console.error(input, {ErrorCode::invalidArgument, "", "is a scene; --sound and --profile are for clips"});
+        return Exit::usage;
+    }
+    const auto range = rangeWithin(timelineOf(scene).duration);
+    if (!range)
+    {
+        console.error(input, range.error());
+        return Exit::failed;
+    }
+    const std::string title = scene.name.empty() ? std::filesystem::path(input).filename().string() : scene.name;
+    return write(console, target, plot::makeSceneFigure(scene, title, *range, style), style);
 }
 
 Exit PlotCommand::write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,

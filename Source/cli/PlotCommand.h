@@ -3,6 +3,9 @@
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 #include "cli/plot/Figure.h"
+#include "cli/plot/Waveform.h"
+
+#include <pacini/synthesis/Scene.h>
 
 #include <filesystem>
 #include <optional>
@@ -11,7 +14,7 @@
 namespace pacini::cli
 {
 
-/// `pacini plot`: a clip, a sound and the clip it becomes, or an actuator, as a picture.
+/// `pacini plot`: a clip, a scene, a sound and the clip it becomes, or an actuator, as a picture.
 class PlotCommand : public Command
 {
 public:
@@ -19,6 +22,11 @@ public:
     Exit run(Console& console) override;
 
 private:
+    /// What is shown of something that lasts `duration` s. Errors: invalidArgument.
+    [[nodiscard]] Result<plot::TimeRange> rangeWithin(double duration) const;
+
+    Exit plotScene(Console& console, const std::filesystem::path& target, const Scene& scene,
+                   const plot::FigureStyle& style) const;
     Exit write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
                const plot::FigureStyle& style) const;
 
@@ -26,6 +34,7 @@ private:
     std::string output;
     std::string sound;
     std::string profile;
+    std::string clipFolder;
     std::string size = "1600x1000";
     std::optional<double> from;
     std::optional<double> to;

@@ -12,20 +12,20 @@
 namespace pacini::cli
 {
 
-std::optional<Result<Profile>> profileIn(const std::string& name)
+std::optional<Result<Profile>> profileIn(const std::string& name, ReadWarnings* warnings)
 {
     std::error_code error;
     if (!std::filesystem::exists(name, error))
     {
         const auto shipped = findProfile(name, programFolder());
-        return shipped ? std::optional(readProfile(*shipped)) : std::nullopt;
+        return shipped ? std::optional(readProfile(*shipped, warnings)) : std::nullopt;
     }
     if (hasAcfExtension(name))
     {
         auto acf = readAcfFile(name);
         return acf ? Result<Profile>(std::move(acf->profile)) : Result<Profile>(acf.error());
     }
-    return isProfile(name) ? std::optional(readProfile(name)) : std::nullopt;
+    return isProfile(name) ? std::optional(readProfile(name, warnings)) : std::nullopt;
 }
 
 std::optional<Profile> openProfile(Console& console, const std::string& name)
@@ -36,12 +36,14 @@ std::optional<Profile> openProfile(Console& console, const std::string& name)
         console.error(name, path.error());
         return std::nullopt;
     }
-    auto profile = readProfile(*path);
+    ReadWarnings warnings(console.isStrict());
+    auto profile = readProfile(*path, &warnings);
     if (!profile)
     {
         console.error(path->string(), profile.error());
         return std::nullopt;
     }
+    console.warnings(path->string(), warnings.texts());
     return std::move(*profile);
 }
 

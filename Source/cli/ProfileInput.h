@@ -3,6 +3,7 @@
 // Actuator profiles that the user names.
 
 #include "cli/Console.h"
+#include "io/ReadWarnings.h"
 
 #include <pacini/actuator/Profile.h>
 
@@ -13,8 +14,8 @@ namespace pacini::cli
 {
 
 /// The profile that the file `name` is (ACF too), or that ships under this name; nothing when it is something else.
-/// Errors: those of readProfile and readAcfFile.
-[[nodiscard]] std::optional<Result<Profile>> profileIn(const std::string& name);
+/// Keys that are not known go to `warnings`. Errors: those of readProfile and readAcfFile.
+[[nodiscard]] std::optional<Result<Profile>> profileIn(const std::string& name, ReadWarnings* warnings = nullptr);
 
 /// The profile of `--profile name`; nothing when there is none, and the console has said why.
 [[nodiscard]] std::optional<Profile> openProfile(Console& console, const std::string& name);

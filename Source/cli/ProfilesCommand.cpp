@@ -39,7 +39,9 @@ Exit ProfilesCommand::run(Console& console)
     std::string lines;
     for (const ShippedProfile& entry : shipped)
     {
-        const auto profile = readProfile(entry.path);
+        ReadWarnings warnings(console.isStrict());
+        const auto profile = readProfile(entry.path, &warnings);
+        console.warnings(entry.path.string(), warnings.texts());
         if (!profile)
         {
             console.error(entry.path.string(), profile.error());

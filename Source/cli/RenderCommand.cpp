@@ -9,6 +9,7 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
+#include "io/AnyClip.h"
 #include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
@@ -18,8 +19,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace pacini::cli
 {
@@ -232,8 +235,8 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_flag("--measured", measured,
                       "Like --explain, and play everything too, to measure what leaving out costs");
     command->add_flag("-f,--force", force, "Render also what is up to date");
-    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     overwriting.declare(*command);
+    command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
         ->check(wholeNumberFrom(1u, 256u))
         ->type_name("N");
@@ -246,12 +249,35 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     return command;
 }
 
+InputFiles RenderCommand::findClips() const
+{
+    InputFiles found = findInputs(inputs, anyClipExtensions());
+    const auto isOwn = [](const InputFile& file)
+    {
+        const auto& own = clipExtensions();
+        return std::find(own.begin(), own.end(), lowerExtension(file.path)) != own.end();
+    };
+    std::set<std::filesystem::path> ownNames;
+    for (const InputFile& file : found.files)
+        if (isOwn(file))
+            ownNames.insert(std::filesystem::path(file.path).replace_extension());
+    std::erase_if(found.files,
+                  [&](const InputFile& file)
+                  {
+                      const bool named = std::find(inputs.begin(), inputs.end(), file.path.string()) != inputs.end();
+                      return !named && !isOwn(file) &&
+                             (ownNames.contains(std::filesystem::path(file.path).replace_extension()) ||
+                              !companionOf(file.path).empty());
+                  });
+    return found;
+}
+
 std::string RenderCommand::record() const
 {
     std::string text = "Pacini " PACINI_VERSION;
     const std::vector<std::string> without = {"inputs",   "output", "profile", "clips",        "explain",
                                               "measured", "jobs",   "force",   "no-overwrite", "overwrite",
-                                              "json",     "quiet",  "dry-run"};
+                                              "json",     "quiet",  "dry-run", "strict"};
     for (const CLI::Option* option : command->get_options())
         if (const auto name = option->get_single_name();
             option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
@@ -290,10 +316,10 @@ Exit RenderCommand::run(Console& console)
     if (pulseFrequency > 0.0)
         decoder.pulseFrequency = pulseFrequency;
     decoder.pulseCycles = pulseCycles;
-    settings.clipFolder = clipFolder;
     settings.from = from;
     settings.to = to;
     settings.dryRun = dryRun;
+    settings.reading = {clipFolder, console.isStrict()};
     explain = explain || measured;
     settings.describe = explain || console.isJson();
     settings.measure = measured;
@@ -322,7 +348,7 @@ Exit RenderCommand::run(Console& console)
         settings.record += ", " + profileJson(*settings.profile);
     settings.resume = !force && !explain;
 
-    const InputFiles found = findInputs(inputs, clipExtensions());
+    const InputFiles found = findClips();
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
     {
         console.error("", fits.error());
@@ -345,6 +371,8 @@ Exit RenderCommand::run(Console& console)
                      RenderTask& task = tasks[i];
                      attempt(task, end,
                              [&] { return render(task.input, task.output, task.replaceable, settings, progress); });
+                     if (task.result)
+                         console.warnings(task.input.string(), task.result->warnings);
                      if (task.error && end.isNews(*task.error))
                          console.error(task.input.string(), *task.error);
                      if (!task.result)

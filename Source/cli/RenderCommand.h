@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/Command.h"
+#include "cli/InputFiles.h"
 #include "cli/Overwrite.h"
 
 #include <pacini/synthesis/ClipAdaptation.h>
@@ -21,6 +22,10 @@ public:
     Exit run(Console& console) override;
 
 private:
+    /// The clips and scenes to render. Of a folder those of other programs only where no clip of Pacini's has the same
+    /// name, which they are then an export of.
+    [[nodiscard]] InputFiles findClips() const;
+
     /// All options that change what is written.
     [[nodiscard]] std::string record() const;
 

@@ -6,8 +6,6 @@
 #include "io/AudioReader.h"
 #include "io/ClipJson.h"
 #include "io/Fingerprint.h"
-#include "io/InputFile.h"
-#include "io/SceneFile.h"
 
 #include <fmt/format.h>
 
@@ -89,13 +87,11 @@ std::vector<PlayReport> describe(const std::vector<DecodedPlay>& plays, const st
 }
 
 /// 16 digits that change when the output would: with the bytes of the input, a scene's clips and the settings.
-std::string substanceOf(const std::filesystem::path& input, const Scene& scene, bool isScene,
-                        const RenderSettings& settings)
+std::string substanceOf(std::string_view bytes, const Scene& scene, bool isScene, const RenderSettings& settings)
 {
     Fingerprint all;
     all.add(settings.record);
-    if (const auto bytes = isStream(input) ? Result<std::string>(std::string()) : readWholeFile(input, largestClipText))
-        all.add(*bytes);
+    all.add(bytes);
     if (isScene)
         for (const Clip& clip : scene.clips)
             all.add(writeClipJson(clip));
@@ -168,14 +164,16 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
                             Replaceable replaceable, const RenderSettings& settings,
                             const std::function<void(double)>& progress)
 {
-    auto read = readClipOrScene(input, settings.clipFolder);
+    auto read = readClipOrScene(input, settings.reading);
     if (!read)
         return read.error();
     RenderResult result;
-    result.isScene = std::holds_alternative<Scene>(*read);
-    Scene scene = result.isScene ? std::get<Scene>(std::move(*read)) : sceneOf(std::get<Clip>(std::move(*read)));
+    result.isScene = std::holds_alternative<Scene>(read->content);
+    result.warnings = std::move(read->warnings);
+    Scene scene =
+        result.isScene ? std::get<Scene>(std::move(read->content)) : sceneOf(std::get<Clip>(std::move(read->content)));
 
-    const FileOrigin origin = originOf(input, output, substanceOf(input, scene, result.isScene, settings));
+    const FileOrigin origin = originOf(input, output, substanceOf(read->bytes, scene, result.isScene, settings));
     if (settings.resume && replaceable != Replaceable::named && isUpToDate(output, origin, result))
         return result;
     const auto existing = mayReplace(output, origin, replaceable);
@@ -211,6 +209,9 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     result.predictedError = plan.predictedError;
     result.leftOut = std::move(plan.leftOut);
     result.adaptations = std::move(plan.adaptations);
+    if (profile != nullptr)
+        result.protection =
+            settings.protect ? protectionText(*profile, plan.motor) : "is off: no limit of the profile is kept";
     std::vector<std::string> names;
     if (settings.describe)
         names = playNames(scene);

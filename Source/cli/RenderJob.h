@@ -4,6 +4,7 @@
 
 #include "cli/Felt.h"
 #include "cli/Overwrite.h"
+#include "io/AnyClip.h"
 #include "io/AudioWriter.h"
 
 #include <pacini/actuator/Profile.h>
@@ -36,7 +37,7 @@ struct RenderSettings
     std::optional<Profile> profile;
     std::optional<FeltSettings> felt; ///< write what is felt instead of the drive signal
     bool protect = true;              ///< keep within full drive and the limits of the profile
-    std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
+    AnyReadParams reading;
     SampleEncoding encoding = SampleEncoding::float32;
     std::string record;    ///< all that the output depends on besides the input
     bool resume = true;    ///< do nothing where an output that was not named is up to date
@@ -65,6 +66,7 @@ struct RenderResult
     std::uint64_t clippedSamples = 0;
     bool upToDate = false; ///< nothing was done; only bytes and duration are known
     bool isScene = false;
+    std::vector<std::string> warnings; ///< of reading
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;
@@ -72,6 +74,7 @@ struct RenderResult
     double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measured; ///< dB, the error that leaving out really cost
     std::vector<Adaptation> adaptations;
+    std::string protection;        ///< what becomes of the profile's limits; empty: no profile
     std::vector<LeftOut> leftOut;  ///< in order of what it costs
     std::vector<PlayReport> plays; ///< when they were to be described; in order of start
 };

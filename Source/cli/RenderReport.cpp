@@ -114,6 +114,8 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
     if (result.measured)
         plan["measuredError"] = decibels(*result.measured);
     plan["leftOutCount"] = result.leftOut.size();
+    if (!result.protection.empty())
+        plan["protection"] = result.protection;
     return plan;
 }
 
@@ -148,6 +150,8 @@ std::string planText(const RenderResult& result, const CompileParams& params)
         text += fmt::format("\n    {}: {}", result.adaptations[i].where, result.adaptations[i].what);
     if (result.adaptations.size() > mostShown)
         text += fmt::format("\n    and {} more", result.adaptations.size() - mostShown);
+    if (!result.protection.empty())
+        text += "\n  protection: " + result.protection;
     text += result.leftOut.empty() ? "\n  nothing is left out" : "\n  left out:";
     for (const auto& [reason, items] : kindsOf(result.leftOut))
     {

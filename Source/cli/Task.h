@@ -94,7 +94,7 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
 /// be written.
 template <typename ResultType>
 [[nodiscard]] std::vector<Task<ResultType>> makeTasks(const InputFiles& found, const OutputNames& names,
-                                                      const OverwriteOptions& overwriting, bool makeFolders = true)
+                                                      const OverwriteOptions& overwriting, bool makeFolders)
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
@@ -102,7 +102,7 @@ template <typename ResultType>
     std::error_code ignored;
     std::map<std::filesystem::path, std::filesystem::path> inputs; // by where they really are
     for (const InputFile& file : found.files)
-        inputs.emplace(std::filesystem::weakly_canonical(file.path, ignored), file.path);
+        inputs.emplace(realPlace(file.path), file.path);
     std::map<std::filesystem::path, std::filesystem::path> taken;
     for (const InputFile& file : found.files)
     {
@@ -124,8 +124,7 @@ template <typename ResultType>
                  " is; rename one of them");
         else if (std::filesystem::equivalent(place->path, file.path, ignored))
             fail("would be overwritten by its own result; name another output with -o");
-        else if (const auto input = inputs.find(std::filesystem::weakly_canonical(place->path, ignored));
-                 input != inputs.end())
+        else if (const auto input = inputs.find(realPlace(place->path)); input != inputs.end())
             fail("would overwrite " + input->second.string() + ", which is an input too; name another output with -o");
         else
         {
@@ -151,22 +150,25 @@ template <typename ResultType>
         std::count_if(tasks.begin(), tasks.end(), [](const auto& task) { return task.skipped; }));
 }
 
-/// Says what would be done with each file, of which the work only found out whether its output is up to date.
+/// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.
 template <typename ResultType>
 void reportPlan(Console& console, const std::vector<Task<ResultType>>& tasks)
 {
     auto files = nlohmann::ordered_json::array();
     for (const auto& task : tasks)
     {
-        if (task.error)
+        if (!task.result && !task.skipped)
             continue;
-        const bool skip = task.skipped || (task.result && task.result->upToDate);
-        const char* action = skip ? "skip" : isOccupied(task.output) ? "overwrite" : "write";
+        std::error_code ignored;
+        const bool fresh = !task.skipped && task.result->upToDate;
+        const char* action = fresh || task.skipped                           ? "skip"
+                             : std::filesystem::exists(task.output, ignored) ? "overwrite"
+                                                                             : "write";
         files.push_back({{"input", task.input.string()}, {"output", task.output.string()}, {"action", action}});
         console.print(fmt::format("would {} {}, {} {}", action, printable(task.output.string()),
-                                  task.skipped ? "which exists, from"
-                                  : skip       ? "up to date with"
-                                               : "from",
+                                  fresh          ? "up to date with"
+                                  : task.skipped ? "which exists, from"
+                                                 : "from",
                                   printable(task.input.string())));
     }
     console.addToReport({{"dryRun", true}, {"files", files}});

@@ -14,6 +14,21 @@ namespace pacini
 
 namespace
 {
+/// Bounds that nothing meets which was kept within the limits of the profile already; null: it has none to keep.
+std::optional<ProtectionParams> boundsBehind(const Profile& profile, bool turns)
+{
+    constexpr double apart = 1.0 + 1e-6; // more than rounding
+    ProtectionParams params = protectionParams(profile, Seconds(0.0));
+    params.boundsAlone = true;
+    if (turns) // nothing swings
+        params.excursion.reset();
+    if (params.excursion)
+        params.excursion->maxExcursion *= apart;
+    if (params.heat)
+        params.heat->maxPower *= apart;
+    return params.excursion || params.heat ? std::optional(params) : std::nullopt;
+}
+
 constexpr double fadeSeconds = 0.010;
 constexpr double rampSeconds = 0.005;  // of starting, stopping and switching
 constexpr double shortestLoop = 0.005; // s
@@ -179,6 +194,8 @@ Result<PreviewEngine::Piece> PreviewEngine::build(const Wanted& now, std::int64_
         return plan.error();
     ScenePlayerParams playerParams;
     playerParams.sampleRate = fs;
+    if (now.profile)
+        piece.limits = boundsBehind(*now.profile, plan->motor);
     piece.player = std::make_unique<ScenePlayer>(std::move(plan).value(), playerParams);
     if (!loops)
         piece.end = begin + piece.player->totalFrames();
@@ -333,6 +350,22 @@ void PreviewEngine::processBlock(std::span<float> haptic, std::span<const std::s
     }
 }
 
+void PreviewEngine::keepWithinLimits(std::span<float> haptic) noexcept
+{
+    // Each piece takes the actuator to be at rest and cold when it begins. It is not while one fades into the next,
+    // nor when a play begins soon after another.
+    const auto* newest = fadingIn() != nullptr ? next : current;
+    if (newest != nullptr && newest->content.limits != limits)
+    {
+        limits = newest->content.limits;
+        if (limits)
+            bounds.setParams(*limits);
+        bounds.reset();
+    }
+    if (limits)
+        bounds.process(haptic, haptic);
+}
+
 void PreviewEngine::meter(std::span<const float> haptic) noexcept
 {
     float peak = 0.0f;
@@ -361,6 +394,7 @@ void PreviewEngine::process(std::span<float> haptic, std::span<const std::span<f
     {
         const std::size_t n = std::min(haptic.size() - done, blockFrames);
         processBlock(haptic, sound, done, n);
+        keepWithinLimits(haptic.subspan(done, n));
         meter(haptic.subspan(done, n));
         done += n;
     }

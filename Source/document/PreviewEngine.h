@@ -6,6 +6,7 @@
 #include "document/PreviewSource.h"
 
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/realtime/HandOver.h>
 #include <pacini/synthesis/ScenePlayer.h>
@@ -44,7 +45,7 @@ public:
     static constexpr double exactFrom = 5.0; ///< s
 
     /// `sampleRate` 2000 to 768000 Hz; at any other service() says so and nothing plays.
-    explicit PreviewEngine(double sampleRate) : fs(sampleRate) {}
+    explicit PreviewEngine(double sampleRate) : fs(sampleRate) { bounds.prepare({fs, blockFrames}); }
 
     /// Another clip, another loop, other bands soloed: heard once service() has run. [message]
     void set(Playback playback);
@@ -114,6 +115,7 @@ private:
     struct Piece
     {
         std::unique_ptr<ScenePlayer> player;
+        std::optional<ProtectionParams> limits; ///< of the actuator, for what comes of several pieces
         std::shared_ptr<const PreviewSource> source;
         Way way;
         std::uint64_t start = 0;   ///< as Wanted
@@ -135,6 +137,7 @@ private:
     void processBlock(std::span<float> haptic, std::span<const std::span<float>> sound, std::size_t at,
                       std::size_t n) noexcept;
     void renderPiece(Piece& piece, std::span<float> out) noexcept;
+    void keepWithinLimits(std::span<float> haptic) noexcept;
     void meter(std::span<const float> haptic) noexcept;
     void addSound(const Piece& piece, std::span<const std::span<float>> sound, std::size_t at, std::size_t n,
                   std::span<const float> gains) const noexcept;
@@ -164,6 +167,8 @@ private:
     bool ready = false;                      ///< next has caught up with current
     std::size_t faded = 0;                   ///< frames of that fade
     double level = 0.0, hapticLevel = 1.0, sourceLevel = 0.0;
+    std::optional<ProtectionParams> limits;
+    Protection bounds; ///< behind all pieces
     std::array<float, blockFrames> oldSignal{}, newSignal{}, oldGains{}, newGains{};
 
 public:

@@ -3,17 +3,24 @@
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/InputFile.h"
+#include "io/SceneFile.h"
+#include "io/formats/ImportedClip.h"
 
 #include <algorithm>
 #include <cctype>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace pacini
 {
 
 namespace
 {
+// Haptics Studio writes NAME.continuous.ahap and NAME.transients.ahap, for two players.
+constexpr std::string_view studioContinuous = ".continuous";
+constexpr std::string_view studioTransients = ".transients";
+
 std::string lowerExtensionOf(const std::filesystem::path& path)
 {
     std::string extension = path.extension().string();
@@ -50,7 +57,7 @@ Result<void> addCompanion(const std::filesystem::path& path, const ForeignFormat
     }
     read.bytes += *bytes;
     Clip& clip = read.clip;
-    clip.duration = std::max(clip.duration, more->clip.duration);
+    lengthen(clip, more->clip.duration);
     std::vector<Transient> events;
     std::merge(clip.transients.begin(), clip.transients.end(), more->clip.transients.begin(),
                more->clip.transients.end(), std::back_inserter(events),
@@ -59,24 +66,44 @@ Result<void> addCompanion(const std::filesystem::path& path, const ForeignFormat
     std::move(more->warnings.begin(), more->warnings.end(), std::back_inserter(read.warnings));
     return {};
 }
-} // namespace
-
-Result<AnyClip> readAnyClip(const std::filesystem::path& path)
+/// The companion of a main file, in Pacini's or in Haptics Studio's way of naming them, if there is one.
+std::filesystem::path companionFile(const std::filesystem::path& main, const ForeignFormat& format)
 {
-    const std::string extension = lowerExtensionOf(path);
-    auto bytes = isForeignExtension(extension) ? readWholeFile(path, largestClipText) : readClipBytes(path);
-    if (!bytes)
-        return bytes.error();
+    if (format.companion.empty())
+        return {};
+    std::vector<std::filesystem::path> names{exportPath(main, format.companion)};
+    if (const std::string stem = main.stem().string(); stem.ends_with(studioContinuous))
+    {
+        const std::string name = stem.substr(0, stem.size() - studioContinuous.size());
+        names.push_back(main.parent_path() / (name + std::string(studioTransients) + main.extension().string()));
+    }
+    std::error_code ignored;
+    for (const auto& name : names)
+        if (std::filesystem::is_regular_file(name, ignored))
+            return name;
+    return {};
+}
+
+Result<std::string> readBytes(const std::filesystem::path& path)
+{
+    return isForeignExtension(lowerExtensionOf(path)) ? readWholeFile(path, largestClipText) : readClipBytes(path);
+}
+
+Result<AnyClip> clipIn(const std::filesystem::path& path, std::string bytes, bool strict)
+{
     AnyClip read;
-    read.bytes = std::move(bytes).value();
-    const ForeignFormat* format = saysItIsPacini(read.bytes) ? nullptr : foreignFormatOf(extension, read.bytes);
+    read.bytes = std::move(bytes);
+    const ForeignFormat* format =
+        saysItIsPacini(read.bytes) ? nullptr : foreignFormatOf(lowerExtensionOf(path), read.bytes);
     if (format == nullptr)
     {
-        auto clip = clipOf(read.bytes);
+        ReadWarnings warnings(strict);
+        auto clip = clipOf(read.bytes, &warnings);
         if (!clip)
             return clip.error();
         read.clip = std::move(clip).value();
         read.format = read.bytes.starts_with("PACB") ? "packed" : "json";
+        read.warnings = warnings.texts();
         return read;
     }
     auto imported = format->read(read.bytes);
@@ -85,14 +112,48 @@ Result<AnyClip> readAnyClip(const std::filesystem::path& path)
     read.clip = std::move(imported->clip);
     read.warnings = std::move(imported->warnings);
     read.format = format->name;
-    std::error_code ignored;
-    if (const auto second = exportPath(path, format->companion);
-        !format->companion.empty() && std::filesystem::is_regular_file(second, ignored))
+    if (const auto second = companionFile(path, *format); !second.empty())
         if (auto added = addCompanion(second, *format, read); !added)
             return added.error();
     if (read.clip.name.empty())
         read.clip.name = path.stem().string();
     return read;
+}
+} // namespace
+
+Result<AnyClip> readAnyClip(const std::filesystem::path& path, bool strict)
+{
+    auto bytes = readBytes(path);
+    if (!bytes)
+        return bytes.error();
+    if (isSceneText(*bytes))
+        return Error{ErrorCode::invalidData, "", "is a scene, and a clip is needed; 'pacini render' plays scenes"};
+    return clipIn(path, std::move(bytes).value(), strict);
+}
+
+Result<ClipOrScene> readClipOrScene(const std::filesystem::path& path, const AnyReadParams& params)
+{
+    auto bytes = readBytes(path);
+    if (!bytes)
+        return bytes.error();
+    if (isSceneText(*bytes))
+    {
+        ReadWarnings warnings(params.strict);
+        auto scene = sceneOfText(*bytes, params.clipFolder.empty() ? path.parent_path() : params.clipFolder, &warnings);
+        if (!scene)
+            return scene.error();
+        return ClipOrScene{std::move(scene).value(), "scene", warnings.texts(), std::move(bytes).value()};
+    }
+    auto clip = clipIn(path, std::move(bytes).value(), params.strict);
+    if (!clip)
+        return clip.error();
+    return ClipOrScene{std::move(clip->clip), std::move(clip->format), std::move(clip->warnings),
+                       std::move(clip->bytes)};
+}
+
+bool looksLikeClip(const std::filesystem::path& path)
+{
+    return isForeignExtension(lowerExtensionOf(path)) || clipFormatOf(path).has_value();
 }
 
 std::filesystem::path exportPath(const std::filesystem::path& main, std::string_view suffix)
@@ -109,13 +170,20 @@ std::filesystem::path companionOf(const std::filesystem::path& path)
     const std::string stem = path.stem().string();
     for (const ForeignFormat& format : foreignFormats())
     {
-        if (format.companion.empty() || format.extension != extension || !stem.ends_with(format.companion))
+        if (format.companion.empty() || format.extension != extension)
             continue;
-        std::filesystem::path main = path.parent_path() / stem.substr(0, stem.size() - format.companion.size());
-        main += path.extension();
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(main, ignored))
-            return main;
+        for (const auto& [suffix, mainSuffix] : {std::pair<std::string_view, std::string_view>(format.companion, ""),
+                                                 std::pair(studioTransients, studioContinuous)})
+        {
+            if (!stem.ends_with(suffix))
+                continue;
+            std::filesystem::path main = path.parent_path() / stem.substr(0, stem.size() - suffix.size());
+            main += mainSuffix;
+            main += path.extension();
+            std::error_code ignored;
+            if (std::filesystem::is_regular_file(main, ignored))
+                return main;
+        }
     }
     return {};
 }

@@ -6,6 +6,7 @@
 #include <pacini/clip/PackedClip.h>
 
 #include <algorithm>
+#include <system_error>
 
 namespace pacini
 {
@@ -54,6 +55,24 @@ Result<ExportedClip> exportClip(const Clip& clip, const ClipTarget& target, cons
         result.files.push_back({"", std::string(reinterpret_cast<const char*>(packed.data()), packed.size())});
     }
     return result;
+}
+
+std::filesystem::path strayCompanion(const std::filesystem::path& main, const ClipTarget& target,
+                                     const ExportedClip& exported)
+{
+    const std::string_view suffix = target.foreign == nullptr ? "" : target.foreign->companion;
+    const bool written = std::any_of(exported.files.begin(), exported.files.end(),
+                                     [&](const ExportedFile& file) { return file.suffix == suffix; });
+    if (suffix.empty() || written)
+        return {};
+    auto stray = exportPath(main, suffix);
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(stray, ignored) ? stray : std::filesystem::path();
+}
+
+std::string strayWarning(const std::filesystem::path& stray)
+{
+    return stray.filename().string() + ": was there before and is no part of this clip, but is read with it; remove it";
 }
 
 Result<std::vector<WrittenFile>> writeExport(const std::filesystem::path& main, const ExportedClip& exported,

@@ -33,6 +33,14 @@ struct ClipTarget
 /// which is not counted. Errors: those of validate() and of the format's writer.
 [[nodiscard]] Result<ExportedClip> exportClip(const Clip& clip, const ClipTarget& target, const ExportParams& params);
 
+/// The file beside `main` that is no part of this export but would be read with it: a companion (see ForeignFormat)
+/// that is left from an earlier one, or somebody else's. It stays where it is; empty when there is none.
+[[nodiscard]] std::filesystem::path strayCompanion(const std::filesystem::path& main, const ClipTarget& target,
+                                                   const ExportedClip& exported);
+
+/// Says so to people.
+[[nodiscard]] std::string strayWarning(const std::filesystem::path& stray);
+
 /// One file as it was written.
 struct WrittenFile
 {

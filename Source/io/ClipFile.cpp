@@ -61,23 +61,23 @@ Result<std::string> readClipBytes(const std::filesystem::path& path)
     return readWholeFile(path, largestClipText);
 }
 
-Result<Clip> clipOf(std::string_view bytes)
+Result<Clip> clipOf(std::string_view bytes, ReadWarnings* warnings)
 {
     if (bytes.starts_with(packedMagic))
         return unpackClip(std::as_bytes(std::span(bytes)));
     if (looksLikeJson(bytes))
-        return readClipJson(bytes);
+        return readClipJson(bytes, largestClipText, warnings);
     if (bytes.empty())
         return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
     return notAClip();
 }
 
-Result<Clip> readClip(const std::filesystem::path& path)
+Result<Clip> readClip(const std::filesystem::path& path, ReadWarnings* warnings)
 {
     const auto bytes = readClipBytes(path);
     if (!bytes)
         return bytes.error();
-    return clipOf(*bytes);
+    return clipOf(*bytes, warnings);
 }
 
 std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path)

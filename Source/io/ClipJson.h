@@ -2,6 +2,8 @@
 
 // Clips as JSON text: Resources/schema/pacini.clip.schema.json describes the format.
 
+#include "io/ReadWarnings.h"
+
 #include <pacini/clip/Clip.h>
 
 #include <cstddef>
@@ -18,15 +20,18 @@ inline constexpr int clipFormatVersion = 1;
 /// Longer texts are refused. About ten million points fit.
 inline constexpr std::size_t largestClipText = std::size_t(512) << 20;
 
-/// Reads a clip and checks it with validate(). Unknown keys are ignored, a key given twice is an error (programs differ
-/// in which one they take). `format`, `version`, `duration` and `bands` are required, and in every listed object all
-/// members but a band's `priority` and `pitch`; what may be missing keeps the default of Clip.
-/// Errors carry the place: a path such as `bands[2].amplitude[7].time` for a wrong, missing or badly ordered value (the
-/// path of the missing member), `line 3, column 17` for wrong JSON. Codes: invalidData, unsupportedVersion, notFinite
-/// (numbers beyond double), tooLarge (longer than `maximumBytes`, nested deeper than 32, beyond the limits of Clip.h).
-/// The stream is read once, in blocks, so that a bad text fails where it turns bad.
-[[nodiscard]] Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes = largestClipText);
-[[nodiscard]] Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes = largestClipText);
+/// Reads a clip and checks it with validate(). Unknown keys are passed over with a warning each, if `warnings` are
+/// asked for; a key given twice is an error (programs differ in which one they take). `format`, `version`, `duration`
+/// and `bands` are required, and in every listed object all members but a band's `priority` and `pitch`; what may be
+/// missing keeps the default of Clip. Errors carry the place: a path such as `bands[2].amplitude[7].time` for a wrong,
+/// missing or badly ordered value (the path of the missing member), `line 3, column 17` for wrong JSON. Codes:
+/// invalidData, unsupportedVersion, notFinite (numbers beyond double), tooLarge (longer than `maximumBytes`, nested
+/// deeper than 32, beyond the limits of Clip.h). The stream is read once, in blocks, so that a bad text fails where it
+/// turns bad.
+[[nodiscard]] Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes = largestClipText,
+                                        ReadWarnings* warnings = nullptr);
+[[nodiscard]] Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes = largestClipText,
+                                        ReadWarnings* warnings = nullptr);
 
 /// The text of a clip for which validate() holds: UTF-8, all members in the order of the schema, the points of one
 /// quarter of a second on one line (an edit changes few lines), and numbers in the shortest form that reads back

@@ -120,6 +120,7 @@ public:
             return true;
         }
         pending.unknown = true;
+        doubtKey(name, top.rules->members);
         return true;
     }
 

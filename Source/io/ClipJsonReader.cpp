@@ -9,10 +9,10 @@ namespace pacini
 namespace
 {
 template <typename Text>
-Result<Clip> read(Text&& text, std::size_t maximumBytes)
+Result<Clip> read(Text&& text, std::size_t maximumBytes, ReadWarnings* warnings)
 {
     clipJson::Handler handler;
-    if (auto parsed = parseJson(text, handler, maximumBytes); !parsed)
+    if (auto parsed = parseJson(text, handler, maximumBytes, warnings); !parsed)
         return parsed.error();
     if (auto valid = validate(handler.draft.clip); !valid)
         return valid.error();
@@ -20,14 +20,14 @@ Result<Clip> read(Text&& text, std::size_t maximumBytes)
 }
 } // namespace
 
-Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes)
+Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes, ReadWarnings* warnings)
 {
-    return read(text, maximumBytes);
+    return read(text, maximumBytes, warnings);
 }
 
-Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes)
+Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes, ReadWarnings* warnings)
 {
-    return read(text, maximumBytes);
+    return read(text, maximumBytes, warnings);
 }
 
 } // namespace pacini

@@ -4,17 +4,21 @@
 
 #include "io/Fields.h"
 #include "io/JsonText.h"
+#include "io/ReadWarnings.h"
 
 #include <pacini/foundation/Result.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,7 +30,11 @@ namespace pacini
 class FieldsReader
 {
 public:
-    explicit FieldsReader(const nlohmann::json& document) : current(&document) {}
+    /// With `warnings` for keys that are asked for nowhere.
+    explicit FieldsReader(const nlohmann::json& document, ReadWarnings* keyWarnings = nullptr)
+        : current(&document), warnings(keyWarnings)
+    {
+    }
 
     std::optional<Error> error;
 
@@ -65,10 +73,17 @@ public:
         {
             if (entry->is_number())
                 value = entry->get<double>();
-            else
+            else if (!textsMayBeNumbers || !entry->is_string() ||
+                     !numberIn(entry->get_ref<const std::string&>(), value))
                 fail(name, "must be a number");
         }
     }
+
+    /// From now on numbers may stand in quotes, as some programs write them.
+    void takeTextsAsNumbers() { textsMayBeNumbers = true; }
+
+    /// How many numbers were in quotes.
+    [[nodiscard]] std::size_t textsTaken() const noexcept { return numbersInTexts; }
 
     void truth(const char* name, bool& value)
     {
@@ -190,6 +205,7 @@ public:
               {
                   for (const auto& [key, text] : entry->items())
                   {
+                      asked.emplace_back(key); // names are free
                       if (!text.is_string())
                           return fail(shownText(key), "must be a text in quotes");
                       if (text.template get_ref<const std::string&>().empty())
@@ -198,6 +214,9 @@ public:
                   }
               });
     }
+
+    /// To be called when all entries of the document have been visited: doubts those that have not.
+    void finish() { doubtOthers(); }
 
     /// Checks the entries `format` and `version` of a document; versions are whole numbers from 1.
     void format(std::string_view name, int newest)
@@ -218,6 +237,17 @@ public:
     }
 
 private:
+    bool numberIn(const std::string& text, double& value)
+    {
+        double number = 0.0;
+        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+            return false;
+        value = number;
+        ++numbersInTexts;
+        return true;
+    }
+
     [[nodiscard]] std::string place(std::string_view name) const
     {
         return where.empty() ? std::string(name) : fmt::format("{}.{}", where, name);
@@ -225,6 +255,8 @@ private:
 
     const nlohmann::json* find(const char* name, Need need)
     {
+        if (warnings != nullptr && std::find(asked.begin(), asked.end(), std::string_view(name)) == asked.end())
+            asked.emplace_back(name);
         const auto entry = current->find(name);
         if (entry != current->end())
             return &*entry;
@@ -249,13 +281,33 @@ private:
             return fail(name, "must be an object in braces");
         const std::string outerPlace = std::exchange(where, place(name));
         const nlohmann::json* outer = std::exchange(current, &inner);
+        std::vector<std::string_view> outerAsked = std::exchange(asked, {});
         fields();
+        doubtOthers();
+        asked = std::move(outerAsked);
         current = outer;
         where = outerPlace;
     }
 
+    void doubtOthers()
+    {
+        if (warnings == nullptr || error)
+            return;
+        for (const auto& [name, entry] : current->items())
+            if (std::find(asked.begin(), asked.end(), std::string_view(name)) == asked.end() && !isRemark(name))
+            {
+                if (warnings->isStrict())
+                    return fail(name, unknownKeyText(name, asked));
+                warnings->add(place(shownText(name)), unknownKeyText(name, asked));
+            }
+    }
+
     const nlohmann::json* current;
+    ReadWarnings* warnings;
+    std::vector<std::string_view> asked; ///< the keys that the current object may have
     std::string where;
+    bool textsMayBeNumbers = false;
+    std::size_t numbersInTexts = 0;
 };
 
 } // namespace pacini

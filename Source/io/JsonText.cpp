@@ -19,7 +19,11 @@ namespace
 class Events
 {
 public:
-    Events(JsonHandler& receiver, JsonSource& textSource) : handler(receiver), source(textSource) {}
+    Events(JsonHandler& receiver, JsonSource& textSource, ReadWarnings* collector)
+        : handler(receiver), source(textSource), warnings(collector)
+    {
+        handler.setWarnings(warnings);
+    }
 
     Error error;
 
@@ -48,7 +52,7 @@ public:
     bool key(std::string& name)
     {
         steps[depth - 1].key = name;
-        return handler.key(name) || stopped();
+        return handler.key(name) ? warnings == nullptr || doubted() : stopped();
     }
 
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception)
@@ -133,6 +137,19 @@ private:
         return handler.close() || stopped();
     }
 
+    /// Whether to go on after what the handler may have against the key.
+    bool doubted()
+    {
+        const auto doubt = handler.takeDoubt();
+        if (!doubt)
+            return true;
+        if (warnings->isStrict())
+            error = {ErrorCode::invalidData, path(), *doubt};
+        else
+            warnings->add(path(), *doubt);
+        return !warnings->isStrict();
+    }
+
     bool stopped()
     {
         error = handler.reason();
@@ -158,11 +175,12 @@ private:
 
     JsonHandler& handler;
     JsonSource& source;
+    ReadWarnings* warnings;
     std::array<Step, deepestJson> steps;
     std::size_t depth = 0;
 };
 
-Result<void> parse(JsonSource& source, JsonHandler& handler)
+Result<void> parse(JsonSource& source, JsonHandler& handler, ReadWarnings* warnings)
 {
     try
     {
@@ -175,7 +193,7 @@ Result<void> parse(JsonSource& source, JsonHandler& handler)
                          "starts with a byte order mark; save it as UTF-8 without"};
         if (source.startsWith("\xFE\xFF") || source.startsWith("\xFF\xFE"))
             return Error{ErrorCode::invalidData, source.place(1), "is UTF-16 text; save it as UTF-8"};
-        Events events(handler, source);
+        Events events(handler, source, warnings);
         if (!nlohmann::json::sax_parse(JsonCursor(source), JsonCursor(), &events))
             return events.error;
         if (source.endedByNul())
@@ -195,18 +213,18 @@ Result<void> parse(JsonSource& source, JsonHandler& handler)
 }
 } // namespace
 
-Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes)
+Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
 {
     JsonSource source(text, maximumBytes);
-    return parse(source, handler);
+    return parse(source, handler, warnings);
 }
 
-Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes)
+Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
 {
     if (!text)
         return Error{ErrorCode::io, "", "cannot be read"};
     JsonSource source(text, maximumBytes);
-    return parse(source, handler);
+    return parse(source, handler, warnings);
 }
 
 std::string shownText(std::string_view text)

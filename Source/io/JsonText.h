@@ -2,13 +2,17 @@
 
 // Strict, streaming JSON (RFC 8259) with limits, for texts that may be damaged or hostile.
 
+#include "io/ReadWarnings.h"
+
 #include <pacini/foundation/Result.h>
 
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace pacini
 {
@@ -33,6 +37,12 @@ public:
     /// Why stop() was called; its `where` still lacks the path of the value.
     [[nodiscard]] const Error& reason() const noexcept { return failure; }
 
+    /// Where warnings go; null: nowhere, which takes no time.
+    void setWarnings(ReadWarnings* collector) noexcept { warnings = collector; }
+
+    /// What there is to be said against the key that was given last, if anything.
+    [[nodiscard]] std::optional<std::string> takeDoubt() { return std::exchange(doubt, std::nullopt); }
+
 protected:
     /// Ends the parse. `below` is appended to the path of the current value, such as ".time" for a missing member.
     bool stop(ErrorCode code, std::string message, std::string below = {})
@@ -41,17 +51,40 @@ protected:
         return false;
     }
 
+    /// The last key is none of `members`, which have names, and what it stands for is passed over.
+    template <typename Members>
+    void doubtKey(std::string_view name, const Members& members)
+    {
+        if (warnings == nullptr || isRemark(name))
+            return;
+        if (!warnings->hasRoom() && !warnings->isStrict())
+            return warnings->count();
+        std::vector<std::string_view> known;
+        for (const auto& member : members)
+            known.push_back(member.name);
+        doubt = unknownKeyText(name, known);
+    }
+
+    /// Hands on what a handler that this one passes keys on to says against one.
+    void doubtAs(JsonHandler& inner) { doubt = inner.takeDoubt(); }
+
+    ReadWarnings* warnings = nullptr;
+
 private:
     Error failure;
+    std::optional<std::string> doubt;
 };
 
 /// Feeds one JSON document to `handler`. Errors: what the handler stops with, at a path such as
 /// `bands[2].amplitude[7].time`; notFinite with a path for numbers beyond the range of double; invalidData with
 /// `line 3, column 17` (columns count characters) for wrong syntax, ill-formed UTF-8, text after the end, a byte order
 /// mark, a NUL byte; tooLarge for more than `maximumBytes` or deeper than deepestJson; io when the stream fails.
-/// Memory beyond the handler's is bounded by the longest string or number in the text.
-[[nodiscard]] Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes);
-[[nodiscard]] Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes);
+/// Memory beyond the handler's is bounded by the longest string or number in the text. What the handler doubts goes to
+/// `warnings` with its path, or is an error (invalidData) where these are strict.
+[[nodiscard]] Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes,
+                                     ReadWarnings* warnings = nullptr);
+[[nodiscard]] Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes,
+                                     ReadWarnings* warnings = nullptr);
 
 /// `text` fit for an error message: on one line, cut after 40 characters, control characters as '?'.
 [[nodiscard]] std::string shownText(std::string_view text);

@@ -12,14 +12,14 @@
 namespace pacini
 {
 
-Result<Profile> readProfile(const std::filesystem::path& path)
+Result<Profile> readProfile(const std::filesystem::path& path, ReadWarnings* warnings)
 {
     const auto text = readWholeFile(path, largestProfileText);
     if (!text)
         return text.error();
     if (hasAcfExtension(path))
         return Error{ErrorCode::invalidData, "", "is an ACF file; make a profile of it first with 'pacini convert'"};
-    return readProfileJson(*text);
+    return readProfileJson(*text, warnings);
 }
 
 bool isProfile(const std::filesystem::path& path)

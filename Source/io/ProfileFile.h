@@ -12,7 +12,7 @@ namespace pacini
 
 /// Reads a profile. Errors: io as in readWholeFile, and those of readProfileJson(); an ACF file, known by its extension
 /// `.acf`, must be converted first.
-[[nodiscard]] Result<Profile> readProfile(const std::filesystem::path& path);
+[[nodiscard]] Result<Profile> readProfile(const std::filesystem::path& path, ReadWarnings* warnings = nullptr);
 
 /// Whether the file's content says that it is a profile, valid or not. False for what cannot be read or is no JSON.
 [[nodiscard]] bool isProfile(const std::filesystem::path& path);

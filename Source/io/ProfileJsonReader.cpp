@@ -6,17 +6,18 @@
 namespace pacini
 {
 
-Result<Profile> readProfileJson(std::string_view text)
+Result<Profile> readProfileJson(std::string_view text, ReadWarnings* warnings)
 {
     const auto document = readJsonTree(text, largestProfileText);
     if (!document)
         return document.error();
     if (!document->is_object())
         return Error{ErrorCode::invalidData, "", "is not a profile, which is a JSON object"};
-    FieldsReader reader(*document);
+    FieldsReader reader(*document, warnings);
     reader.format(profileFormatName, profileFormatVersion);
     Profile profile;
     profileFields::visitFields(profile, reader);
+    reader.finish();
     if (reader.error)
         return *reader.error;
     if (auto valid = validate(profile); !valid)

@@ -1,13 +1,12 @@
 #include "io/SceneFile.h"
 
+#include "io/AnyClip.h"
 #include "io/AtomicFile.h"
-#include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/SceneJson.h"
 
-#include <algorithm>
 #include <system_error>
 
 namespace pacini
@@ -56,52 +55,39 @@ private:
     int depth = 0;
     bool isFormat = false;
 };
-
-Result<Scene> sceneOf(std::string_view text, const fs::path& path, const fs::path& clipFolder)
-{
-    const fs::path folder = clipFolder.empty() ? path.parent_path() : clipFolder;
-    return readSceneJson(text,
-                         [&folder](const std::string& file) -> Result<Clip>
-                         {
-                             const fs::path clip = folder / file;
-                             std::error_code ignored;
-                             if (fs::exists(clip, ignored) && fs::is_other(clip, ignored))
-                                 return Error{ErrorCode::io, "", "is a pipe or a device; name a clip file"};
-                             return readClip(clip);
-                         });
-}
 } // namespace
 
-Result<Scene> readScene(const fs::path& path, const fs::path& clipFolder)
+Result<Scene> sceneOfText(std::string_view text, const fs::path& clipFolder, ReadWarnings* warnings)
+{
+    const auto load = [&](const std::string& file) -> Result<Clip>
+    {
+        const fs::path path = clipFolder / file;
+        std::error_code ignored;
+        if (fs::exists(path, ignored) && fs::is_other(path, ignored))
+            return Error{ErrorCode::io, "", "is a pipe or a device; name a clip file"};
+        auto read = readAnyClip(path, warnings != nullptr && warnings->isStrict());
+        if (!read)
+            return read.error();
+        if (warnings != nullptr)
+            for (const std::string& warning : read->warnings)
+                warnings->add(file, warning);
+        return std::move(read->clip);
+    };
+    return readSceneJson(text, load, warnings);
+}
+
+Result<Scene> readScene(const fs::path& path, const fs::path& clipFolder, ReadWarnings* warnings)
 {
     const auto text = readWholeFile(path, largestSceneText);
     if (!text)
         return text.error();
-    return sceneOf(*text, path, clipFolder);
-}
-
-Result<std::variant<Clip, Scene>> readClipOrScene(const fs::path& path, const fs::path& clipFolder)
-{
-    const auto bytes = readClipBytes(path);
-    if (!bytes)
-        return bytes.error();
-    if (isSceneText(*bytes))
-    {
-        auto scene = sceneOf(*bytes, path, clipFolder);
-        if (!scene)
-            return scene.error();
-        return std::variant<Clip, Scene>(std::move(*scene));
-    }
-    auto clip = clipOf(*bytes);
-    if (!clip)
-        return clip.error();
-    return std::variant<Clip, Scene>(std::move(*clip));
+    return sceneOfText(*text, clipFolder.empty() ? path.parent_path() : clipFolder, warnings);
 }
 
 bool isSceneText(std::string_view text)
 {
     const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos || text[first] != '{')
+    if (first == std::string_view::npos || text[first] != '{' || text.find(sceneFormatName) == std::string_view::npos)
         return false;
     FormatHandler handler;
     (void)parseJson(text, handler, largestClipText);

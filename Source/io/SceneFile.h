@@ -2,24 +2,26 @@
 
 // Scenes in files.
 
+#include "io/ReadWarnings.h"
+
 #include <pacini/synthesis/Scene.h>
 
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
-#include <variant>
 
 namespace pacini
 {
 
-/// Reads a scene; the clip files that it names are looked for in `clipFolder`, by default the scene's own. Errors: io
-/// as in readWholeFile, tooLarge beyond 256 MB, and those of readSceneJson.
-[[nodiscard]] Result<Scene> readScene(const std::filesystem::path& path, const std::filesystem::path& clipFolder = {});
+/// Reads a scene; the clip files that it names, of any format that readAnyClip() reads, are looked for in `clipFolder`,
+/// by default the scene's own. What the readers let pass goes to `warnings`, that of clip files with their names.
+/// Errors: io as in readWholeFile, tooLarge beyond 256 MB, and those of readSceneJson.
+[[nodiscard]] Result<Scene> readScene(const std::filesystem::path& path, const std::filesystem::path& clipFolder = {},
+                                      ReadWarnings* warnings = nullptr);
 
-/// Reads what `pacini render` plays: a scene when the file's "format" says so, else a clip. The file is read once.
-/// Errors: those of readScene and readClip.
-[[nodiscard]] Result<std::variant<Clip, Scene>> readClipOrScene(const std::filesystem::path& path,
-                                                                const std::filesystem::path& clipFolder = {});
+/// The same of a scene's text, with clip files in `clipFolder`.
+[[nodiscard]] Result<Scene> sceneOfText(std::string_view text, const std::filesystem::path& clipFolder,
+                                        ReadWarnings* warnings = nullptr);
 
 /// Whether the "format" of a JSON text is a scene's; reads no further than that.
 [[nodiscard]] bool isSceneText(std::string_view text);

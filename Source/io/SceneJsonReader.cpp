@@ -40,6 +40,7 @@ public:
         if (pending->clip)
         {
             embedded.emplace();
+            embedded->setWarnings(warnings);
             return passOn([](JsonHandler& clip) { return clip.openObject(); }, 1);
         }
         return pending->object != nullptr ? enter(*pending->object, false) : wrong("an object");
@@ -80,7 +81,11 @@ public:
     bool key(std::string_view name) override
     {
         if (embedded)
-            return passOn([&](JsonHandler& clip) { return clip.key(name); });
+        {
+            const bool goesOn = passOn([&](JsonHandler& clip) { return clip.key(name); });
+            doubtAs(*embedded);
+            return goesOn;
+        }
         if (ignored > 0)
             return true;
         Level& top = levels.back();
@@ -94,6 +99,8 @@ public:
             top.seen |= std::uint32_t(1) << i;
             pending = &top.rules->members[i];
         }
+        if (pending == nullptr)
+            doubtKey(name, top.rules->members);
         return true;
     }
 
@@ -278,10 +285,10 @@ Result<Scene> resolve(Draft draft, const ClipLoader& load)
 }
 } // namespace
 
-Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load)
+Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load, ReadWarnings* warnings)
 {
     SceneHandler handler;
-    if (auto parsed = parseJson(text, handler, largestSceneText); !parsed)
+    if (auto parsed = parseJson(text, handler, largestSceneText, warnings); !parsed)
         return parsed.error();
     return resolve(std::move(handler.draft), load);
 }

@@ -602,9 +602,9 @@ TEST_CASE("Limits are judged at the largest drive, overdrive included", "[actuat
         CHECK(needs.worstExcursion == Approx(overdrive / 1.02 * *profile.drive.maxExcursion));
         CHECK(needs.worstPower == Approx(overdrive * overdrive * 0.25));
     }
-    CHECK(protectionText(profile) == "travel is kept within 1.95 mm; heat is kept within 0.255 W");
+    CHECK(protectionText(profile) == "travel is kept within its limit; heat is kept within its limit");
     profile.drive.maxPower.reset();
-    CHECK(protectionText(profile) == "travel is kept within 1.95 mm; the profile names no limit of heat");
+    CHECK(protectionText(profile) == "travel is kept within its limit; the profile names no limit of heat");
     // The largest of all valid profiles is not clamped away.
     profile.drive.excursion = 1.0;
     profile.drive.overdrive = 10.0;

@@ -51,6 +51,24 @@ class Convert(CommandTest):
         report = self.report("convert", "in", "out", "--format", "haptic")
         self.assertEqual(len(report["files"]), 1)
 
+    def test_a_split_leaves_out_what_is_empty_and_tells_of_a_file_that_is_left(self):
+        self.clip(envelope=[{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}], transients=[])
+        report = self.report("convert", "clip.json", "a.ahap", "--split")
+        self.assertEqual([output["file"] for output in report["outputs"]], ["a.ahap"])
+        self.put("a.haptic", json.dumps(HAPTIC))
+        self.succeeds("convert", "a.haptic", "a.ahap", "--split")
+        kept = (self.folder / "a-transients.ahap").read_bytes()
+        done = self.run_command("convert", "clip.json", "a.ahap", "--split")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("warning: a-transients.ahap: was there before", done.stderr.decode())
+        self.assertEqual((self.folder / "a-transients.ahap").read_bytes(), kept)
+
+    def test_events_alone_are_one_file(self):
+        self.clip(envelope=[], bands=[], transients=[{"time": 0.5, "amplitude": 0.8, "sharpness": 0.5}])
+        report = self.report("convert", "clip.json", "a.ahap", "--split")
+        self.assertEqual([output["file"] for output in report["outputs"]], ["a.ahap"])
+        self.assertIn("HapticTransient", (self.folder / "a.ahap").read_text())
+
     def test_points_and_profiles_change_what_is_written(self):
         points = [{"time": i / 1000, "amplitude": (i * 7919 % 1000) / 1000} for i in range(1001)]
         self.clip(envelope=points)

@@ -119,6 +119,20 @@ class Lint(CommandTest):
                 self.assertAlmostEqual(lost["time"], 0.25, places=3)
                 self.assertAlmostEqual(lost["duration"], 0.25, places=3)
                 self.assertEqual(lost["error"], 0)
+        dull = [loss for loss in self.losses("clip.json", "--target", "hjif") if loss["kind"] == "event"]
+        self.assertAlmostEqual(dull[0]["time"], 0.25, places=3)
+        self.assertIn("22 ms", dull[0]["message"])
+        train = [dict(weak[0], time=0.25 + 0.03 * i) for i in range(3)]
+        self.clip(envelope=[], bands=[steady], transients=train)
+        waves = self.only("event", "hjif")
+        self.assertAlmostEqual(waves["time"], 0.25, places=3)
+        self.assertIn("short waves", waves["message"])
+        several = [dict(steady, lowFrequency=70 * i, centreFrequency=75 * i, highFrequency=80 * i)
+                   for i in range(1, 8)]
+        self.clip(bands=several, transients=[])
+        self.assertIn("7 bands share 5", self.only("bands", "hjif")["message"])
+        self.clip(envelope=[], bands=several, transients=[])  # nothing to level: bands stay as they are
+        self.assertNotIn("bands", [loss["kind"] for loss in self.losses("clip.json", "--target", "hjif")])
         self.clip(transients=[weak[0], dict(weak[1], amplitude=0.2)])  # the second is reached by the envelope
         left = self.only("event", "ahap")
         self.assertAlmostEqual(left["time"], 0.5, places=3)

@@ -249,6 +249,53 @@ class Converted(Overwrite):
             self.assertEqual(self.bytes_of("out/pacini.manifest.json"), content.encode())
 
 
+class Measured(Overwrite):
+    def test_a_sweep_is_described_beside_it_but_not_over_other_things(self):
+        sweep = ["measure", "sweep", "--duration", "1"]
+        self.clip("door.json")
+        self.keeps("door.json", [*sweep, "-o", "door.wav"], "door.json: exists and does not describe a sweep")
+        self.assertEqual(self.names(), ["door.json"])
+        self.put("sweep.wav", wav(sine(100, 0.2)))
+        self.keeps("sweep.wav", sweep, "sweep.wav: exists")  # the usual name is none that was given
+        os.remove(self.folder / "sweep.wav")
+        for _ in range(2):
+            self.succeeds(*sweep)
+            self.succeeds(*sweep, "-o", "other.wav")
+
+    def test_recordings_of_many_wearers_are_not_written_over_real_ones(self):
+        self.succeeds("measure", "sweep", "--duration", "1", "--levels=-24")
+        self.put("rec-02.wav", wav(sine(100, 0.2)))
+        simulate = ["measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2"]
+        self.keeps("rec-02.wav", simulate, "rec-02.wav: exists")
+        os.remove(self.folder / "rec-02.wav")
+        for _ in range(2):
+            self.succeeds(*simulate)
+
+    def test_a_description_of_a_sweep_is_not_its_result(self):
+        self.succeeds("measure", "sweep", "--duration", "1")
+        before = self.bytes_of("sweep.json")
+        self.fails(2, ["measure", "analyse", "sweep.wav", "--sweep", "sweep.json", "-o", "./sweep.json"],
+                   "is the description of the sweep")
+        self.assertEqual(self.bytes_of("sweep.json"), before)
+
+    def test_a_picture_beside_its_clip_is_not_drawn_over_another(self):
+        self.clip("a.json")
+        self.put("a.png", "a photograph")
+        self.keeps("a.png", ["plot", "a.json"], "exists and holds something else")
+        self.assertIn("a.png exists and was left", self.succeeds("plot", "a.json", "-n"))
+        os.remove(self.folder / "a.png")
+        for arguments in ([], [], ["-o", "a.png", "--dark"], ["-y"]):
+            self.succeeds("plot", "a.json", *arguments)
+
+    def test_tables_of_measurements_are_written_over_earlier_ones_only(self):
+        self.put("a.wav", wav(sine(100, 0.2)))
+        self.put("out/decimate.csv", "mine")
+        bench = ["bench", "decimate", "a.wav", "-o", "out", "--repeat", "1"]
+        self.keeps("out/decimate.csv", bench, "decimate.csv: exists")
+        self.succeeds(*bench, "-y")
+        self.succeeds(*bench)
+
+
 class Names(Overwrite):
     def test_a_name_that_says_something_else_is_an_error_that_says_what_to_do(self):
         self.put("x.wav", wav(sine(100, 0.2)))

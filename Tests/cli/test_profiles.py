@@ -108,8 +108,8 @@ class Convert(CommandTest):
 
     def test_every_shipped_profile_becomes_an_acf(self):
         for path in sorted((SOURCE / "profiles").glob("*.json")):
-            self.converts(str(path), "out.acf")
-            back = self.run_command("convert", "out.acf", "back.json")
+            self.converts(str(path), f"{path.stem}.acf")
+            back = self.run_command("convert", f"{path.stem}.acf", f"{path.stem}.json")
             self.assertEqual(back.returncode, 0, back.stderr)
 
     def test_a_profile_keeps_everything_in_json(self):

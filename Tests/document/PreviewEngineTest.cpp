@@ -1,5 +1,6 @@
 #include "document/PreviewEngine.h"
 
+#include "actuator/Witness.h"
 #include "document/PreviewWorker.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
@@ -76,6 +77,39 @@ TEST_CASE("A preview from the start is what is rendered, bit for bit behind the 
     player.process(std::span(&out, 1));
     CHECK(largest(rendered) > 0.4f);
     CHECK(std::equal(heard.begin() + 241, heard.end(), rendered.begin() + 241));
+}
+
+TEST_CASE("Jumping about takes an actuator that rings and is warm no farther than its limits")
+{
+    Profile profile;
+    profile.technology = Technology::lra;
+    profile.resonance = {175.0, 50.0};
+    profile.range = {20.0, 1000.0, 60.0};
+    profile.drive.excursion = 1e-4;
+    profile.drive.maxExcursion = 1e-3;
+    profile.drive.overdrive = 2.0;
+    profile.drive.impedance = 8.0;
+    profile.drive.maxVoltageRms = 2.0;
+    profile.drive.maxPower = 0.1;
+    profile.drive.thermalTime = 1.0;
+    EqualizerSection louder;
+    louder.frequency = 175.0;
+    louder.gain = 12.0;
+    profile.equalizer.pushBack(louder);
+    PreviewEngine engine(fs);
+    engine.setProfile(std::make_shared<const Profile>(profile));
+    engine.set(playbackOf(tone(10.0, 1.0, 175.0)));
+    test::Witness<test::SimulatedResonator> witness(profile, fs);
+    for (int i = 0; i < 60; ++i)
+    {
+        engine.play(0.0371 * i);
+        REQUIRE(engine.service());
+        witness.hold(run(engine, i == 0 ? 24000 : 2400));
+    }
+    CHECK(witness.strain().travel > 0.9);
+    CHECK(witness.strain().travel <= 1.001);
+    CHECK(witness.strain().heat > 0.9);
+    CHECK(witness.strain().heat <= 1.001);
 }
 
 TEST_CASE("An edit is heard from the next block on, without a click")

@@ -1,6 +1,7 @@
 // Any text is either refused with a proper error or is a clip that survives being written and read again.
 
 #include "FuzzCheck.h"
+#include "FuzzKeys.h"
 #include "io/ClipJson.h"
 
 #include <algorithm>
@@ -37,7 +38,9 @@ private:
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto clip = readClipJson(text);
+    ReadWarnings warnings, strict(true);
+    const auto clip = readClipJson(text, largestClipText, &warnings);
+    checkWarnings(warnings, clip.ok(), readClipJson(text, largestClipText, &strict).ok());
 
     TextInPieces buffer(text);
     std::istream stream(&buffer);

@@ -1,6 +1,7 @@
 // Any text is either refused with a proper error or is a scene that survives being written and read again.
 
 #include "FuzzCheck.h"
+#include "FuzzKeys.h"
 #include "io/SceneJson.h"
 
 #include <string>
@@ -25,7 +26,9 @@ Result<Clip> anyClip(const std::string& file)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto scene = readSceneJson(text, anyClip);
+    ReadWarnings warnings, strict(true);
+    const auto scene = readSceneJson(text, anyClip, &warnings);
+    checkWarnings(warnings, scene.ok(), readSceneJson(text, anyClip, &strict).ok());
     if (!scene)
     {
         FUZZ_CHECK(!scene.error().message.empty());

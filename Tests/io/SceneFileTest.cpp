@@ -1,5 +1,6 @@
 #include "io/SceneFile.h"
 
+#include "io/AnyClip.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/SceneJson.h"
@@ -261,10 +262,10 @@ TEST_CASE("What is rendered is a scene when its format says so", "[io][scene]")
     REQUIRE(writeClip(folder / "clip.pacb", sceneClip(5), ClipFormat::packed).ok());
     REQUIRE(writeScene(folder / "scene", randomScene(2)).ok());
     put(folder / "late.json", R"({"nested": {"format": "pacini.clip"}, "version": 1, "format": "pacini.scene"})");
-    CHECK(readClipOrScene(folder / "clip.json")->index() == 0);
-    CHECK(readClipOrScene(folder / "clip.pacb")->index() == 0);
-    CHECK(readClipOrScene(folder / "scene")->index() == 1);
-    CHECK(readClipOrScene(folder / "late.json")->index() == 1);
+    CHECK(readClipOrScene(folder / "clip.json")->content.index() == 0);
+    CHECK(readClipOrScene(folder / "clip.pacb")->content.index() == 0);
+    CHECK(readClipOrScene(folder / "scene")->content.index() == 1);
+    CHECK(readClipOrScene(folder / "late.json")->content.index() == 1);
     put(folder / "other.json", R"({"format": "pacini.profile", "version": 1})");
     CHECK(readClipOrScene(folder / "other.json").error().where == "format");
     CHECK_FALSE(readClipOrScene(folder / "none").ok());

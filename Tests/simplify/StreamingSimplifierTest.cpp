@@ -73,7 +73,7 @@ TEST_CASE("The stream never keeps more points than its rate allows, and keeps po
                 // In the input's order, both sides of steps too.
                 std::size_t found = 0;
                 for (const Breakpoint& p : dense)
-                    found += found < out.size() && out[found] == p ? 1 : 0;
+                    found += found < out.size() && out[found] == p ? 1u : 0u;
                 CHECK(found == out.size());
             }
 }

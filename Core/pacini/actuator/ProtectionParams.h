@@ -7,8 +7,6 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Units.h>
 
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -102,26 +100,20 @@ inline constexpr double defaultThermalTime = 1.0; // s
     return params;
 }
 
-/// What becomes of the limits of a valid profile, in plain words, such as "travel is kept within 0.9 mm; no drive
-/// reaches the heat limit".
-[[nodiscard]] inline std::string protectionText(const Profile& profile)
+/// What becomes of the limits of a valid profile, in plain words, such as "travel is kept within its limit; no drive
+/// reaches the limit of heat". Of a motor that turns (`turns`) travel is none.
+[[nodiscard]] inline std::string protectionText(const Profile& profile, bool turns = false)
 {
     using Limit = ProtectionNeeds::Limit;
     const ProtectionNeeds needs = protectionNeeds(profile);
-    const auto rounded = [](double value)
+    const auto text = [](Limit limit, const std::string& what)
     {
-        std::array<char, 32> digits{};
-        std::snprintf(digits.data(), digits.size(), "%.3g", value);
-        return std::string(digits.data());
-    };
-    const auto text = [](Limit limit, const std::string& what, const std::string& kept)
-    {
-        return limit == Limit::guarded    ? what + " is kept within " + kept
+        return limit == Limit::guarded    ? what + " is kept within its limit"
                : limit == Limit::unharmed ? "no drive reaches the limit of " + what
                                           : "the profile names no limit of " + what;
     };
-    return text(needs.excursion, "travel", rounded(1e3 * profile.drive.maxExcursion.value_or(0.0)) + " mm") + "; " +
-           text(needs.heat, "heat", rounded(profile.drive.maxPower.value_or(0.0)) + " W");
+    const std::string heat = text(needs.heat, "heat");
+    return turns ? heat : text(needs.excursion, "travel") + "; " + heat;
 }
 
 } // namespace pacini

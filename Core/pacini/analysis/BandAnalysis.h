@@ -55,7 +55,7 @@ struct BandAnalysisResult
 /// each band is transformed back from just its own bins, at a low rate, as an analytic signal. Bands are linear
 /// filters, so blocks add up to what one transform of the whole sound would give, but for the ringing that outlasts the
 /// 0.25 s guard. Transforms are in float: their rounding lies 130 dB below the peak of a block, and clips end at -72
-/// dB. Memory grows only with the result, about 9 kB per second for 12 bands. reset() makes the object ready for the
+/// dB. Memory grows only with the result, 5.6 kB per second for 12 bands. reset() makes the object ready for the
 /// next sound and keeps its transforms, whose making costs as much as a second of sound.
 class BandAnalysis
 {
@@ -78,8 +78,9 @@ public:
         reset(1);
     }
 
-    /// Starts over with a sound of `channels` channels.
-    void reset(std::size_t channels)
+    /// Starts over with a sound of `channels` channels. Room for `expected` samples of it, 4 hours at most, spares the
+    /// results from being moved, and memory from holding them twice, while they grow; they may become longer.
+    void reset(std::size_t channels, std::size_t expected = 0)
     {
         pending.assign(channels, {});
         blockStart = 0;
@@ -89,6 +90,17 @@ public:
             track.reset();
         output = {};
         output.tracks.resize(bandCount());
+        const double seconds = std::min(static_cast<double>(expected) / analysisRate, longestReserved);
+        const auto frames = [seconds](double step)
+        {
+            return static_cast<std::size_t>(seconds / step) + 2;
+        };
+        output.envelope.reserve(frames(BandAnalysisResult::envelopeStep));
+        for (BandAnalysisResult::Track& track : output.tracks)
+        {
+            track.amplitude.reserve(frames(BandAnalysisResult::bandStep));
+            track.frequency.reserve(frames(BandAnalysisResult::bandStep));
+        }
     }
 
     /// Takes the next samples, one span per channel, all of one length.
@@ -117,6 +129,7 @@ private:
     static constexpr std::size_t fadeFrames = 512;
     static constexpr std::size_t hopFrames = bodyFrames - fadeFrames;
     static constexpr int envelopeRate = 2000;
+    static constexpr double longestReserved = 4.0 * 3600.0; // s: memory shall not follow what a header claims
 
     /// Transform and weights of one range of bins.
     struct BinRange

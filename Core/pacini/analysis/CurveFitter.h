@@ -20,25 +20,26 @@ namespace pacini
 /// at a time.
 class CurveFitter
 {
+    static constexpr double decibelsPerNeper = 8.685889638065035;
+    static constexpr double semitonesPerNeper = 17.312340490667562;
+
 public:
     /// Amplitudes, sample i at i * step seconds. Errors are relative, in dB^2 per sample, and fade out below `floor`
     /// (linear): what nobody feels is not worth a point. Values that stay a quarter below the floor become 0. An
     /// all-zero track gives an empty curve.
     [[nodiscard]] Curve fitAmplitude(std::span<const float> track, double step, double gain, double floor, double price)
     {
-        bool audible = false;
-        values.resize(track.size());
-        weights.resize(track.size());
-        for (std::size_t i = 0; i < track.size(); ++i)
+        const AmplitudeSamples levels{track, gain, floor};
+        const auto audible = [&levels](std::size_t i)
         {
-            const double a = gain * static_cast<double>(track[i]);
-            values[i] = a < 0.25 * floor ? 0.0 : a;
-            audible = audible || values[i] > 0.0;
-            weights[i] = decibelsPerNeper * decibelsPerNeper / (a * a + floor * floor);
-        }
-        if (!audible)
+            return levels.value(i) > 0.0;
+        };
+        std::size_t first = 0;
+        while (first < levels.size() && !audible(first))
+            ++first;
+        if (first == levels.size())
             return {};
-        Curve curve = fit(step, price);
+        Curve curve = fit(amplitudes, levels, step, price);
         for (Breakpoint& point : curve)
             if (point.value < 0.25 * floor)
                 point.value = 0.0;
@@ -73,7 +74,7 @@ public:
             constantError += weights[i] * (track[i] - mean) * (track[i] - mean);
         if (track.size() < 3 || constantError < price)
             return {{0.0, mean}};
-        Curve curve = fit(step, price);
+        Curve curve = fit(pitches, samples(), step, price);
         const double saved = constantError - squaredError(samples(), kept);
         if (saved < price * static_cast<double>(curve.size() - 1))
             return {{0.0, mean}};
@@ -81,26 +82,65 @@ public:
     }
 
 private:
-    static constexpr double decibelsPerNeper = 8.685889638065035;
-    static constexpr double semitonesPerNeper = 17.312340490667562;
+    /// Levels and their weights, worked out from the track whenever they are asked for: an hour of envelope would be 23
+    /// MB otherwise.
+    struct AmplitudeSamples
+    {
+        std::span<const float> track;
+        double gain = 1.0, floor = 0.0;
+
+        [[nodiscard]] std::size_t size() const noexcept { return track.size(); }
+        [[nodiscard]] double level(std::size_t i) const noexcept { return gain * static_cast<double>(track[i]); }
+        [[nodiscard]] double value(std::size_t i) const noexcept
+        {
+            const double a = level(i);
+            return a < 0.25 * floor ? 0.0 : a;
+        }
+        [[nodiscard]] double time(std::size_t i) const noexcept { return static_cast<double>(i); }
+        [[nodiscard]] double weight(std::size_t i) const noexcept
+        {
+            const double a = level(i);
+            return decibelsPerNeper * decibelsPerNeper / (a * a + floor * floor);
+        }
+        [[nodiscard]] bool evenlySpaced() const noexcept { return true; }
+        [[nodiscard]] bool weighted() const noexcept { return true; }
+    };
+
+    /// Samples as points, one every `step` s.
+    template <Samples S>
+    struct Points
+    {
+        S samples;
+        double step = 1.0;
+
+        [[nodiscard]] std::size_t size() const noexcept { return samples.size(); }
+        [[nodiscard]] Breakpoint operator[](std::size_t i) const noexcept
+        {
+            return {static_cast<double>(i) * step, samples.value(i)};
+        }
+    };
 
     [[nodiscard]] DenseSamples samples() const { return {values, {}, weights}; }
 
-    Curve fit(double step, double price)
+    template <Samples S>
+    Curve fit(LagrangianSegmenterOf<S>& segmenter, const S& from, double step, double price)
     {
-        segmenter.solve(samples(), price, kept);
-        dense.resize(values.size());
-        for (std::size_t i = 0; i < values.size(); ++i)
-            dense[i] = {static_cast<double>(i) * step, values[i]};
+        segmenter.solve(from, price, kept);
+        const Points<S> dense{from, step};
+        Curve vertices;
+        vertices.reserve(kept.size());
+        for (const std::size_t i : kept)
+            vertices.push_back(dense[i]);
         RefitParams params;
         params.lowest = 0.0;
-        return refit(dense, curveOf(dense, kept), weights, params);
+        return refitTo(
+            dense, vertices, [&from](std::size_t i) { return from.weight(i); }, params);
     }
 
-    LagrangianSegmenter segmenter{128};
+    LagrangianSegmenterOf<AmplitudeSamples> amplitudes{128};
+    LagrangianSegmenter pitches{128};
     KeptPoints kept;
-    std::vector<double> values, weights;
-    Curve dense;
+    std::vector<double> values, weights; // of a pitch track
 };
 
 } // namespace pacini

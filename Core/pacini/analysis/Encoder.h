@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -82,7 +83,8 @@ struct EncoderParams
 }
 
 /// Encodes one sound after another; keeps its transforms and filters between them. Use: start, push any number of
-/// times, finish. Memory grows with the clip, not with the sound. One thread at a time, never the audio thread.
+/// times, finish. Nothing is kept of the sound but what the analysis found, 20 MB an hour for 12 bands: which of it is
+/// worth a point depends on the loudest moment, which may be the last. One thread at a time, never the audio thread.
 class Encoder
 {
 public:
@@ -96,8 +98,8 @@ public:
     {
     }
 
-    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
-    void start(int sampleRate, int channels)
+    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz. Where its length is known, `expectedFrames` saves memory.
+    void start(int sampleRate, int channels, std::uint64_t expectedFrames = 0)
     {
         fs = sampleRate;
         channelCount = static_cast<std::size_t>(channels);
@@ -107,7 +109,8 @@ public:
         decimators.resize(channelCount, decimators.front());
         for (RationalDecimator& decimator : decimators)
             decimator.reset();
-        analysis.reset(channelCount);
+        analysis.reset(channelCount,
+                       static_cast<std::size_t>(static_cast<double>(expectedFrames) * analysisRate / sampleRate));
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
     }

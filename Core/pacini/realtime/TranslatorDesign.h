@@ -161,7 +161,8 @@ struct TranslatorDesign
     if (!known)
         plan.push_back({"adaptation", "no actuator is known"});
     if (!design.protection)
-        plan.push_back({"protection", setup.profile ? protectionText(*setup.profile) : "no actuator is known"});
+        plan.push_back({"protection", setup.profile ? protectionText(*setup.profile, design.motor.has_value())
+                                                    : "no actuator is known"});
     if (known && design.levels.isIdentity())
         plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
     design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;

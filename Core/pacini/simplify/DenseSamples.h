@@ -5,6 +5,7 @@
 #include <pacini/clip/Curve.h>
 
 #include <cassert>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -21,18 +22,47 @@ struct DenseSamples
     std::span<const double> weights;
 
     [[nodiscard]] std::size_t size() const noexcept { return values.size(); }
+    [[nodiscard]] double value(std::size_t i) const noexcept { return values[i]; }
     [[nodiscard]] double time(std::size_t i) const noexcept
     {
         return times.empty() ? static_cast<double>(i) : times[i];
     }
     [[nodiscard]] double weight(std::size_t i) const noexcept { return weights.empty() ? 1.0 : weights[i]; }
+    [[nodiscard]] bool evenlySpaced() const noexcept { return times.empty(); }
+    [[nodiscard]] bool weighted() const noexcept { return !weights.empty(); }
+};
+
+/// What the squared-error simplifiers ask of a curve: DenseSamples, or samples that are worked out when they are asked
+/// for and so take no memory; the same number every time.
+template <typename S>
+concept Samples = requires(const S& samples, std::size_t i)
+{
+    {
+        samples.size()
+        } -> std::convertible_to<std::size_t>;
+    {
+        samples.value(i)
+        } -> std::convertible_to<double>;
+    {
+        samples.time(i)
+        } -> std::convertible_to<double>;
+    {
+        samples.weight(i)
+        } -> std::convertible_to<double>;
+    {
+        samples.evenlySpaced()
+        } -> std::convertible_to<bool>;
+    {
+        samples.weighted()
+        } -> std::convertible_to<bool>;
 };
 
 /// The slope of the line through samples i and j; 0 for a vertical step, whose line stands at sample i's value.
-[[nodiscard]] inline double chordSlope(const DenseSamples& samples, std::size_t i, std::size_t j) noexcept
+template <Samples S>
+[[nodiscard]] double chordSlope(const S& samples, std::size_t i, std::size_t j) noexcept
 {
     const double span = samples.time(j) - samples.time(i);
-    return span != 0.0 ? (samples.values[j] - samples.values[i]) / span : 0.0;
+    return span != 0.0 ? (samples.value(j) - samples.value(i)) / span : 0.0;
 }
 
 /// Weighted sum of squared vertical errors of the samples strictly between i and j against the line i-j. O(j - i).

@@ -13,11 +13,12 @@ namespace pacini
 
 /// Weighted squared vertical error of segments that start at one fixed sample. The sums are taken relative to that
 /// sample, so that they do not cancel. The moving end may run forwards or backwards in time.
+template <Samples S = DenseSamples>
 class GrowingSegment
 {
 public:
     GrowingSegment() = default;
-    GrowingSegment(const DenseSamples& curve, std::size_t fixedEnd) noexcept : samples(curve), fixed(fixedEnd) {}
+    GrowingSegment(const S& curve, std::size_t fixedEnd) noexcept : samples(curve), fixed(fixedEnd) {}
 
     /// The error of the samples included so far against the line from the fixed sample to sample `other`.
     [[nodiscard]] double errorTo(std::size_t other) const noexcept
@@ -31,14 +32,14 @@ public:
     {
         const double w = samples.weight(m);
         const double u = samples.time(m) - samples.time(fixed);
-        const double y = samples.values[m] - samples.values[fixed];
+        const double y = samples.value(m) - samples.value(fixed);
         syy += w * y * y;
         suy += w * u * y;
         suu += w * u * u;
     }
 
 private:
-    DenseSamples samples;
+    S samples;
     std::size_t fixed = 0;
     double syy = 0.0, suy = 0.0, suu = 0.0;
 };

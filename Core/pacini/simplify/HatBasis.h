@@ -69,9 +69,9 @@ private:
 
 /// Calls use(m, place) for each point m of `dense` with its place among `vertices` (one at least). Where several dense
 /// points share one time, the first stands for the curve before the step and the last for the curve after it; those
-/// in between last no time and are passed over.
-template <typename Use>
-void forEachPlace(std::span<const Breakpoint> dense, std::span<const Breakpoint> vertices, Use use)
+/// in between last no time and are passed over. `dense` is a span, or what is indexed like one.
+template <typename Dense, typename Use>
+void forEachPlace(const Dense& dense, std::span<const Breakpoint> vertices, Use use)
 {
     HatReader reader(vertices);
     for (std::size_t m = 0; m < dense.size(); ++m)

@@ -34,11 +34,12 @@ namespace pacini
 ///    that flip in silence). It can only improve the result.
 ///
 /// An object is a workspace: solve() allocates only when a curve is longer than all before. One thread at a time.
-class LagrangianSegmenter
+template <Samples S>
+class LagrangianSegmenterOf
 {
 public:
     /// Segments of at least `maxSegmentLength` samples (1 or more) are searched exactly.
-    explicit LagrangianSegmenter(std::size_t maxSegmentLength = 256)
+    explicit LagrangianSegmenterOf(std::size_t maxSegmentLength = 256)
         : even(maxSegmentLength), general(maxSegmentLength), costs(even.span() + 2 * SegmentCost<true>::block)
     {
     }
@@ -48,7 +49,7 @@ public:
 
     /// Fills `kept` with the optimum for `pointCost` (above 0, in squared value units) and returns its number of
     /// points. Fewer than 3 samples are all kept. At most 2^32 - 1 samples, all finite. O(n).
-    std::size_t solve(const DenseSamples& samples, double pointCost, KeptPoints& kept)
+    std::size_t solve(const S& samples, double pointCost, KeptPoints& kept)
     {
         assert(samples.size() < std::numeric_limits<std::uint32_t>::max());
         if (samples.size() < 3)
@@ -59,7 +60,7 @@ public:
             return kept.size();
         }
         reserve(samples.size());
-        if (samples.times.empty() && samples.weights.empty())
+        if (samples.evenlySpaced() && !samples.weighted())
             sweep(even, samples, pointCost);
         else
             sweep(general, samples, pointCost);
@@ -76,7 +77,7 @@ private:
         double cost = 0.0;
 
         /// Takes in sample j, given the cost of the sample before; false when it starts a new run.
-        bool advance(const DenseSamples& samples, std::size_t j, double costBefore) noexcept
+        bool advance(const S& samples, std::size_t j, double costBefore) noexcept
         {
             const bool goesOn = j >= 2 && onOneLine(samples, j);
             if (!goesOn)
@@ -89,14 +90,14 @@ private:
             return goesOn;
         }
 
-        static bool onOneLine(const DenseSamples& samples, std::size_t j) noexcept
+        static bool onOneLine(const S& samples, std::size_t j) noexcept
         {
-            const double rise = samples.values[j] - samples.values[j - 1];
-            const double riseBefore = samples.values[j - 1] - samples.values[j - 2];
-            if (samples.times.empty())
+            const double rise = samples.value(j) - samples.value(j - 1);
+            const double riseBefore = samples.value(j - 1) - samples.value(j - 2);
+            if (samples.evenlySpaced())
                 return rise == riseBefore;
-            const double run = samples.times[j] - samples.times[j - 1];
-            const double runBefore = samples.times[j - 1] - samples.times[j - 2];
+            const double run = samples.time(j) - samples.time(j - 1);
+            const double runBefore = samples.time(j - 1) - samples.time(j - 2);
             return run > 0.0 && runBefore > 0.0 && rise * runBefore == riseBefore * run;
         }
     };
@@ -107,9 +108,9 @@ private:
         bool alive = false;
         std::size_t start = 0;
         double cost = 0.0;
-        GrowingSegment segment;
+        GrowingSegment<S> segment;
 
-        void become(const DenseSamples& samples, std::size_t newStart, std::size_t j, double costOfStart) noexcept
+        void become(const S& samples, std::size_t newStart, std::size_t j, double costOfStart) noexcept
         {
             *this = {true, newStart, costOfStart, GrowingSegment(samples, newStart)};
             for (std::size_t m = start + 1; m <= j; ++m)
@@ -118,9 +119,9 @@ private:
     };
 
     template <bool Even>
-    void sweep(SegmentCost<Even>& segments, const DenseSamples& samples, double pointCost) noexcept
+    void sweep(SegmentCost<Even, S>& segments, const S& samples, double pointCost) noexcept
     {
-        constexpr std::size_t block = SegmentCost<Even>::block;
+        constexpr std::size_t block = SegmentCost<Even, S>::block;
         const std::size_t span = segments.span();
         segments.begin(samples);
         segments.advance();
@@ -197,10 +198,12 @@ private:
         return place;
     }
 
-    SegmentCost<true> even;
-    SegmentCost<false> general;
+    SegmentCost<true, S> even;
+    SegmentCost<false, S> general;
     std::vector<double> costs; ///< costs via the starts of the window, by falling lag
     std::vector<std::uint32_t> from;
 };
+
+using LagrangianSegmenter = LagrangianSegmenterOf<DenseSamples>;
 
 } // namespace pacini

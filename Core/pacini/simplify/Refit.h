@@ -72,8 +72,9 @@ struct HatSystem
 };
 
 /// The largest step from `from` to `to` (0 to 1) that keeps every dense point within `maxError`, as `from` does.
-[[nodiscard]] inline double largestStep(std::span<const Breakpoint> dense, std::span<const Breakpoint> from,
-                                        std::span<const Breakpoint> to, double maxError)
+template <typename Dense>
+[[nodiscard]] double largestStep(const Dense& dense, std::span<const Breakpoint> from, std::span<const Breakpoint> to,
+                                 double maxError)
 {
     double step = 1.0;
     forEachPlace(dense, from,
@@ -91,21 +92,23 @@ struct HatSystem
 
 /// The curve with the times of `vertices` (in order) whose values have the least weighted squared vertical error at the
 /// points of `dense`: least squares in the basis of hat functions, whose normal equations are tridiagonal (de Boor, "A
-/// Practical Guide to Splines", ch. XIV, for degree 1). O(n + m). `weights` is empty or as long as `dense`, 0 or more
-/// each. A vertex that no weighted point sees keeps its value: a ridge of 1e-9 pulls to the old values. Values that
+/// Practical Guide to Splines", ch. XIV, for degree 1). O(n + m). `weightOf(m)` is the weight of point m, 0 or
+/// more. A vertex that no weighted point sees keeps its value: a ridge of 1e-9 pulls to the old values. Values that
 /// would fall below params.lowest are fixed there and the others solved again (an active set that only grows). With
 /// params.maxError the values go only as far from the old ones towards the best ones as no point's error passes it,
-/// given that the old ones hold it. Steps stay steps.
-[[nodiscard]] inline Curve refit(std::span<const Breakpoint> dense, std::span<const Breakpoint> vertices,
-                                 std::span<const double> weights = {}, const RefitParams& params = {})
+/// given that the old ones hold it. Steps stay steps. `dense` is a span of points, or what is indexed like one.
+template <typename Dense, typename WeightOf>
+[[nodiscard]] Curve refitTo(const Dense& dense, std::span<const Breakpoint> vertices, WeightOf weightOf,
+                            const RefitParams& params)
 {
-    assert(weights.empty() || weights.size() == dense.size());
     Curve curve(vertices.begin(), vertices.end());
-    if (dense.empty() || vertices.empty())
+    if (dense.size() == 0 || vertices.empty())
         return curve;
 
     constexpr double ridge = 1e-9; // of one point's weight: no visible bias, but never singular
-    double largestWeight = weights.empty() ? 1.0 : *std::max_element(weights.begin(), weights.end());
+    double largestWeight = 0.0;
+    for (std::size_t m = 0; m < dense.size(); ++m)
+        largestWeight = std::max(largestWeight, weightOf(m));
     if (largestWeight <= 0.0)
         return curve;
     detail::HatSystem system(vertices.size());
@@ -116,8 +119,7 @@ struct HatSystem
         system.add({k, 0.0}, x[k], ridge * largestWeight);
     }
     forEachPlace(dense, vertices,
-                 [&](std::size_t m, const HatPlace& place)
-                 { system.add(place, dense[m].value, weights.empty() ? 1.0 : weights[m]); });
+                 [&](std::size_t m, const HatPlace& place) { system.add(place, dense[m].value, weightOf(m)); });
 
     std::vector<bool> fixed(vertices.size(), false);
     for (bool again = true; again;)
@@ -143,6 +145,15 @@ struct HatSystem
     for (std::size_t k = 0; k < x.size(); ++k)
         curve[k].value += step * (best[k].value - curve[k].value);
     return curve;
+}
+
+/// The same with weights, 0 or more, in a span that is empty (all 1) or as long as `dense`.
+[[nodiscard]] inline Curve refit(std::span<const Breakpoint> dense, std::span<const Breakpoint> vertices,
+                                 std::span<const double> weights = {}, const RefitParams& params = {})
+{
+    assert(weights.empty() || weights.size() == dense.size());
+    return refitTo(
+        dense, vertices, [weights](std::size_t m) { return weights.empty() ? 1.0 : weights[m]; }, params);
 }
 
 } // namespace pacini

@@ -22,7 +22,7 @@ namespace pacini
 ///
 /// Evenly spaced samples without weights (`Even`) have closed forms for the sums of u, and 1/u from a table.
 /// Loops have a fixed length of `block` and no branches, so that compilers vectorise them.
-template <bool Even>
+template <bool Even, Samples S = DenseSamples>
 class SegmentCost
 {
 public:
@@ -47,7 +47,7 @@ public:
     }
 
     /// Starts on a new curve; the first advance() moves to its first sample. `samples` must outlive the use.
-    void begin(const DenseSamples& samples) noexcept
+    void begin(const S& samples) noexcept
     {
         curve = samples;
         const std::size_t n = curve.size();
@@ -213,7 +213,7 @@ private:
         std::copy(cost.begin() + static_cast<std::ptrdiff_t>(moved), cost.end(), cost.begin());
         std::copy(blockLowest.begin() + static_cast<std::ptrdiff_t>(moved / block), blockLowest.end(),
                   blockLowest.begin());
-        originValue = curve.values[count > 0 ? count - 1 : 0];
+        originValue = curve.value(count > 0 ? count - 1 : 0);
         originTime = curve.time(count > 0 ? count - 1 : 0);
         for (std::size_t k = 0; k < history; ++k)
         {
@@ -238,7 +238,7 @@ private:
 
     void append(std::size_t at, std::size_t sample) noexcept
     {
-        const double y = curve.values[sample] - originValue;
+        const double y = curve.value(sample) - originValue;
         const auto before = [at](const std::vector<double>& sums)
         {
             return at > 0 ? sums[at - 1] : 0.0;
@@ -278,7 +278,7 @@ private:
         }
     }
 
-    DenseSamples curve;
+    S curve;
     std::size_t window = 0;   ///< longest segment, a multiple of the block
     std::size_t history = 0;  ///< starts kept when summing anew
     std::size_t capacity = 0; ///< length of the columns

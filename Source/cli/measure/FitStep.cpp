@@ -37,12 +37,14 @@ struct Fitted
     bool measured = false; ///< the response came from the profile
 };
 
-Result<Fitted> openInput(const std::string& input)
+Result<Fitted> openInput(Console& console, const std::string& input)
 {
-    if (auto profile = profileIn(input))
+    ReadWarnings warnings(console.isStrict());
+    if (auto profile = profileIn(input, &warnings))
     {
         if (!*profile)
             return profile->error();
+        console.warnings(input, warnings.texts());
         if (!(*profile)->measurement || (*profile)->measurement->points.empty())
             return Error{ErrorCode::invalidData, "measurement",
                          "is missing in this profile; 'pacini measure analyse' makes one from recordings"};
@@ -179,7 +181,7 @@ CLI::App* FitStep::declare(CLI::App& app)
 
 Exit FitStep::run(Console& console)
 {
-    auto opened = openInput(input);
+    auto opened = openInput(console, input);
     if (!opened)
         return fail(console, input, opened.error());
     auto& [response, profile, measured] = *opened;

@@ -104,9 +104,11 @@ Exit VerifyStep::run(Console& console)
     if (!picture.empty() && !plot::pictureFormatOf(picture))
         return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
                     Exit::usage);
-    auto actuator = readProfile(profile);
+    ReadWarnings warnings(console.isStrict());
+    auto actuator = readProfile(profile, &warnings);
     if (!actuator)
         return fail(profile, actuator.error());
+    console.warnings(profile, warnings.texts());
     if (actuator->equalizer.empty())
         return fail(profile, {ErrorCode::invalidData, "equalizer",
                               "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});

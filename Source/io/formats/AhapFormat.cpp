@@ -18,11 +18,12 @@ namespace pacini
 
 namespace
 {
-constexpr double longestEvent = 30.0;         // s
 constexpr std::size_t mostControlPoints = 16; // of a curve; the last is the first of the next
 constexpr double neutral = 0.5;               // sharpness of the continuous events, to which curves add
 constexpr double transientLength = 0.015;     // s in which a transient needs its curve
 constexpr double lead = 0.001;                // s before it, for players that round times to floats
+constexpr double shortestSection = 0.001;     // s; shorter ones become part of their neighbour: rounded to a duration
+                                              // of 0 they would have no end
 
 /// Six decimals are a microsecond, and 1/4000 of the steps that players tell apart.
 double rounded(double value)
@@ -135,10 +136,13 @@ Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
             last = voice.events[i].time;
             need = std::max(need, voice.events[i].amplitude);
         }
-        double end = std::min(last + transientLength, voice.duration);
-        if (i < voice.events.size())
-            end = std::min(end, voice.events[i].time - lead);
-        const double from = std::max(first - lead, done);
+        const double next = i < voice.events.size() ? voice.events[i].time - lead : voice.duration;
+        double from = std::max(first - lead, done);
+        double end = std::min(last + transientLength, next);
+        if (from - done < shortestSection)
+            from = done;
+        if (next - end < shortestSection)
+            end = next;
         addPlain(pattern, voice.level, done, from);
         addRaised(pattern, voice.level, from, end, need, raised);
         done = end;
@@ -248,10 +252,12 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
             joined.to = pattern.sections[i++].to;
         if (joined.intensity <= 0.0)
             continue;
-        const auto parts = std::max(1.0, std::ceil((joined.to - joined.from) / longestEvent - 1e-9));
+        // Equal parts: what is left after the last whole 30 s may be too short.
+        const double from = rounded(joined.from), to = rounded(joined.to);
+        const double parts = std::max(1.0, std::ceil((to - from) / longestAhapEvent));
         const auto at = [&](double k)
         {
-            return k == parts ? joined.to : joined.from + longestEvent * k;
+            return from + (to - from) * k / parts;
         };
         for (double k = 0.0; k < parts; k += 1.0)
             writer.continuous(at(k), at(k + 1.0), joined.intensity, pattern.base);
@@ -275,7 +281,9 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
         clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
     constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
     voice.losses.addCrowding(voice.events, resolved);
-    const Pattern pattern = patternOf(voice, params.split, voice.losses);
+    // A file without continuous vibration has no curves that its events would have to be kept from.
+    const bool split = params.split && !voice.events.empty() && peakOf(voice.level) > 0.0;
+    const Pattern pattern = patternOf(voice, split, voice.losses);
     ExportedClip result;
     Writer main(voice.name);
     writeContinuous(main, pattern);
@@ -288,9 +296,9 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
     }
     Writer second(voice.name);
     for (const Transient& event : pattern.transients)
-        (params.split ? second : main).transient(event);
+        (split ? second : main).transient(event);
     result.files.push_back({"", main.finish()});
-    if (params.split)
+    if (split)
         result.files.push_back({std::string(ahapTransients), second.finish()});
     result.losses = std::move(voice.losses).sorted();
     return result;

@@ -1,8 +1,10 @@
 #include "io/JsonTree.h"
 #include "io/formats/AhapFormat.h"
 #include "io/formats/FormatJson.h"
+#include "io/formats/ImportedClip.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/RootCurve.h"
+#include "io/formats/SumLimit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -233,12 +235,17 @@ private:
         for (const HapticEvent& event : continuous)
             clip.duration = std::max(clip.duration, event.end);
         clip.duration = std::max({clip.duration, intensity.back().time, sharpness.back().time});
+        lastUntilSounded(clip);
+        const double patternEnd = clip.duration;
         for (HapticEvent& event : continuous)
         {
             if (event.end <= event.time)
             {
-                ignored.insert("Pattern: continuous events without a duration last to the end of the pattern");
-                event.end = clip.duration;
+                ignored.insert("Pattern: continuous events without a duration last to the end of the pattern, but at "
+                               "most 30 s");
+                const double latest = std::min(event.time + longestAhapEvent, limits::duration);
+                event.end = event.time < patternEnd ? std::min(patternEnd, latest) : latest;
+                clip.duration = std::max(clip.duration, event.end);
             }
             addContinuous(event, intensity, sharpness);
             if (error)
@@ -247,6 +254,12 @@ private:
         for (Band& band : clip.bands)
             if (band.amplitude.back().time < clip.duration)
                 band.amplitude.push_back({band.amplitude.back().time, 0.0});
+        const auto limited = limitSum(clip.bands, 1.0, mostPoints);
+        if (!limited)
+            return root.optional("Pattern").fail(limited.error().message, limited.error().code);
+        if (*limited)
+            ignored.insert("Pattern: continuous events that sound together are weaker where they add up to more than "
+                           "full drive");
     }
 
     /// The first band that is silent by then goes on with the event.

@@ -284,7 +284,8 @@ private:
     void finish()
     {
         clip.duration = lastTime;
-        finishImported(clip);
+        const bool endsWithEvent = !clip.transients.empty() && clip.transients.back().time == lastTime;
+        finishImported(clip, !endsWithEvent);
     }
 
     std::vector<std::string>& warnings;

@@ -5,9 +5,11 @@
 #include "io/formats/CsvFormat.h"
 #include "io/formats/HapsFormat.h"
 #include "io/formats/HapticFormat.h"
+#include "io/formats/HaspFormat.h"
 #include "io/formats/HjifFormat.h"
 #include "io/formats/PcmFormat.h"
 #include "io/formats/TactFormat.h"
+#include "io/formats/VijFormat.h"
 
 #include <algorithm>
 #include <array>
@@ -18,10 +20,10 @@ namespace pacini
 std::span<const ForeignFormat> foreignFormats()
 {
     static const std::array formats{
-        hapticFormat(),     ahapFormat(),          hjifFormat(),        hapsFormat(),         androidJsonFormat(),
-        androidXmlFormat(), androidKotlinFormat(), androidJavaFormat(), openXrHeaderFormat(), openXrJsonFormat(),
-        tactFormat(),       csvFormat(),           wav8Format(),        wav16Format(),        raw8Format(),
-        raw16Format(),      cArrayFormat()};
+        hapticFormat(),       vijFormat(),         haspFormat(),       ahapFormat(),          hjifFormat(),
+        hapsFormat(),         androidJsonFormat(), androidXmlFormat(), androidKotlinFormat(), androidJavaFormat(),
+        openXrHeaderFormat(), openXrJsonFormat(),  tactFormat(),       csvFormat(),           wav8Format(),
+        wav16Format(),        raw8Format(),        raw16Format(),      cArrayFormat()};
     return formats;
 }
 

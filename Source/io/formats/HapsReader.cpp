@@ -144,19 +144,15 @@ private:
                   const std::string& where)
     {
         Curve curve;
-        double before = 0.0;
         for (std::size_t i = 0; i < keyframes.size(); ++i)
         {
             const std::string place = fmt::format("{}.m_keyframes[{}]", where, i);
             const double time = note.start + keyframes[i].time;
-            if (!(keyframes[i].time >= before && time <= limits::duration))
+            if (!(keyframes[i].time >= 0.0 && time <= limits::duration))
             {
-                report.fail(place + ".m_time", keyframes[i].time >= before ? "is later than 24 hours"
-                                               : keyframes[i].time < 0.0   ? "is negative"
-                                                                           : "is earlier than the keyframe before it");
+                report.fail(place + ".m_time", keyframes[i].time < 0.0 ? "is negative" : "is later than 24 hours");
                 return curve;
             }
-            before = keyframes[i].time;
             double value = keyframes[i].value;
             if (!(value >= low && value <= high))
             {
@@ -164,6 +160,15 @@ private:
                 value = std::clamp(value, low, high);
             }
             curve.push_back({time, value * scale});
+        }
+        const auto earlier = [](const Breakpoint& a, const Breakpoint& b)
+        {
+            return a.time < b.time;
+        };
+        if (!std::is_sorted(curve.begin(), curve.end(), earlier))
+        {
+            report.warn(where + ".m_keyframes", "are not in order of time and are put into it");
+            std::stable_sort(curve.begin(), curve.end(), earlier);
         }
         return curve;
     }

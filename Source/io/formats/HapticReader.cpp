@@ -1,6 +1,7 @@
 #include "io/JsonTree.h"
 #include "io/formats/FormatJson.h"
 #include "io/formats/HapticFormat.h"
+#include "io/formats/ImportedClip.h"
 #include "io/formats/NormalisedFrequency.h"
 
 #include <cmath>
@@ -148,6 +149,7 @@ private:
         band.highFrequency = range.high;
         band.centreFrequency = range.hertzOf(0.5);
         clip.bands.push_back(std::move(band));
+        lastUntilSounded(clip);
     }
 
     std::optional<Error> error;

@@ -20,37 +20,37 @@ namespace pacini
 /// Warnings: what is out of range is clamped; composite effects, spatial and non-vibrating perceptions are left out.
 [[nodiscard]] Result<ImportedClip> readHjif(std::string_view bytes);
 
-/// Each band becomes a VectorialWave band whose keyframes carry the amplitude as it is played (see playedClip()) and
-/// the pitch. Dull events far from others become a Transient band; all transients are alike in the reference player,
-/// so others become short waves, which the reader takes for events again. Up to 7 bands make the Simple Parametric
-/// profile at level 1, up to 63 the Main profile at level 2. `amplitudePoints` and `frequencyPoints` limit the
-/// keyframes of each band. Time is in ms, frequency in Hz without fraction.
+/// Levelled clips become a few VectorialWave bands of few keyframes (see hjifVoicesOf), others one for each of their
+/// bands with all of its points. Events become a Transient band of equal energy, which is two periods of 91 Hz in the
+/// reference player whatever their sharpness. In trains of less than 60 ms it would fill the gaps: those of their
+/// events that the bands do not reach become short waves, which the reader takes for events again. Up to 7 bands make
+/// the Simple Parametric profile at level 1, up to 63 the Main profile at level 2. `amplitudePoints` and
+/// `frequencyPoints` limit the keyframes of each band. Time is in ms, frequency in Hz without fraction, amplitudes have
+/// three digits.
 [[nodiscard]] Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params);
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
 
 [[nodiscard]] const ForeignFormat& hjifFormat();
 
+/// How long the reference player's only transient is, s.
+inline constexpr double hjifTransientLength = 0.022;
+
 /// Frequencies of the dullest and the sharpest event in a Transient band, Hz; linear between.
 inline constexpr double hjifDullFrequency = 65.0;
 inline constexpr double hjifSharpFrequency = 300.0;
 
-/// Amplitude of a transient for an event of amplitude 1: two periods of 91 Hz have the energy of two periods of 100 Hz
-/// under a Hann window (3/8).
-inline constexpr double hjifTransientLevel = 0.584;
+/// Amplitude of a transient for an event of amplitude 1 that stands alone: two periods of 91 Hz have the energy of two
+/// periods of 100 to 280 Hz under a Hann window (3/8).
+[[nodiscard]] inline double hjifTransientLevel(double sharpness)
+{
+    return std::sqrt(3.0 / 8.0 * (2.0 / (100.0 * std::pow(2.8, sharpness))) / hjifTransientLength);
+}
 
 /// A Hann window at `place`, 0 at its start to 1 at its end.
 [[nodiscard]] inline double hannAt(double place)
 {
     return std::pow(std::sin(std::numbers::pi * place), 2.0);
-}
-
-/// Whether an event that stands `gap` s from its nearest neighbour is what the reference player makes of a transient:
-/// two periods at 91 Hz.
-[[nodiscard]] constexpr bool hjifIsTransient(double sharpness, double gap)
-{
-    constexpr double dull = 0.2; // its pulse has 123 Hz
-    return sharpness <= dull && gap >= 0.06;
 }
 
 } // namespace pacini

@@ -2,11 +2,10 @@
 
 #include "io/JsonText.h"
 #include "io/formats/HjifFormat.h"
+#include "io/formats/HjifVoices.h"
 #include "io/formats/HjifWaveform.h"
 #include "io/formats/HjifWaves.h"
 #include "io/formats/ImportedClip.h"
-#include "io/formats/PlayedClip.h"
-#include "io/formats/WithinShare.h"
 
 #include <pacini/filters/Resampler.h>
 
@@ -15,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace pacini
@@ -225,7 +225,6 @@ private:
 
     void addEvents(const HjifEffect& effect, double position, const std::string& where)
     {
-        constexpr double pulseLength = 0.022; // s, in the reference player
         for (const HjifKeyframe& keyframe : effect.keyframes)
         {
             if (!keyframe.amplitude)
@@ -234,12 +233,12 @@ private:
                 continue;
             }
             const double frequency = keyframe.frequency.value_or(0.5 * (hjifDullFrequency + hjifSharpFrequency));
-            const double sharpness = (frequency - hjifDullFrequency) / (hjifSharpFrequency - hjifDullFrequency);
+            const double sharpness =
+                std::clamp((frequency - hjifDullFrequency) / (hjifSharpFrequency - hjifDullFrequency), 0.0, 1.0);
             const double time = (position + keyframe.position) / scale.ticks;
-            clip.transients.push_back(
-                {time, std::min(std::abs(*keyframe.amplitude) * scale.level / hjifTransientLevel, limits::amplitude),
-                 std::clamp(sharpness, 0.0, 1.0)});
-            latestEvent = std::max(latestEvent, time + pulseLength);
+            const double amplitude = std::abs(*keyframe.amplitude) * scale.level / hjifTransientLevel(sharpness);
+            clip.transients.push_back({time, std::min(amplitude, limits::amplitude), sharpness});
+            latestEvent = std::max(latestEvent, time + hjifTransientLength);
         }
     }
 
@@ -265,12 +264,9 @@ private:
             clip = std::move(translated);
             return;
         }
-        Clip played = playedClip(translated);
-        for (Band& band : played.bands)
-        {
-            band.amplitude = withinShare(band.amplitude, 0.03, 5e-4);
-            clip.bands.push_back(std::move(band));
-        }
+        LossList losses;
+        Clip played = hjifVoicesOf(translated, losses);
+        std::move(played.bands.begin(), played.bands.end(), std::back_inserter(clip.bands));
         clip.transients.insert(clip.transients.end(), played.transients.begin(), played.transients.end());
     }
 

@@ -1,8 +1,8 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/HjifFormat.h"
+#include "io/formats/HjifVoices.h"
 #include "io/formats/LossList.h"
 #include "io/formats/PlayedClip.h"
-#include "io/formats/WithinShare.h"
 
 #include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -35,6 +35,12 @@ using Keyframes = std::map<std::int64_t, Keyframe>;
 std::int64_t tickOf(double time)
 {
     return std::llround(time * ticksPerSecond);
+}
+
+/// An amplitude of 1 or less to within half a percent of itself: keyframes are many.
+std::string threeDigits(double amplitude)
+{
+    return decimal(amplitude, amplitude >= 0.1 ? 3 : amplitude >= 0.01 ? 4 : 5);
 }
 
 /// Puts a curve on the ticks. A step takes one tick, since a player divides by the distance of its keyframes.
@@ -97,12 +103,8 @@ double highestSum(const Clip& clip)
 class Writer
 {
 public:
-    Writer(const Clip& clipToWrite, const ExportParams& wanted, bool bandsAreBaked)
-        : clip(clipToWrite),
-          params(wanted),
-          baked(bandsAreBaked),
-          loudest(highestAmplitude(clip)),
-          gain(std::max(1.0, std::ceil(highestSum(clip) * 1000.0) / 1000.0))
+    Writer(const Clip& clipToWrite, const ExportParams& wanted)
+        : clip(clipToWrite), params(wanted), gain(std::max(1.0, std::ceil(highestSum(clip) * 1000.0) / 1000.0))
     {
     }
 
@@ -120,43 +122,18 @@ public:
         if (bentPitch > 1e-9)
             losses.add(LossKind::frequency, 0.0, clip.duration, bentPitch, "frequencies are rounded to 1 Hz");
 
+        // A line for the file and for each band: the rest of the keyframes' long names is enough.
         const bool simple = bands.size() <= bandsOfLevel1;
-        return fmt::format(R"({{
-  "version": "2023",
-  "profile": {},
-  "level": {},
-  "date": "2023-01-01",
-  "description": {},
-  "timescale": {},
-  "avatars": [],
-  "syncs": [],
-  "perceptions": [
-    {{
-      "id": 0,
-      "avatar_id": 0,
-      "description": {},
-      "perception_modality": "Vibrotactile",
-      "effect_library": [],
-      "channels": [
-        {{
-          "id": 0,
-          "description": {},
-          "gain": {},
-          "mixing_coefficient": 1,
-          "body_part_mask": 0,
-          "frequency_sampling": {},
-          "sample_count": {},
-          "bands": [{}{}]
-        }}
-      ]
-    }}
-  ]
-}}
-)",
-                           inQuotes(simple ? "Simple Parametric" : "Main"), simple ? 1 : 2, inQuotes(name),
-                           ticksPerSecond, inQuotes(name), inQuotes(name), decimal(gain, 3), outputRate,
-                           std::llround(clip.duration * outputRate), fmt::join(bands, ","),
-                           bands.empty() ? "" : "\n          ");
+        return fmt::format(
+            R"({{"version":"2023","profile":{},"level":{},"date":"2023-01-01","description":{},"timescale":{},)"
+            R"("avatars":[],"syncs":[],"perceptions":[{{"id":0,"avatar_id":0,"description":{},)"
+            R"("perception_modality":"Vibrotactile","effect_library":[],"channels":[{{"id":0,"description":{},)"
+            R"("gain":{},"mixing_coefficient":1,"body_part_mask":0,"frequency_sampling":{},"sample_count":{},)"
+            R"("bands":[{}]}}]}}]}})"
+            "\n",
+            inQuotes(simple ? "Simple Parametric" : "Main"), simple ? 1 : 2, inQuotes(name), ticksPerSecond,
+            inQuotes(name), inQuotes(name), decimal(gain, 3), outputRate, std::llround(clip.duration * outputRate),
+            fmt::join(bands, ","));
     }
 
     LossList losses;
@@ -166,10 +143,8 @@ private:
 
     std::string vectorialBand(const Band& band)
     {
-        // A quarter of a dB, and -74 dB below the loudest.
-        const Curve amplitude = params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration)
-                                : baked                ? withinShare(band.amplitude, 0.03, 5e-4 * loudest)
-                                                       : band.amplitude;
+        const Curve amplitude =
+            params.amplitudePoints ? thinned(band.amplitude, *params.amplitudePoints, clip.duration) : band.amplitude;
         losses.addThinned(band.amplitude, amplitude);
         Curve pitch = params.frequencyPoints ? thinned(band.pitch, *params.frequencyPoints, clip.duration) : band.pitch;
         if (pitch.empty())
@@ -182,16 +157,17 @@ private:
             lowest = std::min(lowest, rounded);
             highest = std::max(highest, rounded);
         }
-        std::string text = fmt::format(R"(
-            {{"band_type": "VectorialWave", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [)",
-                                       std::floor(lowest), std::ceil(highest));
+        std::string text = fmt::format(
+            "\n"
+            R"({{"band_type":"VectorialWave","lower_frequency_limit":{},"upper_frequency_limit":{},"effects":[)",
+            std::floor(lowest), std::ceil(highest));
         const char* separator = "";
         for (const Curve& sound : soundsOf(amplitude))
         {
             text += separator + effect(sound, pitch);
             separator = ",";
         }
-        return text + "\n            ]}";
+        return text + "]}";
     }
 
     /// The parts of an amplitude between silences, each with its first and last value; before its first point and after
@@ -242,19 +218,18 @@ private:
         if (pitch.size() > 1)
             keyframes[end].frequency = hertz(valueAt(pitch, sound.back().time));
         const double phase = 2.0 * std::numbers::pi * cyclesUntil(pitch, sound.front().time);
-        std::string text = fmt::format(R"(
-              {{"effect_type": "Basis", "position": {}, "phase": {}, "base_signal": "Sine", "keyframes": [)",
-                                       start, decimal(phase, 4));
+        std::string text =
+            fmt::format(R"({{"effect_type":"Basis","position":{},"phase":{},"keyframes":[)", start, decimal(phase, 3));
         const char* separator = "";
         for (const auto& [tick, keyframe] : keyframes)
         {
-            text += fmt::format("{}{{\"relative_position\": {}", separator, tick - start);
+            text += fmt::format("{}{{\"relative_position\":{}", separator, tick - start);
             if (keyframe.amplitude)
-                text += fmt::format(", \"amplitude_modulation\": {}", decimal(*keyframe.amplitude, 5));
+                text += fmt::format(",\"amplitude_modulation\":{}", threeDigits(*keyframe.amplitude));
             if (keyframe.frequency)
-                text += fmt::format(", \"frequency_modulation\": {}", *keyframe.frequency);
+                text += fmt::format(",\"frequency_modulation\":{}", *keyframe.frequency);
             text += '}';
-            separator = ", ";
+            separator = ",";
         }
         return text + "]}";
     }
@@ -286,10 +261,10 @@ private:
         }
         [[nodiscard]] std::string band(std::string_view type) const
         {
-            return fmt::format(R"(
-            {{"band_type": "{}", "lower_frequency_limit": {}, "upper_frequency_limit": {}, "effects": [{}
-            ]}})",
-                               type, std::floor(lowest), std::ceil(highest), effects);
+            return fmt::format(
+                "\n"
+                R"({{"band_type":"{}","lower_frequency_limit":{},"upper_frequency_limit":{},"effects":[{}]}})",
+                type, std::floor(lowest), std::ceil(highest), effects);
         }
     };
 
@@ -306,21 +281,25 @@ private:
                 gap = event.time - clip.transients[i - 1].time;
             if (i + 1 < clip.transients.size())
                 gap = std::min(gap, clip.transients[i + 1].time - event.time);
-            constexpr double fine = 1e6; // Hz: the pulse as if continuous
-            const Pulse pulse = makePulse({}, event.sharpness, gap, fine, 1.0);
-            const double frequency = pulse.cyclesPerFrame * fine;
-            const double length = static_cast<double>(pulse.frames) / fine;
             const std::int64_t tick = tickOf(event.time);
             movedTime = std::max(movedTime, std::abs(static_cast<double>(tick) / ticksPerSecond - event.time));
-            if (hjifIsTransient(event.sharpness, gap))
+            if (fillsGap(event, gap))
             {
-                const double told = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
-                transients.add(transient(tick, event.amplitude, told), hjifDullFrequency, hjifSharpFrequency);
+                constexpr double fine = 1e6; // Hz: the pulse as if continuous
+                const Pulse pulse = makePulse({}, event.sharpness, gap, fine, 1.0);
+                const double frequency = std::round(pulse.cyclesPerFrame * fine);
+                const double length = static_cast<double>(pulse.frames) / fine;
+                losses.add(LossKind::event, event.time, length, 0.0,
+                           "a transient would fill the gaps of a fast train: its events are written as short waves");
+                waves.add(wavePulse(tick, length, event.amplitude, frequency), frequency, frequency);
                 continue;
             }
-            losses.add(LossKind::event, event.time, length, 0.0,
-                       "a transient is always dull and 22 ms long here: other events are written as short waves");
-            waves.add(wavePulse(tick, length, event.amplitude, std::round(frequency)), frequency, frequency);
+            constexpr double dull = 0.2; // its pulse has 123 Hz
+            if (event.sharpness > dull && !isCovered(event))
+                losses.add(LossKind::event, event.time, hjifTransientLength, 0.0,
+                           "a transient is always dull and 22 ms long in the reference player");
+            const double told = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
+            transients.add(transient(tick, event, told), hjifDullFrequency, hjifSharpFrequency);
         }
         if (!transients.effects.empty())
             bands.push_back(transients.band("Transient"));
@@ -328,43 +307,60 @@ private:
             bands.push_back(waves.band("VectorialWave"));
     }
 
-    [[nodiscard]] std::string transient(std::int64_t tick, double amplitude, double frequency) const
+    /// Whether the bands hide the pulse: 20 dB above it.
+    [[nodiscard]] bool isCovered(const Transient& event) const
     {
-        return fmt::format(R"(
-              {{"effect_type": "Basis", "position": {}, "keyframes": [{{"relative_position": 0, )"
-                           R"("amplitude_modulation": {}, "frequency_modulation": {}}}]}})",
-                           tick, decimal(hjifTransientLevel * amplitude / gain, 5), std::llround(frequency));
+        return hjifTransientLevel(event.sharpness) * event.amplitude < 0.1 * hjifLevelAt(clip, event.time);
     }
 
-    /// A few periods under a Hann window, as the decoder plays an event: a keyframe on every tick.
+    /// Whether 22 ms are too long for an event in a fast train. Nobody tells how long hidden ones are.
+    [[nodiscard]] bool fillsGap(const Transient& event, double gap) const
+    {
+        constexpr double train = 0.06; // s: from here on the decoder's pulses are short
+        return gap < train && !isCovered(event);
+    }
+
+    [[nodiscard]] std::string transient(std::int64_t tick, const Transient& event, double frequency) const
+    {
+        return fmt::format(R"({{"effect_type":"Basis","position":{},"keyframes":[{{"relative_position":0,)"
+                           R"("amplitude_modulation":{},"frequency_modulation":{}}}]}})",
+                           tick, threeDigits(hjifTransientLevel(event.sharpness) * event.amplitude / gain),
+                           std::llround(frequency));
+    }
+
+    /// A few periods under a Hann window, as the decoder plays an event, in straight lines: between keyframes of every
+    /// eighth of it, its peak among them, they are within 4 % of its height.
     [[nodiscard]] std::string wavePulse(std::int64_t tick, double length, double amplitude, double frequency) const
     {
-        const auto ticks = std::max<std::int64_t>(2, std::llround(length * ticksPerSecond));
-        std::string text = fmt::format(
-            R"(
-              {{"effect_type": "Basis", "position": {}, "phase": 0, "base_signal": "Sine", "keyframes": [)",
-            tick);
-        for (std::int64_t n = 0; n <= ticks; ++n)
-            text +=
-                fmt::format(R"({}{{"relative_position": {}, "amplitude_modulation": {}{}}})", n == 0 ? "" : ", ", n,
-                            decimal(hannAt(static_cast<double>(n) / static_cast<double>(ticks)) * amplitude / gain, 5),
-                            n == 0 ? fmt::format(", \"frequency_modulation\": {}", frequency) : "");
+        constexpr std::int64_t pieces = 8;
+        const std::int64_t half = std::max<std::int64_t>(1, std::llround(0.5 * length * ticksPerSecond));
+        std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":0,"keyframes":[)", tick);
+        std::int64_t last = -1;
+        for (std::int64_t n = 0; n <= pieces; ++n)
+        {
+            const std::int64_t at = (2 * half * n + pieces / 2) / pieces;
+            if (at == last)
+                continue;
+            text += fmt::format(
+                R"({}{{"relative_position":{},"amplitude_modulation":{}{}}})", n == 0 ? "" : ",", at,
+                threeDigits(hannAt(static_cast<double>(at) / static_cast<double>(2 * half)) * amplitude / gain),
+                n == 0 ? fmt::format(R"(,"frequency_modulation":{})", frequency) : "");
+            last = at;
+        }
         return text + "]}";
     }
 
     const Clip& clip;
     const ExportParams& params;
-    bool baked;
-    double loudest; ///< amplitude of any band
-    double gain;    ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
+    double gain; ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
     double movedTime = 0.0, bentPitch = 0.0;
 };
 } // namespace
 
 Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
-    Clip played = playedClip(clip, 1.0, 1.0 / ticksPerSecond);
     LossList losses;
+    Clip played = hjifVoicesOf(clip, losses);
     losses.addNoise(clip);
     losses.addText(clip, true);
     const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
@@ -374,7 +370,7 @@ Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
                    fmt::format("{} bands share {}", played.bands.size(), room));
         mergeVoices(played, room);
     }
-    Writer writer(played, params, !clip.envelope.empty());
+    Writer writer(played, params);
     writer.losses = std::move(losses);
     ExportedClip result;
     result.files.push_back({"", writer.write(nameOfClip(clip, params.name))});

@@ -1,6 +1,7 @@
 #include "io/formats/ImportedClip.h"
 
 #include <pacini/clip/BandPriority.h>
+#include <pacini/synthesis/TransientPulse.h>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,26 @@
 
 namespace pacini
 {
+
+namespace
+{
+/// A curve holds its last value: it ends at `end` unless it is silent there.
+void stopAt(Curve& curve, double end)
+{
+    if (curve.empty() || curve.back().value <= 0.0)
+        return;
+    if (curve.back().time < end)
+        curve.push_back({end, curve.back().value});
+    curve.push_back({end, 0.0});
+}
+
+/// s for which an event sounds that stands alone.
+double pulseLength(const Transient& event)
+{
+    constexpr double fs = 48000.0, alone = 1.0;
+    return static_cast<double>(makePulse({}, event.sharpness, alone, fs, 1.0).frames) / fs;
+}
+} // namespace
 
 void ImportReport::warn(std::string_view where, std::string_view message)
 {
@@ -39,10 +60,34 @@ Band* ImportLanes::take(double start, double end, std::size_t most)
     return &bands[lane];
 }
 
-void finishImported(Clip& clip)
+void lengthen(Clip& clip, double duration)
+{
+    if (duration <= clip.duration)
+        return;
+    stopAt(clip.envelope, clip.duration);
+    for (Band& band : clip.bands)
+        stopAt(band.amplitude, clip.duration);
+    for (NoiseBand& band : clip.noise)
+        stopAt(band.amplitude, clip.duration);
+    clip.duration = duration;
+}
+
+void lastUntilSounded(Clip& clip)
+{
+    constexpr double margin = 0.0005; // s
+    double end = 0.0;
+    for (const Transient& event : clip.transients)
+        end = std::max(end, event.time + pulseLength(event));
+    if (end = std::min(end, limits::duration); end > clip.duration + margin)
+        lengthen(clip, end);
+}
+
+void finishImported(Clip& clip, bool endIsStated)
 {
     std::stable_sort(clip.transients.begin(), clip.transients.end(),
                      [](const Transient& a, const Transient& b) { return a.time < b.time; });
+    if (!endIsStated)
+        lastUntilSounded(clip);
     std::vector<double> energies;
     for (const Band& band : clip.bands)
         energies.push_back(curveEnergy(band.amplitude, clip.duration));

@@ -42,7 +42,16 @@ private:
     std::vector<double> ends;
 };
 
-/// Puts events in order of time, and gives bands their priorities by energy.
-void finishImported(Clip& clip);
+/// Lets the clip last until `duration`, if that is later than its end; what sounds until its end stops there as before.
+void lengthen(Clip& clip, double duration);
+
+/// Lets the clip last until the pulses have passed that the decoder makes of its events (see makePulse), as far as 24
+/// hours allow: other programs' clips may end with an event, which would never sound. Ends within half a millisecond,
+/// to which formats round times, are left as they are, so that clips do not grow from one format to the next.
+void lastUntilSounded(Clip& clip);
+
+/// Puts events in order of time, lets the last of them sound unless the file states where the clip ends, and gives
+/// bands their priorities by energy.
+void finishImported(Clip& clip, bool endIsStated = false);
 
 } // namespace pacini

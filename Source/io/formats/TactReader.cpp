@@ -241,9 +241,14 @@ Result<ImportedClip> readTact(std::string_view bytes)
     if (!tree)
         return tree.error();
     TactReader reader{FieldsReader(*tree), result.warnings};
+    reader.reader.takeTextsAsNumbers();
     reader.read();
     if (reader.reader.error)
         return *reader.reader.error;
+    if (const std::size_t texts = reader.reader.textsTaken(); texts > 0)
+        result.warnings.push_back(
+            fmt::format("project.tracks: {} in quotes, taken as what they say",
+                        texts == 1 ? std::string("a number is") : fmt::format("{} numbers are", texts)));
     SingleVoice voice;
     voice.duration = reader.duration / 1000.0;
     voice.amplitude = largestOf(std::move(reader.pieces), reader.duration);

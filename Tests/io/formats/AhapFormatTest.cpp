@@ -2,6 +2,7 @@
 
 #include "io/formats/EventsBeyond.h"
 #include "io/formats/HapticFormat.h"
+#include "io/formats/SumLimit.h"
 #include "io/formats/players/AhapPlayer.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
@@ -339,4 +340,112 @@ TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refu
         crowd += std::string(i > 0 ? "," : "") +
                  R"({"Event": {"Time": 0, "EventDuration": 1, "EventType": "HapticContinuous"}})";
     CHECK(errorOf(pattern(crowd)).starts_with("Pattern: has more than 256"));
+}
+
+TEST_CASE("AHAP: no rate of events makes continuous events that have no end", "[io][formats]")
+{
+    for (double rate = 50.0; rate < 75.0; rate += 0.25)
+    {
+        CAPTURE(rate);
+        Clip clip;
+        clip.duration = 1.0;
+        clip.bands = {{65.0, 182.5, 300.0, 0, {{0.0, 0.1}, {0.5, 0.2}, {1.0, 0.05}}, {}}};
+        for (double time = 0.0501234; time < 0.97; time += 1.0 / rate)
+            clip.transients.push_back({time, 0.8, 0.5});
+        const std::string text = writtenFiles(clip)[0];
+        for (const test::AhapEvent& event : test::parseAhap(text).events)
+            REQUIRE((event.transient || event.duration >= 0.0009));
+        const auto back = readAhap(text);
+        REQUIRE(back.ok());
+        REQUIRE(back->warnings.empty());
+        REQUIRE(back->clip.bands.size() == 1);
+        REQUIRE(back->clip.duration == 1.0);
+        for (const Breakpoint& point : back->clip.bands[0].amplitude)
+            REQUIRE(point.value <= 1.0);
+    }
+}
+
+TEST_CASE("AHAP: what is left after whole half minutes is no event without an end", "[io][formats]")
+{
+    for (const double more : {0.0, 4e-7, 6e-7, 0.0004})
+    {
+        CAPTURE(more);
+        double end = 0.0;
+        for (const test::AhapEvent& event : test::parseAhap(writtenFiles(moving(60.0 + more, 90, 0))[0]).events)
+        {
+            REQUIRE(event.duration >= 15.0);
+            REQUIRE(event.duration <= 30.0);
+            REQUIRE(std::abs(event.time - end) < 1e-9);
+            end = event.time + event.duration;
+        }
+        REQUIRE(std::abs(end - 60.0 - more) < 1e-6);
+    }
+}
+
+TEST_CASE("AHAP: continuous events without a duration end with the pattern", "[io][formats]")
+{
+    const std::string endless = R"({"Event": {"Time": 0.5, "EventType": "HapticContinuous", "EventDuration": 0}})";
+    const std::string tap = R"(, {"Event": {"Time": 1.5, "EventType": "HapticTransient"}})";
+    const auto withTap = readAhap(pattern(endless + tap));
+    REQUIRE(withTap.ok());
+    REQUIRE(withTap->warnings.size() == 1);
+    REQUIRE(withTap->clip.bands[0].amplitude.back().time == withTap->clip.duration);
+    REQUIRE(withTap->clip.duration > 1.5);
+    REQUIRE(withTap->clip.duration < 1.53);
+    REQUIRE(readAhap(pattern(endless))->clip.duration == 30.5); // as long as Core Haptics plays it
+    const std::string late = R"(, {"Event": {"Time": 100, "EventType": "HapticTransient"}})";
+    const auto withLate = readAhap(pattern(endless + late));
+    REQUIRE(valueAt(withLate->clip.bands[0].amplitude, 30.0) == 1.0);
+    REQUIRE(valueAt(withLate->clip.bands[0].amplitude, 31.0) == 0.0);
+}
+
+TEST_CASE("AHAP: continuous events together are no more than full drive", "[io][formats]")
+{
+    std::string events;
+    for (int i = 0; i < 20; ++i)
+        events += (i > 0 ? ", " : "") + std::string(R"({"Event": {"EventType": "HapticContinuous", "Time": )") +
+                  std::to_string(0.05 * i) + R"(, "EventDuration": 0, "EventParameters": [{"ParameterID":
+                  "HapticIntensity", "ParameterValue": 0.7}]}})";
+    events += R"(, {"Event": {"EventType": "HapticContinuous", "Time": 2, "EventDuration": 0.5}})";
+    const auto read = readAhap(pattern(events));
+    REQUIRE((read.ok() ? "" : read.error().text()) == "");
+    REQUIRE(read->warnings.size() == 2);
+    const auto sum = [&](double time)
+    {
+        double all = 0.0;
+        for (const Band& band : read->clip.bands)
+            all += valueAt(band.amplitude, time);
+        return all;
+    };
+    for (double time = 0.0; time < 2.5; time += 0.00137)
+    {
+        CAPTURE(time);
+        const double begun = std::min(std::floor(time / 0.05) + 1.0, 20.0);
+        const double wanted = time < 2.0 ? std::min(1.0, 0.49 * begun) : 1.0;
+        if (std::abs(time / 0.05 - std::round(time / 0.05)) > 0.01)
+            REQUIRE(std::abs(sum(time) - wanted) < 1e-6);
+    }
+}
+
+TEST_CASE("Overlapping slopes are limited where they pass the limit, not before", "[io][formats]")
+{
+    std::vector<Band> bands(2);
+    bands[0].amplitude = {{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}};
+    bands[1].amplitude = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {2.0, 0.0}};
+    const std::vector<Band> before = bands;
+    REQUIRE(limitSum(bands, 1.0, 1000).ok());
+    for (double time = 0.0; time <= 2.0; time += 0.01)
+    {
+        CAPTURE(time);
+        const double a = valueAt(before[0].amplitude, time), b = valueAt(before[1].amplitude, time);
+        REQUIRE(std::abs(valueAt(bands[0].amplitude, time) + valueAt(bands[1].amplitude, time) - std::min(a + b, 1.0)) <
+                1e-9);
+    }
+    REQUIRE(valueAt(bands[0].amplitude, 0.5) == 0.5);
+    std::vector<Band> quiet(2);
+    quiet[0].amplitude = quiet[1].amplitude = {{0.0, 0.5}, {1.0, 0.5}};
+    const std::vector<Band> kept = quiet;
+    REQUIRE_FALSE(*limitSum(quiet, 1.0, 1000));
+    REQUIRE(quiet == kept);
+    REQUIRE_FALSE(limitSum(bands = before, 0.5, 3).ok());
 }

@@ -174,20 +174,18 @@ TEST_CASE("A broken .haps file is refused with its place", "[formats]")
 {
     const std::string note = "m_vibration.m_melodies[1].m_notes[0]";
     checkBrokenJson(hapsFormat(), test::hapsSample());
-    checkBroken(
-        hapsFormat(), test::hapsSample(),
-        {{R"("m_version": "5")", R"("m_version": "6")", "m_version"},
-         {R"("m_version": "5", )", "", "m_version"},
-         {R"("m_vibration")", R"("vibration")", "m_vibration"},
-         {R"("m_startingPoint": 0,)", R"("m_startingPoint": -1,)", note + ".m_startingPoint"},
-         {R"("m_startingPoint": 0, )", "", note + ".m_startingPoint"},
-         {R"("m_length": 1.5)", R"("m_length": 1e9)", note + ".m_length"},
-         {R"("m_gain": 1.109)", R"("m_gain": -1)", "m_vibration.m_melodies[0].m_notes[0].m_gain"},
-         {R"("m_time": 0.4)", R"("m_time": -0.4)",
-          note + ".m_hapticEffect.m_amplitudeModulation.m_keyframes[1].m_time"},
-         {R"("m_time": 1,)", R"("m_time": 2,)", note + ".m_hapticEffect.m_frequencyModulation.m_keyframes[2].m_time"},
-         {R"("m_value": 0.2)", R"("m_value": [])",
-          note + ".m_hapticEffect.m_amplitudeModulation.m_keyframes[0].m_value"}});
+    checkBroken(hapsFormat(), test::hapsSample(),
+                {{R"("m_version": "5")", R"("m_version": "6")", "m_version"},
+                 {R"("m_version": "5", )", "", "m_version"},
+                 {R"("m_vibration")", R"("vibration")", "m_vibration"},
+                 {R"("m_startingPoint": 0,)", R"("m_startingPoint": -1,)", note + ".m_startingPoint"},
+                 {R"("m_startingPoint": 0, )", "", note + ".m_startingPoint"},
+                 {R"("m_length": 1.5)", R"("m_length": 1e9)", note + ".m_length"},
+                 {R"("m_gain": 1.109)", R"("m_gain": -1)", "m_vibration.m_melodies[0].m_notes[0].m_gain"},
+                 {R"("m_time": 0.4)", R"("m_time": -0.4)",
+                  note + ".m_hapticEffect.m_amplitudeModulation.m_keyframes[1].m_time"},
+                 {R"("m_value": 0.2)", R"("m_value": [])",
+                  note + ".m_hapticEffect.m_amplitudeModulation.m_keyframes[0].m_value"}});
     std::string text = test::hapsSample();
     text.replace(text.find("\"m_value\": 0.2"), 14, "\"m_value\": 1.2");
     const auto lenient = readHaps(text);

@@ -253,7 +253,12 @@ TEST_CASE(".haptic: files come back from clips point by point", "[io][formats]")
         const std::string text = written(read->clip);
         REQUIRE(brokenRule(text) == "");
         Json back = Json::parse(text);
-        REQUIRE(amplitude(back).size() == amplitude(file).size());
+        // What ends with an emphasis goes on silently until that has sounded, in at most two more points.
+        const double end = amplitude(file).back()["time"].get<double>();
+        REQUIRE(amplitude(back).size() >= amplitude(file).size());
+        REQUIRE(amplitude(back).size() <= amplitude(file).size() + (read->clip.duration > end + 1e-3 ? 2u : 0u));
+        for (std::size_t i = amplitude(file).size(); i < amplitude(back).size(); ++i)
+            REQUIRE((amplitude(back)[i]["amplitude"] == 0.0 && amplitude(back)[i]["time"].get<double>() > end - 1e-3));
         for (std::size_t i = 0; i < amplitude(file).size(); ++i)
         {
             const Json& a = amplitude(file)[i];

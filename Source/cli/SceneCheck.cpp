@@ -1,0 +1,95 @@
+#include "cli/SceneCheck.h"
+
+#include "cli/SceneTimeline.h"
+
+#include <pacini/synthesis/CompilePlan.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using detail::indexed;
+
+void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    std::vector<bool> played(scene.clips.size(), false);
+    for (const ScenePlay& play : scene.plays)
+        played[play.clip] = true;
+    for (std::size_t i = 0; i < played.size(); ++i)
+        if (!played[i])
+            found.push_back({indexed("clips", i), "is never played"});
+}
+
+void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    const auto plan = compilePlan(scene);
+    if (!plan)
+    {
+        found.push_back({plan.error().where, plan.error().message});
+        return;
+    }
+    for (const LeftOut& item : plan->leftOut)
+        found.push_back(
+            {item.where,
+             fmt::format("is not played: it {}{}", item.reason,
+                         std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error) : std::string())});
+}
+
+void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+{
+    constexpr double margin = 1e-6; // s
+    for (const TimedPlay& timed : timeline.plays)
+        if (std::isfinite(timed.wanted) && timed.end > timed.start && timed.wanted > timed.end + margin)
+            found.push_back(
+                {indexed("plays", timed.play),
+                 fmt::format("is cut by the end of the scene {:.3f} s before its own", timed.wanted - timed.end)});
+}
+
+void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+{
+    for (std::size_t i = 0; i < scene.changes.size(); ++i)
+    {
+        const SceneChange& change = scene.changes[i];
+        const TimedPlay& timed = timeline.plays[change.play];
+        if (change.time >= timeline.duration)
+            found.push_back({indexed("changes", i), "comes after the end of the scene"});
+        else if (change.time >= timed.end)
+            found.push_back({indexed("changes", i),
+                             fmt::format("comes after plays[{}], which ends at {:.3f} s", change.play, timed.end)});
+        else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
+            found.push_back({indexed("changes", i), "is a pan, but the scene has one actuator"});
+    }
+}
+
+void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    if (scene.actuators > 1)
+        return;
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+        if (scene.plays[i].pan != ScenePlay{}.pan)
+            found.push_back({indexed("plays", i) + ".pan", "does nothing: the scene has one actuator"});
+}
+} // namespace
+
+std::vector<SceneFinding> checkScene(const Scene& scene)
+{
+    std::vector<SceneFinding> found;
+    if (scene.plays.empty())
+        found.push_back({"plays", "is empty, so nothing sounds"});
+    const SceneTimeline timeline = timelineOf(scene);
+    checkClips(scene, found);
+    checkPlan(scene, found);
+    checkEnds(timeline, found);
+    checkChanges(scene, timeline, found);
+    checkPans(scene, found);
+    return found;
+}
+
+} // namespace pacini::cli

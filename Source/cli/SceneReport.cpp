@@ -1,0 +1,150 @@
+#include "cli/SceneReport.h"
+
+#include "cli/Console.h"
+#include "cli/SceneTimeline.h"
+#include "io/SceneJsonRules.h"
+
+#include <pacini/clip/Clip.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t mostListed = 20;
+
+std::string_view lawName(PanLaw law)
+{
+    return sceneJson::panLaws[static_cast<std::size_t>(law)];
+}
+
+std::vector<std::size_t> playCounts(const Scene& scene)
+{
+    std::vector<std::size_t> counts(scene.clips.size(), 0);
+    for (const ScenePlay& play : scene.plays)
+        ++counts[play.clip];
+    return counts;
+}
+
+std::string counted(std::size_t count, std::string_view one)
+{
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string quoted(const std::string& name)
+{
+    return name.empty() ? "" : " \"" + printable(name) + "\"";
+}
+
+std::string clipText(std::size_t i, const Clip& clip, std::size_t plays)
+{
+    return fmt::format("  clips[{}]{}: {}, {}, {}; {}\n", i, quoted(clip.name), durationText(clip.duration),
+                       counted(clip.bands.size(), "band"), counted(clip.transients.size(), "transient"),
+                       plays == 0 ? "not played" : "played " + counted(plays, "time"));
+}
+
+std::string playText(const TimedPlay& timed, const Scene& scene)
+{
+    const ScenePlay& play = scene.plays[timed.play];
+    std::string text = fmt::format("  plays[{}]{}: clips[{}]{}, {:.3f} to {:.3f} s", timed.play, quoted(play.name),
+                                   play.clip, quoted(scene.clips[play.clip].name), timed.start, timed.end);
+    if (play.loop > 0.0)
+        text += fmt::format(", loops {:.3f} s{}", play.loop,
+                            play.passes > 0 ? " " + counted(play.passes, "time") : std::string());
+    if (play.gain != 0.0)
+        text += fmt::format(", {:+g} dB", play.gain);
+    if (scene.actuators > 1)
+        text += fmt::format(", pan {:g}", play.pan);
+    if (play.transposition != 0.0)
+        text += fmt::format(", {:+g} semitones", play.transposition);
+    if (play.stretch != 1.0)
+        text += fmt::format(", stretched {:g} times", play.stretch);
+    if (play.variation.amount > 0.0)
+        text += fmt::format(", varied by {:g}", play.variation.amount);
+    if (timed.changes > 0)
+        text += ", " + counted(timed.changes, "change");
+    return text + "\n";
+}
+
+/// The first lines of a list, and how many more there are.
+template <typename Line>
+void appendList(std::string& text, std::size_t count, std::string_view one, Line line)
+{
+    for (std::size_t i = 0; i < std::min(count, mostListed); ++i)
+        text += line(i);
+    if (count > mostListed)
+        text += fmt::format("  and {} more\n", counted(count - mostListed, one));
+}
+} // namespace
+
+nlohmann::ordered_json sceneReport(const Scene& scene)
+{
+    const SceneTimeline timeline = timelineOf(scene);
+    const auto counts = playCounts(scene);
+    Json clips = Json::array(), plays = Json::array();
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+    {
+        const Clip& clip = scene.clips[i];
+        clips.push_back({{"name", clip.name},
+                         {"duration", clip.duration},
+                         {"bands", clip.bands.size()},
+                         {"breakpoints", breakpointCount(clip)},
+                         {"transients", clip.transients.size()},
+                         {"plays", counts[i]}});
+    }
+    for (const TimedPlay& timed : timeline.plays)
+    {
+        const ScenePlay& play = scene.plays[timed.play];
+        plays.push_back({{"name", play.name},
+                         {"clip", play.clip},
+                         {"start", timed.start},
+                         {"end", timed.end},
+                         {"loop", play.loop},
+                         {"passes", play.passes},
+                         {"gain", play.gain},
+                         {"pan", play.pan},
+                         {"transposition", play.transposition},
+                         {"stretch", play.stretch},
+                         {"priority", play.priority},
+                         {"changes", timed.changes}});
+    }
+    return {{"kind", "scene"},
+            {"format", "scene"},
+            {"name", scene.name},
+            {"duration", timeline.duration},
+            {"gain", scene.gain},
+            {"actuators", scene.actuators},
+            {"panLaw", lawName(scene.panLaw)},
+            {"clips", clips},
+            {"plays", plays},
+            {"changes", scene.changes.size()}};
+}
+
+std::string sceneText(const std::string& file, const Scene& scene)
+{
+    const SceneTimeline timeline = timelineOf(scene);
+    const auto counts = playCounts(scene);
+    std::string text =
+        fmt::format("{}: scene{}, {}\n", printable(file), quoted(scene.name), durationText(timeline.duration));
+    text += fmt::format("  actuators     {}{}\n", scene.actuators,
+                        scene.actuators > 1 ? fmt::format(", panned by {}", lawName(scene.panLaw)) : "");
+    if (scene.gain != 0.0)
+        text += fmt::format("  gain          {:+g} dB\n", scene.gain);
+    text += fmt::format("  clips         {}\n  plays         {}\n  changes       {}\n", scene.clips.size(),
+                        scene.plays.size(), scene.changes.size());
+    appendList(text, scene.clips.size(), "clip", [&](std::size_t i) { return clipText(i, scene.clips[i], counts[i]); });
+    appendList(text, scene.plays.size(), "play", [&](std::size_t i) { return playText(timeline.plays[i], scene); });
+    text.pop_back();
+    return text;
+}
+
+} // namespace pacini::cli

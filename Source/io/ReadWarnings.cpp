@@ -1,0 +1,171 @@
+#include "io/ReadWarnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+/// Words that people and other programs use, and the key that is meant. A word may stand for several keys; the first
+/// that may stand at the place counts.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 60> otherWords{{
+    {"pitch", "transposition"},
+    {"transpose", "transposition"},
+    {"semitones", "transposition"},
+    {"detune", "transposition"},
+    {"speed", "stretch"},
+    {"rate", "stretch"},
+    {"tempo", "stretch"},
+    {"volume", "gain"},
+    {"level", "gain"},
+    {"loudness", "gain"},
+    {"amplitude", "gain"},
+    {"volume", "amplitude"},
+    {"level", "amplitude"},
+    {"gain", "amplitude"},
+    {"intensity", "amplitude"},
+    {"strength", "amplitude"},
+    {"value", "amplitude"},
+    {"value", "frequency"},
+    {"hertz", "frequency"},
+    {"hz", "frequency"},
+    {"pitch", "frequency"},
+    {"sharp", "sharpness"},
+    {"time", "start"},
+    {"begin", "start"},
+    {"at", "start"},
+    {"offset", "start"},
+    {"delay", "start"},
+    {"start", "time"},
+    {"at", "time"},
+    {"position", "time"},
+    {"position", "pan"},
+    {"balance", "pan"},
+    {"length", "duration"},
+    {"end", "duration"},
+    {"seconds", "duration"},
+    {"repeat", "loop"},
+    {"repeats", "passes"},
+    {"count", "passes"},
+    {"times", "passes"},
+    {"loops", "passes"},
+    {"channels", "actuators"},
+    {"outputs", "actuators"},
+    {"fade", "glide"},
+    {"ramp", "glide"},
+    {"id", "name"},
+    {"title", "name"},
+    {"label", "name"},
+    {"random", "variation"},
+    {"randomness", "variation"},
+    {"sound", "clip"},
+    {"path", "file"},
+    {"filename", "file"},
+    {"events", "transients"},
+    {"frequencies", "pitch"},
+    {"tracks", "plays"},
+    {"automation", "changes"},
+    {"type", "technology"},
+    {"eq", "equalizer"},
+    {"voices", "polyphony"},
+    {"quality", "q"},
+}};
+
+std::string lowerCase(std::string_view text)
+{
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return lower;
+}
+
+/// Letters to insert, leave out, replace or swap with their neighbour until `a` is `b` (optimal string alignment; F. J.
+/// Damerau, "A technique for computer detection and correction of spelling errors", 1964).
+std::size_t slips(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        before.swap(last);
+        last.swap(row);
+    }
+    return last[b.size()];
+}
+} // namespace
+
+void ReadWarnings::add(std::string_view where, std::string_view message)
+{
+    if (hasRoom())
+        kept.push_back(fmt::format("{}: {}", where, message));
+    else
+        count();
+}
+
+std::vector<std::string> ReadWarnings::texts() const
+{
+    std::vector<std::string> all = kept;
+    if (notKept > 0)
+        all.push_back(fmt::format("and {} more of these", notKept));
+    return all;
+}
+
+std::string_view nearestKey(std::string_view given, const std::vector<std::string_view>& known)
+{
+    constexpr std::size_t longest = 40; // no key is nearly as long
+    if (given.empty() || given.size() > longest)
+        return {};
+    const std::string lower = lowerCase(given);
+    std::string_view nearest;
+    // Short words are near to nearly everything: of up to five letters one may be wrong, two from six letters on.
+    std::size_t least = lower.size() < 6 ? 2 : 3;
+    for (const std::string_view key : known)
+        if (const std::size_t wrong = slips(lower, lowerCase(key)); wrong < least)
+        {
+            least = wrong;
+            nearest = key;
+        }
+    // A single wrong letter is a slip; beyond that another word for a key is more likely.
+    if (least > 1)
+        for (const auto& [word, key] : otherWords)
+            if ((lower == word || (word.size() >= 5 && slips(lower, word) == 1)) &&
+                std::find(known.begin(), known.end(), key) != known.end())
+                return key;
+    if (!nearest.empty() || lower.size() < 3)
+        return nearest;
+    // "freq", "dur", "panning"
+    for (const std::string_view key : known)
+        if (const std::string lowerKey = lowerCase(key);
+            lowerKey.starts_with(lower) || (lowerKey.size() > 2 && lower.starts_with(lowerKey)))
+            return key;
+    return {};
+}
+
+bool isRemark(std::string_view key) noexcept
+{
+    return key.starts_with('$') || key.starts_with('_') || key.starts_with("//");
+}
+
+std::string unknownKeyText(std::string_view given, const std::vector<std::string_view>& known)
+{
+    const std::string_view nearest = nearestKey(given, known);
+    if (nearest.empty())
+        return "is not known";
+    return fmt::format("is not known; did you mean \"{}\"?", nearest);
+}
+
+} // namespace pacini

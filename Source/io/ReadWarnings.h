@@ -1,0 +1,50 @@
+#pragma once
+
+// What the readers of clips, scenes and profiles let pass.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini
+{
+
+/// Warnings with their places. Of a text that has very many the first are kept and the others counted.
+class ReadWarnings
+{
+public:
+    static constexpr std::size_t mostKept = 20;
+
+    ReadWarnings() = default;
+    explicit ReadWarnings(bool beStrict) : strict(beStrict) {}
+
+    /// Whether what would be a warning is an error, at which the reader stops.
+    [[nodiscard]] bool isStrict() const noexcept { return strict; }
+
+    /// Whether one more is kept; else count() is enough.
+    [[nodiscard]] bool hasRoom() const noexcept { return kept.size() < mostKept; }
+
+    void add(std::string_view where, std::string_view message);
+    void count() noexcept { ++notKept; }
+
+    /// Each as `plays[2].gian: is not known; did you mean "gain"?`, and how many there are besides.
+    [[nodiscard]] std::vector<std::string> texts() const;
+
+private:
+    std::vector<std::string> kept;
+    std::size_t notKept = 0;
+    bool strict = false;
+};
+
+/// The one of `known` that `given` is meant to be: another word for it (`speed` for `stretch`), or a slip of the
+/// pen away; empty when there is none.
+[[nodiscard]] std::string_view nearestKey(std::string_view given, const std::vector<std::string_view>& known);
+
+/// Whether a key is meant for people or other programs: `$schema`, `_comment`, `//`. Nobody is warned of these.
+[[nodiscard]] bool isRemark(std::string_view key) noexcept;
+
+/// What is wrong with a key that is none of `known`, with the nearest one.
+[[nodiscard]] std::string unknownKeyText(std::string_view given, const std::vector<std::string_view>& known);
+
+} // namespace pacini

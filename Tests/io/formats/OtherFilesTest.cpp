@@ -1,0 +1,180 @@
+// Files as other programs really write them: read with a warning where their own players do.
+
+#include "io/AnyClip.h"
+#include "io/formats/ForeignFormat.h"
+#include "io/formats/HapticFormat.h"
+#include "io/formats/NormalisedFrequency.h"
+#include "support/Catch.h"
+#include "support/Paths.h"
+#include "support/TempFolder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+ImportedClip readAs(const char* format, const std::string& text)
+{
+    auto read = foreignFormatNamed(format)->read(text);
+    INFO((read.ok() ? "" : read.error().text()));
+    REQUIRE(read.ok());
+    return std::move(*read);
+}
+
+std::string errorOf(const char* format, const std::string& text)
+{
+    const auto read = foreignFormatNamed(format)->read(text);
+    return read.ok() ? "" : read.error().text();
+}
+
+std::string corpus(const char* path)
+{
+    std::ifstream file(sourceFolder() / "Tests/fuzz/corpus" / path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string haps(const std::string& keyframes)
+{
+    return R"({"m_version": "5", "m_vibration": {"m_melodies": [{"m_notes": [{"m_startingPoint": 0, "m_length": 1,
+        "m_hapticEffect": {"m_amplitudeModulation": {"m_keyframes": [)" +
+           keyframes + "]}}}]}]}}";
+}
+
+std::string tact(const std::string& start, const std::string& intensity)
+{
+    return R"({"project": {"name": "x", "tracks": [{"effects": [{"startTime": )" + start +
+           R"(, "offsetTime": "200", "modes": {"Vest": {"mode": "DOT_MODE", "dotMode": {"feedback": [
+        {"startTime": "0", "endTime": 200, "pointList": [{"index": "3", "intensity": )" +
+           intensity + R"(}]}]}}}}]}]}, "durationMillis": "300"})";
+}
+
+std::string vij(const std::string& envelopes, const std::string& transients, const std::string& duration = "1")
+{
+    return R"({"metadata": {"editor": "x", "format": "Additive", "duration": )" + duration +
+           R"(}, "voices": {"envelopes": )" + envelopes + R"(, "bands": [], "transients": )" + transients + "}}";
+}
+
+std::string hasp(const std::string& clips)
+{
+    return R"({"version": "2.0.0", "metadata": {"name": "p"}, "clips": [)" + clips + "]}";
+}
+
+std::string haspClip(const std::string& name, double end = 1.0)
+{
+    return R"({"clipId": "1", "name": ")" + name + R"(", "haptic": {"version": {"major": 1}, "signals": {"continuous":
+        {"envelopes": {"amplitude": [{"time": 0, "amplitude": 0.5}, {"time": )" +
+           std::to_string(end) + R"(, "amplitude": 0.5}]}}}}})";
+}
+} // namespace
+
+TEST_CASE(".haps: keyframes out of order are put into it with a warning", "[io][formats]")
+{
+    const auto read = readAs("haps", haps(R"({"m_time": 0, "m_value": 0.1}, {"m_time": 0.8, "m_value": 0.9},
+                                             {"m_time": 0.4, "m_value": 0.5}, {"m_time": 1, "m_value": 0})"));
+    REQUIRE(read.warnings.size() == 1);
+    CHECK(read.warnings[0].find("m_keyframes: are not in order") != std::string::npos);
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.4) == Approx(0.5));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.6) == Approx(0.7));
+    CHECK(errorOf("haps", haps(R"({"m_time": 0.5, "m_value": 0}, {"m_time": -1, "m_value": 0})"))
+              .find("m_keyframes[0].m_time: is negative") != std::string::npos);
+}
+
+TEST_CASE(".tact: numbers in quotes are taken as what they say, with a warning", "[io][formats]")
+{
+    const auto read = readAs("tact", tact("\"100\"", "\"0.75\""));
+    REQUIRE(read.warnings.size() == 2);
+    CHECK(read.warnings[0].find("6 numbers are in quotes") != std::string::npos);
+    CHECK(read.clip.duration == Approx(0.3));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.2) == 0.75);
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.05) == 0.0);
+    for (const char* bad : {"\"abc\"", "\"\"", "\"1 \"", "\"nan\"", "\"inf\"", "\"1e999\"", "\"0x10\"", "true", "[]"})
+    {
+        CAPTURE(bad);
+        CHECK(errorOf("tact", tact(bad, "1")).find("startTime: must be a number") != std::string::npos);
+    }
+    CHECK(errorOf("haps", haps(R"({"m_time": "0", "m_value": 0})")).find("must be a number") != std::string::npos);
+}
+
+TEST_CASE(".vij: envelopes and transients become one voice with events", "[io][formats]")
+{
+    const auto read = readAs("vij", corpus("vij/everything"));
+    CHECK(read.warnings.empty());
+    const Clip& clip = read.clip;
+    CHECK(clip.duration == 0.5); // the last amplitude holds until the stated end
+    REQUIRE(clip.bands.size() == 1);
+    CHECK(valueAt(clip.bands[0].amplitude, 0.05) == Approx(0.5));
+    CHECK(valueAt(clip.bands[0].amplitude, 0.5) == Approx(0.1));
+    CHECK(valueAt(clip.bands[0].pitch, 0.2) == Approx(questRange.hertzOf(0.75)));
+    REQUIRE(clip.transients.size() == 2); // the second stands at no point, where Lofelt's upgrade would drop it
+    CHECK(clip.transients[1] == Transient{0.25, 0.5, 0.9});
+    // It goes on to the format that came after it.
+    const auto later = readHaptic(writeHaptic(clip, {})->files[0].bytes);
+    REQUIRE(later.ok());
+    CHECK(later->clip.transients.size() == 2);
+
+    const std::string points = R"([[{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}], []])";
+    CHECK(readAs("vij", vij(points, "[]")).clip.transients.empty());
+    CHECK(readAs("vij", vij(points, "[[], []]")).clip.bands[0].pitch.empty());
+    const auto tap = readAs("vij", vij(points, R"([[{"time": 1, "amplitude": 0.5}], []])"));
+    CHECK(tap.clip.duration > 1.01);
+    CHECK(tap.warnings.size() == 1);
+    CHECK(readAs("vij", vij(R"([[{"time": 0, "amplitude": 1.5}], []])", "[]")).warnings.size() == 1);
+}
+
+TEST_CASE(".vij: what is wrong is refused with its place", "[io][formats]")
+{
+    const std::string points = R"([[{"time": 0, "amplitude": 0.5}], []])";
+    CHECK(errorOf("vij", "{}").starts_with("voices: is missing"));
+    CHECK(errorOf("vij", "[]") != "");
+    CHECK(errorOf("vij", vij("[]", "[]")).starts_with("voices.envelopes: has no point of amplitude"));
+    CHECK(errorOf("vij", vij("3", "[]")).starts_with("voices.envelopes: must be a list"));
+    CHECK(errorOf("vij", vij(points, "[]", "-1")).starts_with("metadata.duration: must be"));
+    CHECK(errorOf("vij", vij(points, "[]", "\"1\"")).starts_with("metadata.duration: must be a number"));
+    CHECK(errorOf("vij", vij(R"([[{"time": 1, "amplitude": 0}, {"time": 0, "amplitude": 0}], []])", "[]"))
+              .starts_with("voices.envelopes[0][1].time: is earlier"));
+    CHECK(errorOf("vij", vij(points, R"([[{"time": -1, "amplitude": 0}], []])"))
+              .starts_with("voices.transients[0][0].time: is before 0"));
+    CHECK(errorOf("vij", vij(points, R"([[{"time": 1}], []])"))
+              .starts_with("voices.transients[0][0].amplitude: is missing"));
+}
+
+TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to get at them", "[io][formats]")
+{
+    const auto one = readAs("hasp", corpus("hasp/everything"));
+    CHECK(one.clip.name == "Door");
+    CHECK(one.clip.transients.size() == 1);
+    CHECK(one.clip.duration == Approx(0.3));
+    const std::string several = errorOf("hasp", hasp(haspClip("Door") + "," + haspClip("Window")));
+    CHECK(several.starts_with("clips: has 2 clips ('Door', 'Window'): this is a project of Haptics Studio"));
+    CHECK(several.find(".haptic") != std::string::npos);
+    CHECK(errorOf("hasp", hasp("")).find("project of Haptics Studio") != std::string::npos);
+    CHECK(errorOf("hasp", "{}").starts_with("clips: is missing"));
+    CHECK(errorOf("hasp", hasp(haspClip("Door", -1.0)))
+              .starts_with("clips[0].haptic.signals.continuous.envelopes.amplitude[1].time: is before 0"));
+    // By its content it is told from a clip whatever it is called.
+    CHECK(foreignFormatOf(".json", hasp(haspClip("Door")))->name == "hasp");
+    CHECK(foreignFormatOf(".haptic", hasp(haspClip("Door")))->read != nullptr);
+    CHECK(foreignFormatOf(".vij", corpus("vij/everything"))->name == "vij");
+}
+
+TEST_CASE("A pair of files that Haptics Studio exports is one clip", "[io][formats]")
+{
+    const TempFolder folder;
+    std::ofstream(folder / "door.continuous.ahap") << R"({"Version": 1, "Pattern": [{"Event": {"Time": 0,
+        "EventType": "HapticContinuous", "EventDuration": 0.5}}]})";
+    std::ofstream(folder / "door.transients.ahap") << R"({"Version": 1, "Pattern": [{"Event": {"Time": 0.5,
+        "EventType": "HapticTransient"}}]})";
+    const auto read = readAnyClip(folder / "door.continuous.ahap");
+    REQUIRE(read.ok());
+    CHECK(read->clip.transients.size() == 1);
+    REQUIRE(read->clip.bands.size() == 1);
+    CHECK(read->clip.duration > 0.51);
+    CHECK(valueAt(read->clip.bands[0].amplitude, 0.505) == 0.0); // which ends at 0.5 s
+    CHECK(companionOf(folder / "door.transients.ahap") == folder / "door.continuous.ahap");
+    CHECK(companionOf(folder / "door.continuous.ahap").empty());
+}
