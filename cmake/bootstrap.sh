@@ -18,7 +18,7 @@ plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)
 host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
     umockdev gir1.2-umockdev-1.0 python3-gi)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
-test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format "${plugin_packages[@]}" "${host_packages[@]}")
+test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish "${plugin_packages[@]}" "${host_packages[@]}")
 
 say() { printf '\n== %s\n' "$*"; }
 usage() { printf '%s\n' "$help"; }

@@ -1,5 +1,6 @@
 #include "cli/CompareJob.h"
 
+#include "cli/ReadingAdvice.h"
 #include "cli/Stopwatch.h"
 #include "io/AnyClip.h"
 
@@ -72,14 +73,6 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     return sound;
 }
 
-/// The error of reading a sound, with the option that takes it as it is.
-Error withAdvice(Error error)
-{
-    if (error.code == ErrorCode::truncated)
-        error.message += ", or take what is there with --allow-truncated";
-    return error;
-}
-
 /// What both measures need of one sound.
 struct Features
 {
@@ -104,7 +97,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     {
         const auto sound = readMono(path, reading, work);
         if (!sound)
-            return InputFailure{path, withAdvice(sound.error())};
+            return InputFailure{path, withAdvice(sound.error(), false)};
         (role == HtsRole::source ? result.duration : result.candidateDuration) = sound->duration();
         result.notFinite += sound->notFinite;
         const std::span<const float> samples(sound->samples);

@@ -222,6 +222,7 @@ Exit ConvertCommand::convertProfile(Console& console)
     }
     if (overwriting.keepsAll() && isOccupied(output))
     {
+        console.addToReport(fileList(nlohmann::ordered_json::array(), false));
         console.note(fmt::format("{} exists and was left", printable(output)));
         return Exit::ok;
     }
@@ -349,7 +350,9 @@ Exit ConvertCommand::convertClips(Console& console)
         return fail(
             {ErrorCode::invalidData, "", "exists and is no record of conversions; name another with --manifest"});
     GrowingManifest growing;
-    if (const auto started = growing.start(record, before.value_or(ConvertManifest())); !started)
+    if (const auto started =
+            growing.start(dryRun ? std::filesystem::path() : record, before.value_or(ConvertManifest()));
+        !started)
         return fail(started.error());
     const auto entryBefore = [&](const std::string& key) -> const ManifestEntry*
     {

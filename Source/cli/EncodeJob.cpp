@@ -1,5 +1,6 @@
 #include "cli/EncodeJob.h"
 
+#include "cli/ReadingAdvice.h"
 #include "cli/Task.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
@@ -24,16 +25,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// The error of reading a sound, with the option that takes it as it is.
-Error withAdvice(Error error)
-{
-    if (error.code == ErrorCode::truncated)
-        error.message += ", or take what is there with --allow-truncated";
-    if (error.code == ErrorCode::notFinite)
-        error.message += ", or take such samples as 0 with --allow-nan";
-    return error;
-}
-
 /// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
 template <typename Visit>
 Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
@@ -46,7 +37,7 @@ Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>
     {
         const auto got = reader.read(buffer);
         if (!got)
-            return withAdvice(got.error());
+            return withAdvice(got.error(), true);
         if (*got == 0)
             return {};
         frames += *got;
@@ -110,7 +101,7 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
 
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return withAdvice(reader.error());
+        return withAdvice(reader.error(), true);
     if (settings.dryRun)
         return result;
     Stopwatch work;
@@ -129,7 +120,7 @@ Result<Clip> EncodeJob::encode(const fs::path& input, const Progress& progress)
 {
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
-        return withAdvice(reader.error());
+        return withAdvice(reader.error(), true);
     Stopwatch work;
     return makeClip(*reader, input, progress, work);
 }

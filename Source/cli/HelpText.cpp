@@ -43,7 +43,7 @@ std::string entry(const std::string& name, const std::string& description, std::
     return text + "\n";
 }
 
-std::string nameOf(const OptionText& option)
+std::string termOf(const OptionText& option)
 {
     std::string text;
     for (const std::string& name : option.names)
@@ -70,10 +70,10 @@ std::string helpText(const CommandText& command, std::size_t width)
     if (!command.arguments.empty())
         text += "\nArguments:\n";
     for (const OptionText& argument : command.arguments)
-        text += entry(nameOf(argument), wholeDescription(argument), width);
+        text += entry(termOf(argument), wholeDescription(argument), width);
     text += "\nOptions (what is taken without them stands in brackets):\n";
     for (const OptionText& option : command.options)
-        text += entry(nameOf(option), wholeDescription(option), width);
+        text += entry(termOf(option), wholeDescription(option), width);
     if (!command.notes.empty())
         text += "\n" + command.notes + "\n";
     text.pop_back();

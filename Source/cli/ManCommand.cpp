@@ -63,7 +63,7 @@ std::string literal(const std::string& notes)
 bool isCommon(const OptionText& option)
 {
     const std::string& name = option.names.back();
-    return name == "--help" || name == "--quiet" || name == "--json";
+    return name == "--help" || name == "--quiet" || name == "--json" || name == "--strict";
 }
 
 std::string commandSection(const CommandText& command)

@@ -7,6 +7,7 @@
 #include <pacini/synthesis/ClipAdaptation.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 

@@ -39,6 +39,8 @@ class DryRun(CommandTest):
         self.assertEqual(set(self.planned(*convert).values()), {"write"})
         self.succeeds(*convert)
         self.assertEqual(set(self.planned(*convert).values()), {"skip"})
+        self.assertEqual(set(self.planned(*convert, "--points", "5").values()), {"overwrite"})
+        self.assertEqual(set(self.planned(*convert, "-n", "--force").values()), {"skip"})
 
         render = ["render", "clips", "-o", "drives"]
         self.assertEqual(set(self.planned(*render).values()), {"write"})

@@ -215,10 +215,10 @@ class Part(CommandTest):
 
     def test_its_length_is_reported_and_nonsense_is_refused(self):
         self.clip(seconds=2.0)
-        report = self.report("render", "clip.json", "--from", "0.5", "--to", "1.25")["files"][0]
+        report = self.report("render", "clip.json", "-o", "part.wav", "--from", "0.5", "--to", "1.25")["files"][0]
         self.assertAlmostEqual(report["duration"], 0.75, places=4)
         self.assertEqual(report["clippedSamples"], 0)
-        os.remove(self.folder / "clip.wav")
+        os.remove(self.folder / "part.wav")
         self.fails(2, ["render", "clip.json", "--from", "1", "--to", "1"], "--from must be before --to")
         self.fails(2, ["render", "clip.json", "--from", "-1"], "--from: '-1' is not a number from 0 to 86400 = 24 h")
         self.fails(2, ["render", "clip.json", "--to", "nan"], "--to: 'nan' is not a number")

@@ -1,0 +1,20 @@
+#pragma once
+
+// What to do about a sound that cannot be read whole.
+
+#include <pacini/foundation/Result.h>
+
+namespace pacini::cli
+{
+
+/// The error of reading a sound, with the option that takes the sound as it is; --allow-nan if the command has it.
+[[nodiscard]] inline Error withAdvice(Error error, bool hasAllowNan)
+{
+    if (error.code == ErrorCode::truncated)
+        error.message += ", or take what is there with --allow-truncated";
+    if (error.code == ErrorCode::notFinite && hasAllowNan)
+        error.message += ", or take such samples as 0 with --allow-nan";
+    return error;
+}
+
+} // namespace pacini::cli
