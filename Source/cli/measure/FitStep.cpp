@@ -108,12 +108,12 @@ Json costJson(const EqualizerCost& cost)
 
 std::string costText(const EqualizerCost& cost)
 {
-    return fmt::format("  costs {:+.1f} dB of power in the coil on pink noise{}, {:+.1f} dB of largest excursion, at "
-                       "{:.0f} Hz{}",
-                       cost.powerChange, cost.power ? fmt::format(" ({:.3g} W at full drive)", *cost.power) : "",
-                       cost.excursionChange, cost.excursionFrequency,
-                       cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion)
-                                      : "");
+    return fmt::format(
+        "  costs {} dB of power in the coil on pink noise{}, {} dB of largest excursion, at "
+        "{:.0f} Hz{}",
+        signedText(cost.powerChange, 1), cost.power ? fmt::format(" ({:.3g} W at full drive)", *cost.power) : "",
+        signedText(cost.excursionChange, 1), cost.excursionFrequency,
+        cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion) : "");
 }
 
 Exit fail(Console& console, const std::string& file, const Error& error, Exit exit = Exit::failed)
@@ -250,9 +250,9 @@ Exit FitStep::run(Console& console)
         console.print(report.dump(2, ' ', false, Json::error_handler_t::replace));
         return Exit::ok;
     }
-    std::string text =
-        fmt::format("{}: {} section{} at {:.0f} Hz leave {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms", printable(input),
-                    fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate, fit->rms, fit->max, milliseconds);
+    std::string text = fmt::format("{}: {} section{} at {:.0f} Hz {} {:.2f} dB RMS, {:.2f} dB at most; {:.2f} ms",
+                                   printable(input), fit->sections.size(), fit->sections.size() == 1 ? "" : "s", rate,
+                                   fit->sections.size() == 1 ? "leaves" : "leave", fit->rms, fit->max, milliseconds);
     for (const EqualizerSection& section : fit->sections)
         text += "\n" + sectionText(section);
     if (cost)

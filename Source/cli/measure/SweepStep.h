@@ -2,6 +2,9 @@
 
 #include "cli/Command.h"
 
+#include <pacini/linearize/Sweep.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +21,12 @@ public:
 private:
     std::string output = "sweep.wav";
     std::string profile;
-    double low = 10.0;
+    std::optional<double> low;
     double high = 1500.0;
     double duration = 20.0;
     double pause = 1.0;
     int repeats = 1;
-    std::vector<double> levels{-6.0};
+    std::vector<double> levels = SweepParams().levels;
     int rate = 48000;
     bool json = false;
 };
