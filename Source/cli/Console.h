@@ -99,6 +99,12 @@ private:
 /// `text` on one line of a terminal: control characters, which a file's name may hold, as \n or \x1b.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// `value` with so many decimals; what rounds to zero has no sign, so never "-0.0".
+[[nodiscard]] std::string decimalText(double value, int decimals);
+
+/// The same with a plus before what is above zero: a difference.
+[[nodiscard]] std::string signedText(double value, int decimals);
+
 /// A size such as "412 B" or "1.3 kB".
 [[nodiscard]] std::string bytesText(double bytes);
 

@@ -6,6 +6,7 @@
 #include "io/InputFile.h"
 #include "io/JsonTree.h"
 
+#include <cmath>
 #include <utility>
 
 namespace pacini
@@ -14,6 +15,7 @@ namespace pacini
 namespace
 {
 constexpr std::size_t mostLevels = 32;
+constexpr double largestSweepGain = 200.0; // dB
 
 /// Shows `visitor` (FieldsReader or FieldsWriter) all entries in the order of the file.
 template <typename AnySweep, typename Visitor>
@@ -32,6 +34,7 @@ void visitFields(AnySweep& file, Visitor& visitor)
     visitor.number("markerDuration", sweep.markerDuration, required);
     visitor.number("sampleRate", sweep.sampleRate, required);
     visitor.optionalText("equalizedFor", file.equalizedFor);
+    visitor.number("gain", file.gain, usual);
 }
 } // namespace
 
@@ -50,6 +53,8 @@ Result<SweepFile> readSweepJson(std::string_view text)
         return *reader.error;
     if (auto valid = validate(file.sweep); !valid)
         return valid.error();
+    if (!(std::abs(file.gain) <= largestSweepGain))
+        return Error{ErrorCode::invalidData, "gain", "must be -200 to 200 dB"};
     return file;
 }
 

@@ -20,6 +20,7 @@ struct SweepFile
 {
     SweepParams sweep;
     std::string equalizedFor; ///< name of the profile through whose equaliser the sweep goes; empty without one
+    double gain = 0.0;        ///< dB by which it is louder than the levels say, -200 to 200
     bool operator==(const SweepFile&) const = default;
 };
 

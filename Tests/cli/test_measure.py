@@ -147,6 +147,107 @@ class EndToEnd(MeasureTest):
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout.decode(), r"FAIL within ±4 dB.*\n.* Hz: [+-]\d")
 
+    def chain(self, length, rig):
+        """The five steps; what analyse and verify have said."""
+        def names(start):
+            return sorted(path.name for path in self.folder.glob(f"{start}*.wav"))
+
+        for path in self.folder.iterdir():
+            path.unlink()
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", *length)
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", *rig)
+        analysed = self.run_command("measure", "analyse", *names("rec"), "--sweep", "sweep.json", "--full-scale", "5g",
+                                    "-o", "mine.json")
+        self.assertEqual(analysed.returncode, 0, analysed.stderr)
+        self.succeeds("measure", "fit", "mine.json", "-o", "mine.json", "--rate", "8000")
+        self.succeeds("measure", "sweep", "-o", "flat.wav", "--profile", "mine.json", *length)
+        self.succeeds("measure", "simulate", "flat.wav", "-o", "after.wav", *rig)
+        verified = self.run_command("measure", "verify", *names("after"), "--sweep", "flat.json", "--full-scale", "5g",
+                                    "--profile", "mine.json")
+        self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+        self.assertIn(b"PASS", verified.stdout)
+        return analysed.stderr.decode() + verified.stderr.decode()
+
+    def test_the_steps_work_at_their_defaults(self):
+        """On the sensor that is simulated, worn as described, and by others."""
+        length = ["--rate", "8000", *(["--duration", "4"] if SANITIZED else [])]
+        for wearers in ([], ["--wearer", "10"], ["--wearers", "3"]):
+            with self.subTest(wearers):
+                said = self.chain(length, wearers)
+                self.assertNotIn("at the limit", said)
+
+    def test_the_steps_work_on_every_actuator_with_one_axis_and_with_three(self):
+        """With a sensor that hears the weak ones in four seconds too. Nothing clips, and nobody who has made an actuator
+        flat is told that it is the drive that was recorded."""
+        length = ["--duration", "5", "--rate", "8000"]
+        chosen = ["l5-wristband", "lra-175"] if SANITIZED else [
+            "l5-wristband", "l5-test-jig", "lra-175", "lra-235-narrow", "piezo", "phone-taptic", "quest-controller",
+            "dualsense-voice-coil", "joycon-hd-rumble", "wideband-exciter"]
+        for number, profile in enumerate(chosen):
+            for axes, seed in (("1", 1), ("3", 5 + number)):
+                with self.subTest((profile, axes, seed)):
+                    said = self.chain(length, ["--profile", profile, "--seed", str(seed), "--axes", axes, "--wearer",
+                                               str(seed), "--noise", "10", "--bits", "16"])
+                    self.assertNotIn("at the limit", said)
+                    self.assertNotIn("carries the drive", said)
+
+    def test_a_sweep_through_an_equaliser_fits_full_scale_and_says_so(self):
+        profile = json.loads((SOURCE / "profiles/l5-test-jig.json").read_text())
+        profile["equalizer"] = [{"type": "peak", "frequency": 200, "gain": 11.5, "q": 1}]
+        self.put("mine.json", json.dumps(profile))
+        sweep = ["measure", "sweep", "-o", "flat.wav", "--duration", "2", "--rate", "8000", "--profile", "mine.json"]
+        text = self.succeeds(*sweep, "--levels", "-20,-2")
+        self.assertRegex(text, r"through the equaliser of '.*', 10 dB lower \(-30, -12 dB\)")
+        report = self.report(*sweep, "--levels", "-20,-2")
+        self.assertEqual((report["lowered"], report["gain"], report["levels"]), (10, 0, [-30, -12]))
+        played = json.loads((self.folder / "flat.json").read_text())
+        self.assertEqual((played["levels"], played["gain"]), ([-30, -12], 0))
+        self.assertTrue(0.85 < self.peak("flat.wav") <= 1)
+        self.assertEqual(self.report(*sweep, "--levels", "-40")["lowered"], 0)
+        self.refused(r"mine\.json: --levels: cannot be lowered", *sweep, "--levels", "-80,-2")
+
+    def test_what_an_equaliser_leaves_soft_is_played_louder_and_measured_as_if_it_were_not(self):
+        profile = json.loads((SOURCE / "profiles/l5-test-jig.json").read_text())
+        profile["equalizer"] = [{"type": "highShelf", "frequency": 2, "gain": -30, "q": 0.7}]
+        self.put("mine.json", json.dumps(profile))
+        sweep = ["measure", "sweep", "-o", "flat.wav", "--duration", "4", "--rate", "8000", "--profile", "mine.json"]
+        report = self.report(*sweep, "--levels", "-12")
+        self.assertTrue(20 < report["gain"] < 31, report)  # a shelf of the second order rings where the sweep starts
+        self.assertAlmostEqual(20 * math.log10(self.peak("flat.wav")), -12, delta=0.1)
+        self.succeeds("measure", "simulate", "flat.wav", "-o", "rec.wav", "--profile", "l5-test-jig", "--noise", "10")
+        self.succeeds("measure", "sweep", "-o", "plain.wav", "--duration", "4", "--rate", "8000", "--levels", "-12")
+        self.succeeds("measure", "simulate", "plain.wav", "-o", "bare.wav", "--profile", "l5-test-jig", "--noise", "10")
+        plateau = {}
+        for name, of in (("rec", "flat"), ("bare", "plain")):
+            code, report, _ = self.warned("measure", "analyse", f"{name}.wav", "--sweep", f"{of}.json", "--full-scale",
+                                          "5g")
+            self.assertEqual(code, 0)
+            plateau[name] = report["plateau"]
+        self.assertAlmostEqual(plateau["bare"] - plateau["rec"], 30, delta=0.5)
+
+    def peak(self, name):
+        """Of a sound of 24 bits."""
+        data = (self.folder / name).read_bytes()
+        data = data[data.index(b"data") + 8:]
+        return max(abs(int.from_bytes(data[i:i + 3], "little", signed=True))
+                   for i in range(0, len(data) - 2, 3)) / 2 ** 23
+
+    def test_a_simulated_sensor_that_clips_says_so(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000", "--levels", "0")
+        done = self.run_command("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr.decode(), r"rec-01\.wav and 1 more: warning: the sensor of 5 g clips; .*--range")
+        text = self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2", "--range", "16")
+        self.assertIn("--full-scale 16g", text)
+
+    def test_nothing_is_minus_zero(self):
+        self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000", "--levels", "-0")
+        self.succeeds("measure", "simulate", "sweep.wav", "-o", "rec.wav", "--range", "30", "--drift", "0", "--latency",
+                      "0", "--seed", "3")
+        done = self.run_command("measure", "analyse", "rec.wav", "--sweep", "sweep.json", "-o", "mine.json")
+        self.assertIn(" 0.0 ppm", done.stdout.decode())
+        self.assertNotRegex(done.stdout.decode(), r"-0(\.0*)?\b(?!\.\d*[1-9])")
+
     def test_recordings_that_cannot_be_analysed_are_named(self):
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", "2", "--rate", "8000")
         self.put("tone.wav", wav(sine(200, 8, 8000), 8000))

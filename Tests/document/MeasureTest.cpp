@@ -214,6 +214,46 @@ TEST_CASE("The loose one of five fittings is named and left out of the average",
     CHECK(work.profile("x").measurement->fittings == 4);
 }
 
+TEST_CASE("At the settings a person starts with no simulated actuator clips, on whomever it is worn", "[measure]")
+{
+    MeasureSettings settings;
+    settings.duration = 2.0;
+    int swept = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / "profiles"))
+    {
+        const auto profile = readProfile(entry.path());
+        if (!profile || !profile->body || profile->technology == Technology::erm)
+            continue;
+        RigParams params = SimulatedMeasureRig::paramsOf(*profile);
+        params.sampleRate = 8000.0;
+        params.noiseDensity *= 0.05;
+        SimulatedMeasureRig rig(params, 0.0);
+        for (const std::size_t wearer : {std::size_t(0), std::size_t(3), std::size_t(9)})
+        {
+            CAPTURE(profile->name, wearer);
+            for (const std::string& note : fittingOf(rig, wearer, settings).notes)
+                CHECK(note.find("clips") == std::string::npos);
+            ++swept;
+        }
+    }
+    CHECK(swept >= 30);
+}
+
+TEST_CASE("A proof that is flat is not taken for the drive signal", "[measure]")
+{
+    // A sensor that hears the same at every frequency is on the wrong input, unless an equaliser was to make it so.
+    SimulatedMeasureRig rig(usualRig(), 0.0);
+    const SweepParams sweep = sweepOf(shortSettings(), 8000.0);
+    RecordedSweep recorded = recordedOn(rig, makeSweepSignal(sweep).value(), sweep, {3});
+    recorded.inputs = {"Sensor"};
+    CHECK_FALSE(analyseFitting("x", recorded, shortSettings()).ok());
+    recorded.equalized = true;
+    const auto proof = analyseFitting("x", recorded, shortSettings());
+    REQUIRE(proof.ok());
+    for (const std::string& note : proof->notes)
+        CHECK(note.find("drive signal") == std::string::npos);
+}
+
 TEST_CASE("What goes wrong with a sweep is said in plain words with the name of the input", "[measure]")
 {
     const MeasureSettings settings = shortSettings();

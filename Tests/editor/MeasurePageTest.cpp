@@ -126,6 +126,11 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     REQUIRE(bench.desk->measurement().verified() != nullptr);
     CHECK(bench.desk->measurement().state(MeasureStep::verify) == MeasureStepState::done);
     CHECK(page.verifyStep().responsePlot().shown().band.has_value());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        CHECK(page.verifyStep().meter(axis).isVisible());
+        CHECK(page.verifyStep().meter(axis).getName() == page.setUpStep().meter(axis).getName());
+    }
 
     REQUIRE(page.show(MeasureStep::save));
     page.saveStep().name.control.setText("My wristband", juce::dontSendNotification);

@@ -38,7 +38,10 @@ TEST_CASE("The description of a sweep comes back as it was written")
         file.sweep.markerDuration = random.next() % 2 == 0 ? 0.0 : random.uniform(0.2, 5.0);
         file.sweep.sampleRate = 44100.0;
         if (random.next() % 2 == 0)
+        {
             file.equalizedFor = "Ein \"Band\" \n";
+            file.gain = random.uniform(0.0, 60.0);
+        }
         REQUIRE(validate(file.sweep));
         const auto read = readSweepJson(sweepJson(file));
         REQUIRE(read);
@@ -62,9 +65,11 @@ TEST_CASE("A description of a sweep with something missing or wrong is refused a
         CHECK(where(changed(good, std::string("\"") + name + "\"", "\"other\"")) == name);
     CHECK(where(changed(good, "pacini.sweep", "pacini.profile")) == "format");
     CHECK(where(changed(good, "\"version\": 1", "\"version\": 2")) == "version");
-    CHECK(where(changed(good, "[-6]", "[]")) == "levels");
-    CHECK(where(changed(good, "[-6]", "[-6, \"x\"]")) == "levels[1]");
-    CHECK(where(changed(good, "[-6]", "[-6, 3]")) == "levels[1]");
+    CHECK(where(changed(good, "[-10]", "[]")) == "levels");
+    CHECK(where(changed(good, "[-10]", "[-10, \"x\"]")) == "levels[1]");
+    CHECK(where(changed(good, "[-10]", "[-10, 3]")) == "levels[1]");
+    CHECK(where(changed(good, "\"gain\": 0", "\"gain\": 201")) == "gain");
+    CHECK(readSweepJson(changed(good, "\"gain\"", "\"other\""))); // written before there was one
     CHECK(where(changed(good, "\"repeats\": 1", "\"repeats\": 1.5")) == "repeats");
     CHECK(where(changed(good, "\"duration\": 20", "\"duration\": 1e300")) == "duration");
     CHECK(where("[]").empty());

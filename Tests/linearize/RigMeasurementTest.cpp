@@ -8,7 +8,6 @@
 #include <cmath>
 
 using namespace pacini;
-using namespace pacini::test;
 
 namespace
 {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -17,18 +19,33 @@ namespace pacini
 struct EqualizedSweep
 {
     std::vector<float> signal;
-    double peak = 0.0; ///< the largest magnitude; above 1 it would be cut off
+    SweepParams sweep;    ///< what is played: as asked for, but at levels that fit
+    double lowered = 0.0; ///< dB by which its levels are below those that were asked for, a whole number
+    double gain = 0.0;    ///< dB by which the signal is louder than `sweep` says, 0 or more
+    double peak = 0.0;    ///< the largest magnitude, at most 1
 };
 
-/// makeSweepSignal(params) through `sections`; as it is without any. Errors: those of makeSweepSignal().
+/// Where a sweep from `low` to `high` Hz begins that is to prove an equalizer meant for `lowest` Hz and more: a little
+/// below. What lies lower is left as loud as it was and would set the peak, so that the rest drowned in the noise of
+/// the sensor.
+[[nodiscard]] inline double provingLowFrequency(double low, double high, double lowest) noexcept
+{
+    return std::max(low, std::min(0.8 * lowest, 0.25 * high));
+}
+
+/// makeSweepSignal(params) through `sections`; as it is without any. What these raise beyond full scale would be cut
+/// off and measured as distortion, so all levels are lowered together by as few whole dB as make it fit. `raised`: a
+/// signal that stays below the loudest level is scaled to it, since an equalizer that lowers nearly everything would
+/// let it drown in the noise. Errors: those of makeSweepSignal(); invalidArgument at `levels` when the lowest would
+/// have to leave its range.
 [[nodiscard]] inline Result<EqualizedSweep> makeEqualizedSweep(const SweepParams& params,
-                                                               const EqualizerSections& sections)
+                                                               const EqualizerSections& sections, bool raised = false)
 {
     constexpr std::size_t blockFrames = 4096;
     auto made = makeSweepSignal(params);
     if (!made)
         return made.error();
-    EqualizedSweep sweep{std::move(made).value(), 0.0};
+    EqualizedSweep sweep{std::move(made).value(), params, 0.0, 0.0, 0.0};
     if (!sections.empty())
     {
         Equalizer equalizer;
@@ -43,6 +60,31 @@ struct EqualizedSweep
     }
     for (const float v : sweep.signal)
         sweep.peak = std::max(sweep.peak, static_cast<double>(std::abs(v)));
+    const auto scale = [&sweep](double gain)
+    {
+        for (float& v : sweep.signal)
+            v = static_cast<float>(gain * static_cast<double>(v));
+        sweep.peak *= gain;
+    };
+    if (sweep.peak > 1.0)
+    {
+        sweep.lowered = std::ceil(Decibels::fromGain(sweep.peak).value);
+        for (double& level : sweep.sweep.levels)
+            level -= sweep.lowered;
+        if (!validate(sweep.sweep))
+            return Error{ErrorCode::invalidArgument, "levels",
+                         "cannot be lowered by the " + std::to_string(std::lround(sweep.lowered)) +
+                             " dB by which the equaliser raises the sweep beyond full scale: the lowest would be below "
+                             "-80 dB"};
+        scale(Decibels(-sweep.lowered).gain());
+        return sweep;
+    }
+    const double wanted = Decibels(*std::max_element(params.levels.begin(), params.levels.end())).gain();
+    if (raised && !sections.empty() && sweep.peak > 0.0 && sweep.peak < wanted)
+    {
+        sweep.gain = Decibels::fromGain(wanted / sweep.peak).value;
+        scale(wanted / sweep.peak);
+    }
     return sweep;
 }
 

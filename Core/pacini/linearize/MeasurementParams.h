@@ -23,6 +23,7 @@ struct MeasurementParams
     double driftWarning = 20.0;            ///< ppm of clock drift above which a warning is given
     double driftLimit = 2000.0;            ///< ppm above which the recording is refused, up to 5000
     double wantedSnr = 10.0;               ///< dB, a warning names where less is reached
+    bool equalized = false; ///< the sweep went through an equaliser, so that a flat channel is no sign of a wrong one
     bool operator==(const MeasurementParams&) const = default;
 };
 

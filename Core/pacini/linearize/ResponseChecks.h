@@ -28,8 +28,8 @@ namespace pacini
 }
 
 /// Channels with noise only, and channels that carry the drive: nothing mechanical moves at the same acceleration from
-/// the lowest to the highest frequency.
-inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepParams& params,
+/// the lowest to the highest frequency, unless it is equalized.
+inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepParams& params, bool equalized,
                             std::vector<MeasurementWarning>& warnings)
 {
     constexpr double octaves = 1.0 / 6.0;
@@ -57,8 +57,9 @@ inline void warnOfResponses(std::span<const NoisyPower> channels, const SweepPar
         std::nth_element(ratio.begin(), ratio.begin() + 30, ratio.end());
         if (ratio[30] < 2.0)
             warnings.push_back({MeasurementDefect::noiseChannel, channelPath(c),
-                                "has noise but no response; check which input the sensor is connected to"});
-        else if (ratio[30] > 100.0 && most < std::pow(10.0, 0.1) * least)
+                                "has noise but no response; it is turned across the movement, or the sensor is "
+                                "connected to another input"});
+        else if (!equalized && ratio[30] > 100.0 && most < std::pow(10.0, 0.1) * least)
             warnings.push_back({MeasurementDefect::loopback, channelPath(c),
                                 "is flat within 1 dB: it carries the drive, not a movement"});
     }

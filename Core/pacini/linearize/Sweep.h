@@ -17,17 +17,17 @@ namespace pacini
 /// The sweeps of one measurement. Each of the levels is played `repeats` times.
 struct SweepParams
 {
-    double lowFrequency = 10.0;        ///< Hz, 1 to 2000
-    double highFrequency = 1500.0;     ///< Hz, at least 1.5 times lowFrequency, at most 0.45 of the sample rate
-    double duration = 20.0;            ///< s of each sweep, 0.5 to 600
-    double fadeIn = 0.1;               ///< s, raised cosine; both fades together at most half of the duration
-    double fadeOut = 0.02;             ///< s
-    int repeats = 1;                   ///< 1 to 100
-    double pause = 1.0;                ///< s of silence before, between and after, 0.2 to 30: longer than the actuator
-                                       ///< and its mount ring
-    std::vector<double> levels = {-6}; ///< dB re full scale, 1 to 32 of -80 to 0
-    double markerDuration = 0.5;       ///< s of the short sweeps before and after all others, 0.2 to 5; 0 for none
-    double sampleRate = 48000.0;       ///< Hz, a whole number of 2000 to 384000
+    double lowFrequency = 10.0;         ///< Hz, 1 to 2000
+    double highFrequency = 1500.0;      ///< Hz, at least 1.5 times lowFrequency, at most 0.45 of the sample rate
+    double duration = 20.0;             ///< s of each sweep, 0.5 to 600
+    double fadeIn = 0.1;                ///< s, raised cosine; both fades together at most half of the duration
+    double fadeOut = 0.02;              ///< s
+    int repeats = 1;                    ///< 1 to 100
+    double pause = 1.0;                 ///< s of silence before, between and after, 0.2 to 30: longer than the actuator
+                                        ///< and its mount ring
+    std::vector<double> levels = {-10}; ///< dB re full scale, 1 to 32 of -80 to 0
+    double markerDuration = 0.5;        ///< s of the short sweeps before and after all others, 0.2 to 5; 0 for none
+    double sampleRate = 48000.0;        ///< Hz, a whole number of 2000 to 384000
     bool operator==(const SweepParams&) const = default;
 };
 

@@ -76,11 +76,14 @@ namespace pacini
             return Error{ErrorCode::invalidData, "sampleRate",
                          "is " + std::to_string(rate) + " Hz, but the recording was made at " +
                              std::to_string(std::lround(*likelier)) + " Hz"};
+    const Error nothing{ErrorCode::invalidData, "channels",
+                        "hold no sweep that stands out of the noise; check cables, levels and the sweep's settings"};
     if (position.contrast < leastContrast)
-        return Error{ErrorCode::invalidData, "channels",
-                     "hold no sweep that stands out of the noise; check cables, levels and the sweep's settings"};
+        return nothing;
 
     const SweepTiming timing = timeSweeps(coarse, params, schedule, position);
+    if (timing.driftKnown && std::abs(timing.drift) > 1.5 * widestDrift)
+        return nothing; // further apart than was looked for: markers were taken for what is noise
     for (std::size_t k = 0; k < schedule.sweeps.size(); ++k)
     {
         const double start = static_cast<double>(schedule.sweeps[k].startFrame) / params.sampleRate;
@@ -127,7 +130,7 @@ namespace pacini
             continue;
         result.impulseResponse = strongestDirection(responses.impulses, recording.rate);
         result.latency = timing.start + strongestLag(result.impulseResponse);
-        warnOfResponses(responses.linear, params, result.warnings);
+        warnOfResponses(responses.linear, params, measurement.equalized, result.warnings);
     }
     warnOfSnr(result.levels[result.main].snr, measurement.wantedSnr, result.warnings);
     return result;

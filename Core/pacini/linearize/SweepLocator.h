@@ -79,7 +79,10 @@ struct ArrivalStrength
 {
     const auto played = delayedSweep(sweep, recording.rate, 0.0);
     const std::size_t size = nextFastFftSize(recording.frames() + played.size());
-    Deconvolver deconvolver(played, size);
+    // Below its range an equalizer may leave the sweep 40 dB stronger than within. What markers, which are short,
+    // spread down there must not be raised as well, or they stand out more than the sweep.
+    constexpr double regularisation = -30.0; // dB
+    Deconvolver deconvolver(played, size, regularisation);
     const auto before = static_cast<std::ptrdiff_t>(played.size());
     ArrivalStrength arrivals{-static_cast<double>(before) / recording.rate, {}, 0};
     const double seconds = static_cast<double>(played.size() + recording.frames()) / recording.rate;

@@ -75,6 +75,15 @@ struct SweepMeasurement
     [[nodiscard]] const FrequencyResponse& response() const { return levels[main].response; }
 };
 
+/// Takes `gain`, dB by which the sweep was played louder than its parameters say, out of the levels.
+inline void takeOut(SweepMeasurement& measurement, double gain) noexcept
+{
+    for (LevelMeasurement& level : measurement.levels)
+        for (FrequencyResponse* one : {&level.response, &level.noise})
+            for (double& value : one->level)
+                value -= gain;
+}
+
 /// The largest distortion, %, from `low` to `high` Hz; 0 without points there.
 [[nodiscard]] inline double largestDistortion(const LevelMeasurement& level, double low, double high) noexcept
 {

@@ -101,24 +101,27 @@ std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& 
 {
     const ResponseFeatures& features = findings.features;
     std::string lines =
-        fmt::format("{} recording{}{}: resonance {:.2f} Hz, Q {:.2f}; plateau {:.1f} dB; felt from {:.0f} to {:.0f} "
+        fmt::format("{} recording{}{}: resonance {:.2f} Hz, Q {:.2f}; plateau {} dB; felt from {:.0f} to {:.0f} "
                     "Hz, even within "
                     "3 dB from {:.0f} to {:.0f} Hz",
                     analysed.recordings.size(), analysed.recordings.size() == 1 ? "" : "s",
                     findings.outliers.empty() ? "" : fmt::format(", {} of them left out", findings.outliers.size()),
-                    features.resonance.frequency, features.resonance.q, features.plateau, features.felt.low,
-                    features.felt.high, features.even.low, features.even.high);
+                    features.resonance.frequency, features.resonance.q, decimalText(features.plateau, 1),
+                    features.felt.low, features.felt.high, features.even.low, features.even.high);
     if (findings.times)
         lines += fmt::format("\n  rises in {:.1f} ms, falls in {:.1f} ms", 1e3 * findings.times->riseTime,
                              1e3 * findings.times->fallTime);
-    lines += fmt::format("\n  distortion at most {:.2g} % at {:.3g} dB", findings.distortion,
-                         *std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end()));
+    lines += fmt::format(
+        "\n  distortion at most {:.2g} % at {} dB", findings.distortion,
+        decimalText(*std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end()), 1));
     if (findings.distortionDrive)
-        lines += fmt::format(", passes {:.3g} % at {:.1f} dB", distortionLimit, *findings.distortionDrive);
+        lines += fmt::format(", passes {:.3g} % at {} dB", distortionLimit, decimalText(*findings.distortionDrive, 1));
     for (const AnalysedRecording& recording : analysed.recordings)
-        lines += fmt::format(
-            "\n  {}: latency {:.2f} ms{}", printable(recording.file), 1e3 * recording.measurement.latency,
-            recording.measurement.driftPpm ? fmt::format(", clock {:+.1f} ppm", *recording.measurement.driftPpm) : "");
+        lines += fmt::format("\n  {}: latency {} ms{}", printable(recording.file),
+                             decimalText(1e3 * recording.measurement.latency, 2),
+                             recording.measurement.driftPpm
+                                 ? fmt::format(", clock {} ppm", signedText(*recording.measurement.driftPpm, 1))
+                                 : "");
     return lines;
 }
 } // namespace

@@ -110,12 +110,12 @@ Json costJson(const EqualizerCost& cost)
 
 std::string costText(const EqualizerCost& cost)
 {
-    return fmt::format("  costs {:+.1f} dB of power in the coil on pink noise{}, {:+.1f} dB of largest excursion, at "
-                       "{:.0f} Hz{}",
-                       cost.powerChange, cost.power ? fmt::format(" ({:.3g} W at full drive)", *cost.power) : "",
-                       cost.excursionChange, cost.excursionFrequency,
-                       cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion)
-                                      : "");
+    return fmt::format(
+        "  costs {} dB of power in the coil on pink noise{}, {} dB of largest excursion, at "
+        "{:.0f} Hz{}",
+        signedText(cost.powerChange, 1), cost.power ? fmt::format(" ({:.3g} W at full drive)", *cost.power) : "",
+        signedText(cost.excursionChange, 1), cost.excursionFrequency,
+        cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion) : "");
 }
 
 Exit fail(Console& console, const std::string& file, const Error& error, Exit exit = Exit::failed)

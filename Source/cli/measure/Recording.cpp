@@ -87,7 +87,8 @@ Result<Channels> readChannels(const std::string& file, const std::vector<int>& w
     return channels;
 }
 
-/// The warnings of many recordings, each text once.
+/// The warnings of many recordings: each text once, and of ranges that drown in the noise, which differ by a little
+/// from one recording to the next, the first at either end.
 class WarningList
 {
 public:
@@ -96,12 +97,14 @@ public:
         for (const MeasurementWarning& warning : measured.warnings)
         {
             const std::string text = channelName(warning.where, channels) + ": " + warning.message;
+            const std::string kind =
+                warning.code == MeasurementDefect::lowSnr ? warning.where.substr(0, warning.where.find(' ')) : text;
             const auto known =
-                std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.text == text; });
+                std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.kind == kind; });
             if (known == entries.end())
-                entries.push_back({file, text, 0});
+                entries.push_back({file, file, kind, text, 0});
             else
-                ++known->more;
+                known->add(file);
         }
     }
 
@@ -115,9 +118,17 @@ public:
 private:
     struct Entry
     {
-        std::string file;
+        std::string file; ///< the first
+        std::string last;
+        std::string kind;
         std::string text;
-        int more = 0;
+        int more = 0; ///< files
+
+        void add(const std::string& another)
+        {
+            more += another != last ? 1 : 0;
+            last = another;
+        }
     };
 
     /// `channels[1]` is the second of those chosen; people count the channels of the recording from 1.
@@ -200,6 +211,7 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     MeasurementParams params;
     params.smoothing = options.smoothingOctaves();
     params.points = static_cast<std::size_t>(options.points);
+    params.equalized = !result.sweep.equalizedFor.empty();
     params.fullScale.clear();
     for (const std::string& value : options.fullScale)
         params.fullScale.push_back(*acceleration(value));
@@ -222,6 +234,7 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
             continue;
         }
         warnings.add(file, *measured, options.channels);
+        takeOut(*measured, result.sweep.gain);
         result.recordings.push_back({file, std::move(*measured)});
     }
     console.endProgress();
@@ -240,8 +253,8 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     result.average = std::move(*average);
     for (const FittingOutlier& outlier : result.average.outliers)
         console.warning(options.recordings[outlier.index],
-                        fmt::format("is unlike the others and left out of the average: {:+.1f} dB, shape {:.1f} dB off",
-                                    outlier.offset, outlier.shape));
+                        fmt::format("is unlike the others and left out of the average: {} dB, shape {:.1f} dB off",
+                                    signedText(outlier.offset, 1), outlier.shape));
     return result;
 }
 

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -21,8 +23,6 @@ namespace pacini::cli
 
 namespace
 {
-constexpr double sensorRange = 5.0; // g, of the ADXL325
-
 /// rec.wav for wearer 3 of 14 is rec-03.wav.
 std::string numbered(const std::string& output, unsigned wearer)
 {
@@ -31,13 +31,19 @@ std::string numbered(const std::string& output, unsigned wearer)
     path.replace_filename(fmt::format("{}-{:02}{}", path.stem().string(), wearer, extension));
     return path.string();
 }
+
+/// A converter at its end stays there.
+bool clips(const std::vector<float>& channel)
+{
+    return std::any_of(channel.begin(), channel.end(), [](float v) { return std::abs(v) >= 1.0f; });
+}
 } // namespace
 
 CLI::App* SimulateStep::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("simulate", "Record a sweep without hardware, on a simulated wearer");
     command->add_option("sweep", input, "Sound of the sweep")->required()->type_name("SWEEP.wav");
-    command->add_option("-o,--output", output, "Recording to write: three axes of an accelerometer of 5 g")
+    command->add_option("-o,--output", output, "Recording to write: a channel for each axis of the accelerometer")
         ->required()
         ->type_name("OUT.wav");
     command->add_option("--profile", profile, "Actuator, a profile with a body; its equaliser is not applied")
@@ -66,6 +72,18 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->capture_default_str()
         ->check(numberFrom(0.0, 1e6))
         ->type_name("D");
+    command
+        ->add_option("--range", range,
+                     "Acceleration at which the sensor clips, g (ADXL325: 5); gravity is part of what it bears")
+        ->capture_default_str()
+        ->check(numberFrom(0.1, 10000.0))
+        ->type_name("G");
+    command
+        ->add_option("--axes", axes,
+                     "Axes of the sensor: 3, turned at random on every wearer, or 1, along the movement")
+        ->capture_default_str()
+        ->check(oneOf({"1", "3"}))
+        ->type_name("N");
     command->add_option("--bits", bits, "Resolution of the converter")
         ->capture_default_str()
         ->check(wholeNumberFrom(4, 24))
@@ -105,6 +123,7 @@ Exit SimulateStep::run(Console& console)
     if (sound->channels != 1)
         return fail(input, {ErrorCode::invalidData, "", "must have one channel"});
 
+    std::vector<std::string> clipped;
     const unsigned first = wearers > 0 ? 1 : wearer;
     const unsigned last = wearers > 0 ? wearers : wearer;
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
@@ -124,7 +143,8 @@ Exit SimulateStep::run(Console& console)
         rig.resonance = actuator->resonance;
         rig.contact = contact;
         rig.polynomial = {0.0, 1.0, 0.0, distortion};
-        rig.range = sensorRange * standardGravity;
+        rig.range = range * standardGravity;
+        rig.axes = static_cast<std::size_t>(axes);
         rig.noiseDensity = noise * 1e-6 * standardGravity;
         rig.bits = bits;
         rig.latency = 1e-3 * latency;
@@ -133,6 +153,8 @@ Exit SimulateStep::run(Console& console)
         rig.sampleRate = sound->sampleRate;
         console.progress(static_cast<double>(who - first) / static_cast<double>(last - first + 1), target);
         const auto channels = recordOnRig(sound->samples, rig);
+        if (std::any_of(channels.begin(), channels.end(), clips))
+            clipped.push_back(target);
         std::vector<float> interleaved(channels.size() * channels.front().size());
         for (std::size_t c = 0; c < channels.size(); ++c)
             for (std::size_t i = 0; i < channels[c].size(); ++i)
@@ -150,8 +172,14 @@ Exit SimulateStep::run(Console& console)
         files.push_back({{"input", input}, {"output", target}, {"wearer", who}});
     }
     console.endProgress();
-    console.addToReport({{"files", files}, {"fullScale", sensorRange * standardGravity}});
-    console.note(fmt::format("analyse with --full-scale {:g}g", sensorRange));
+    console.addToReport({{"files", files}, {"fullScale", range * standardGravity}});
+    if (!clipped.empty())
+        console.warning(
+            clipped.size() == 1 ? clipped.front() : fmt::format("{} and {} more", clipped.front(), clipped.size() - 1),
+            fmt::format("the sensor of {:g} g clips; play the sweep at a lower level, or take a sensor of a "
+                        "wider --range",
+                        range));
+    console.note(fmt::format("analyse with --full-scale {:g}g", range));
     return Exit::ok;
 }
 

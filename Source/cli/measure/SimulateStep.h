@@ -27,6 +27,8 @@ private:
     double drift = 50.0;
     double noise = 250.0;
     double distortion = 0.0;
+    double range = 5.0; ///< g, of the ADXL325
+    int axes = 3;
     int bits = 12;
     std::uint64_t seed = 1;
     OverwriteOptions overwriting;

@@ -29,7 +29,11 @@ CLI::App* SweepStep::declare(CLI::App& app)
                          "Sound to play (.wav or .flac); what was in it goes beside it, as .json of the same name")
             ->capture_default_str()
             ->type_name("OUT");
-    command->add_option("--low", low, "Frequency at which sweeps start, Hz")->capture_default_str()->type_name("HZ");
+    command
+        ->add_option(
+            "--low", low,
+            "Frequency at which sweeps start, Hz [10; through an equaliser a little below the profile's range]")
+        ->type_name("HZ");
     command->add_option("--high", high, "Frequency at which sweeps end, Hz")->capture_default_str()->type_name("HZ");
     command
         ->add_option("--duration", duration, "Length of a sweep, s; twice as long gives 3 dB more distance from noise")
@@ -45,7 +49,7 @@ CLI::App* SweepStep::declare(CLI::App& app)
     command
         ->add_option("--levels", levels,
                      "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show from where on the "
-                     "actuator distorts")
+                     "actuator distorts; what an equaliser raises beyond full scale is played as much softer")
         ->delimiter(',')
         ->capture_default_str()
         ->type_name("DB,...");
@@ -71,7 +75,7 @@ Exit SweepStep::run(Console& console)
     };
     SweepFile file;
     SweepParams& params = file.sweep;
-    params.lowFrequency = low;
+    params.lowFrequency = low.value_or(params.lowFrequency);
     params.highFrequency = high;
     params.duration = duration;
     params.fadeIn = std::min(params.fadeIn, 0.25 * duration);
@@ -110,19 +114,21 @@ Exit SweepStep::run(Console& console)
             return fail(profile, {ErrorCode::invalidData, "equalizer",
                                   "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
         sections = actuator->equalizer;
+        if (!low)
+            params.lowFrequency =
+                provingLowFrequency(params.lowFrequency, params.highFrequency, actuator->range.lowFrequency);
         file.equalizedFor = actuator->name;
     }
-    const auto played = makeEqualizedSweep(params, sections);
+    const auto played = makeEqualizedSweep(params, sections, true);
     if (!played)
-        return fail("", played.error());
+    {
+        Error error = played.error();
+        error.where = optionFor(error.where);
+        return fail(profile, error);
+    }
     const std::vector<float>& signal = played->signal;
-    if (played->peak > 1.0)
-        return fail(profile, {ErrorCode::invalidArgument, "--levels",
-                              fmt::format("are too high: the equaliser raises the sweep {:.1f} dB beyond full scale; "
-                                          "take {:.0f} dB or less",
-                                          20.0 * std::log10(played->peak),
-                                          std::floor(*std::max_element(levels.begin(), levels.end()) -
-                                                     20.0 * std::log10(played->peak)))});
+    params = played->sweep;
+    file.gain = played->gain;
 
     AudioWriteParams writing;
     writing.sampleRate = rate;
@@ -144,13 +150,21 @@ Exit SweepStep::run(Console& console)
                          {"duration", seconds},
                          {"sampleRate", rate},
                          {"sweeps", sweeps},
+                         {"levels", params.levels},
+                         {"lowered", played->lowered},
+                         {"gain", played->gain},
                          {"equalizedFor", file.equalizedFor}});
-    console.wrote(output,
-                  fmt::format("{} sweep{} from {:g} to {:g} Hz{}, {} in all", sweeps, sweeps == 1 ? "" : "s", low, high,
-                              file.equalizedFor.empty()
-                                  ? std::string()
-                                  : fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor)),
-                              durationText(seconds)));
+    std::string through;
+    if (!file.equalizedFor.empty())
+        through = fmt::format(" through the equaliser of '{}'", printable(file.equalizedFor));
+    if (played->lowered > 0.0)
+        through += fmt::format(", {:g} dB lower ({:g} dB) so that what the equaliser raises fits", played->lowered,
+                               fmt::join(params.levels, ", "));
+    if (played->gain > 0.0)
+        through += fmt::format(", {:.1f} dB louder than that alone leaves it", played->gain);
+
+    console.wrote(output, fmt::format("{} sweep{} from {:.4g} to {:g} Hz{}, {} in all", sweeps, sweeps == 1 ? "" : "s",
+                                      params.lowFrequency, params.highFrequency, through, durationText(seconds)));
     console.wrote(description, "keep it for the analysis");
     return Exit::ok;
 }

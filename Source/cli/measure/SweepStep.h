@@ -3,6 +3,9 @@
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 
+#include <pacini/linearize/Sweep.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +23,12 @@ private:
     CLI::Option* outputOption = nullptr;
     std::string output = "sweep.wav";
     std::string profile;
-    double low = 10.0;
+    std::optional<double> low;
     double high = 1500.0;
     double duration = 20.0;
     double pause = 1.0;
     int repeats = 1;
-    std::vector<double> levels{-6.0};
+    std::vector<double> levels = SweepParams().levels;
     int rate = 48000;
     OverwriteOptions overwriting;
 };

@@ -46,12 +46,12 @@ Json linearityJson(const Linearity& linearity)
 std::string linearityText(const Linearity& linearity)
 {
     std::string text =
-        fmt::format("mean deviation {:.2f} dB, SD {:.2f} dB, worst {:+.2f} dB at {:.0f} Hz, from {:.0f} to {:.0f} Hz",
-                    linearity.meanDeviation, linearity.standardDeviation, linearity.worstDeviation,
+        fmt::format("mean deviation {:.2f} dB, SD {:.2f} dB, worst {} dB at {:.0f} Hz, from {:.0f} to {:.0f} Hz",
+                    linearity.meanDeviation, linearity.standardDeviation, signedText(linearity.worstDeviation, 2),
                     linearity.worstFrequency, linearity.lowFrequency, linearity.highFrequency);
     for (const LinearityOutlier& outlier : linearity.outliers)
-        text += fmt::format("\n  {:.0f} to {:.0f} Hz: {:+.2f} dB", outlier.lowFrequency, outlier.highFrequency,
-                            outlier.deviation);
+        text += fmt::format("\n  {:.0f} to {:.0f} Hz: {} dB", outlier.lowFrequency, outlier.highFrequency,
+                            signedText(outlier.deviation, 2));
     return text;
 }
 
@@ -139,9 +139,9 @@ Exit VerifyStep::run(Console& console)
     {
         plot::ResponseFigureContent content;
         content.title = actuator->name;
-        content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {:+.2f} dB at most, tolerance \u00b1{:.3g} dB",
+        content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {} dB at most, tolerance \u00b1{:.3g} dB",
                                        linearity->passed() ? "flat" : "not flat", linearity->meanDeviation,
-                                       linearity->worstDeviation, tolerance);
+                                       signedText(linearity->worstDeviation, 2), tolerance);
         content.equalizer = actuator->equalizer;
         content.sampleRate = analysed->sweep.sweep.sampleRate;
         content.lowFrequency = params.lowFrequency;

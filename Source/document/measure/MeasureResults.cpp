@@ -70,14 +70,13 @@ bool showsNothing(const MeasurementWarning& warning)
 
 Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& recorded, const MeasureSettings& settings)
 {
-    auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, analysisOf(settings));
+    MeasurementParams params = analysisOf(settings);
+    params.equalized = recorded.equalized;
+    auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, params);
     if (!measured)
         return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
     Fitting fitting{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
-    for (LevelMeasurement& level : fitting.measurement.levels)
-        for (FrequencyResponse* one : {&level.response, &level.noise})
-            for (double& value : one->level)
-                value -= recorded.gain;
+    takeOut(fitting.measurement, recorded.gain);
     std::set<std::string> useless;
     for (const MeasurementWarning& warning : fitting.measurement.warnings)
     {
@@ -163,26 +162,10 @@ Result<VerifiedResponse> verifyResponse(const Fittings& swept, const MeasuredRes
 Result<VerifyingSweep> verifyingSweep(const MeasureSettings& settings, const EqualizerSections& sections,
                                       double sampleRate, bool raised)
 {
-    VerifyingSweep verifying{{}, sweepOf(settings, sampleRate), 0.0};
-    auto made = makeEqualizedSweep(verifying.sweep, sections);
-    if (made && made->peak > 1.0)
-    {
-        double& level = verifying.sweep.levels.front();
-        level = std::max(-80.0, std::floor(level - Decibels::fromGain(made->peak).value));
-        made = makeEqualizedSweep(verifying.sweep, sections);
-    }
+    auto made = makeEqualizedSweep(sweepOf(settings, sampleRate), sections, raised);
     if (!made)
         return plain(made.error());
-    verifying.signal = std::move(made->signal);
-    const double wanted = Decibels(settings.level).gain();
-    if (raised && made->peak > 0.0 && made->peak < wanted)
-    {
-        const double gain = wanted / made->peak;
-        verifying.gain = Decibels::fromGain(gain).value;
-        for (float& v : verifying.signal)
-            v = static_cast<float>(gain * static_cast<double>(v));
-    }
-    return verifying;
+    return VerifyingSweep{std::move(made->signal), std::move(made->sweep), made->gain};
 }
 
 } // namespace pacini

@@ -30,6 +30,7 @@ struct RecordedSweep
     SweepParams sweep;               ///< as it was played
     bool oneClock = false;           ///< one device has played and recorded
     double gain = 0.0;               ///< dB by which it was played louder than `sweep` says
+    bool equalized = false;          ///< it went through the equaliser
 };
 
 /// One recording of the actuator: on one wearer, attached once.

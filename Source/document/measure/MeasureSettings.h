@@ -2,6 +2,7 @@
 
 // What a person chooses before an actuator is measured.
 
+#include <pacini/linearize/EqualizedSweep.h>
 #include <pacini/linearize/MeasurementParams.h>
 #include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/Sweep.h>
@@ -13,7 +14,7 @@ namespace pacini
 
 struct MeasureSettings
 {
-    double level = -6.0;           ///< dB re full scale of the sweep's peak
+    double level = -10.0;          ///< dB re full scale of the sweep's peak
     double lowFrequency = 10.0;    ///< Hz
     double highFrequency = 1500.0; ///< Hz
     double duration = 20.0;        ///< s of one sweep
@@ -37,11 +38,10 @@ struct MeasureSettings
     return params;
 }
 
-/// The settings to prove an equaliser by that is meant for `lowest` Hz and more: the sweep begins a little below. What
-/// lies lower is left as loud as it was and would set the peak, so that the rest drowned in the noise of the sensor.
+/// The settings to prove an equaliser by that is meant for `lowest` Hz and more, see provingLowFrequency().
 [[nodiscard]] inline MeasureSettings provingSettings(MeasureSettings settings, double lowest)
 {
-    settings.lowFrequency = std::max(settings.lowFrequency, std::min(0.8 * lowest, 0.25 * settings.highFrequency));
+    settings.lowFrequency = provingLowFrequency(settings.lowFrequency, settings.highFrequency, lowest);
     return settings;
 }
 

@@ -307,7 +307,8 @@ void MeasureDesk::poll()
     case RigState::finished:
         break;
     }
-    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep, true, playedGain};
+    RecordedSweep recorded{rig->takeRecording(), wiredNames(), portsNow.sampleRate, playedSweep, true,
+                           playedGain,           verifying};
     analyse(std::move(recorded), {verifying, nextName});
 }
 

@@ -29,11 +29,12 @@ Result<void> MeasureDesk::saveSweep(const std::filesystem::path& sound, bool thr
     SweepFile file;
     if (throughEqualizer)
         file.equalizedFor = "the actuator that is measured";
-    auto made = throughEqualizer ? verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate)
+    auto made = throughEqualizer ? verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate, true)
                                  : verifyingSweep(work.settings(), {}, soundRate);
     if (!made)
         return made.error();
     file.sweep = made->sweep;
+    file.gain = made->gain;
     AudioWriteParams writing;
     writing.sampleRate = static_cast<int>(soundRate);
     writing.encoding = SampleEncoding::pcm24;
@@ -58,13 +59,24 @@ void MeasureDesk::readRecording(const std::filesystem::path& file, bool throughE
         return fail(throughEqualizer,
                     file.filename().string() + " has " + std::to_string(width) +
                         " channels. Keep those of the microphone or of the axes of the sensor, three at most.");
-    RecordedSweep recorded{{},    {}, static_cast<double>(audio->sampleRate), sweepOf(work.settings(), soundRate),
-                           false, 0.0};
+    RecordedSweep recorded{{},
+                           {},
+                           static_cast<double>(audio->sampleRate),
+                           sweepOf(work.settings(), soundRate),
+                           false,
+                           0.0,
+                           throughEqualizer};
     if (throughEqualizer)
-        if (const auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate))
+        if (const auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate, true))
+        {
             recorded.sweep = made->sweep;
+            recorded.gain = made->gain;
+        }
     if (const auto described = readSweepFile(describing(file)))
+    {
         recorded.sweep = described->sweep;
+        recorded.gain = described->gain;
+    }
     for (std::size_t c = 0; c < width; ++c)
     {
         auto& channel = recorded.channels.emplace_back(audio->samples.size() / width);

@@ -9,6 +9,11 @@
 namespace pacini::editor
 {
 
+namespace
+{
+constexpr int meterRow = 20;
+}
+
 VerifyStep::VerifyStep(MeasureDesk& wanted, StepServices& around)
     : control(wanted, true),
       desk(wanted),
@@ -48,8 +53,9 @@ VerifyStep::VerifyStep(MeasureDesk& wanted, StepServices& around)
     {
         desk.dropVerifications();
     };
-    for (juce::Component* child : std::initializer_list<juce::Component*>{
-             &control, &meter, &tolerance, &saveSweep, &openRecording, &again, &facts, &notes, &plot})
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
+                                                 &openRecording, &again, &facts, &notes, &plot})
         addAndMakeVisible(child);
     refresh();
 }
@@ -59,9 +65,12 @@ void VerifyStep::refresh()
     const ActuatorMeasurement& work = desk.measurement();
     control.refresh();
     const auto& wired = desk.wiring().inputs;
-    meter.setVisible(!wired.empty());
-    if (!wired.empty())
-        meter.setName(toText(desk.ports().inputs[wired.front()]));
+    for (std::size_t i = 0; i < meters.size(); ++i)
+    {
+        meters[i].setVisible(i < wired.size());
+        if (i < wired.size())
+            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
+    }
     tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
     const bool free = desk.activity() == MeasureDesk::Activity::none && work.equalizer() != nullptr;
     saveSweep.setEnabled(free);
@@ -126,12 +135,16 @@ void VerifyStep::refresh()
 void VerifyStep::tick()
 {
     control.tick();
-    meter.show(desk.takePeak(0));
+    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
+        meters[i].show(desk.takePeak(i));
 }
 
 juce::Rectangle<int> VerifyStep::verdictArea() const
 {
-    return insideOfCard(getLocalBounds().removeFromLeft(stepSide)).withTrimmedTop(19 * grid).withHeight(4 * grid);
+    const int further = std::max(0, static_cast<int>(desk.wiring().inputs.size()) - 1);
+    return insideOfCard(getLocalBounds().removeFromLeft(stepSide))
+        .withTrimmedTop(19 * grid + further * meterRow)
+        .withHeight(4 * grid);
 }
 
 void VerifyStep::paint(juce::Graphics& g)
@@ -164,7 +177,9 @@ void VerifyStep::resized()
     auto side = insideOfCard(area.removeFromLeft(stepSide));
     control.setBounds(side.removeFromTop(stepRow + stepGap + 3 * grid));
     side.removeFromTop(stepGap);
-    meter.setBounds(side.removeFromTop(20));
+    for (auto& meter : meters)
+        if (meter.isVisible())
+            meter.setBounds(side.removeFromTop(meterRow));
     side.removeFromTop(stepGap);
     tolerance.setBounds(side.removeFromTop(stepRow));
     side.setTop(verdictArea().getBottom() + grid);

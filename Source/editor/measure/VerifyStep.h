@@ -8,6 +8,9 @@
 #include "editor/measure/StepParts.h"
 #include "editor/measure/SweepStep.h"
 
+#include <array>
+#include <cstddef>
+
 namespace pacini::editor
 {
 
@@ -21,6 +24,7 @@ public:
     void resized() override;
 
     SweepControl control;
+    [[nodiscard]] const InputMeter& meter(std::size_t index) const { return meters[index]; }
     [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
     [[nodiscard]] const ResponsePlot& responsePlot() const noexcept { return plot; }
 
@@ -29,7 +33,7 @@ private:
 
     MeasureDesk& desk;
     StepServices& services;
-    InputMeter meter;
+    std::array<InputMeter, MeasureDesk::mostInputs> meters; ///< of all axes
     Named<juce::Slider> tolerance;
     juce::TextButton saveSweep, openRecording, again;
     FactTable facts{"How flat it is"};

@@ -34,7 +34,8 @@ def check_listing():
 def check_stream(controller, path):
     _, listed, _ = run("play", path, "--dry-run", "--device", "pro")
     expected = [bytes.fromhex(line.split(maxsplit=1)[1]) for line in listed.splitlines()]
-    for _ in range(3):  # should the machine be too slow for a moment
+    for attempt in range(10):  # should the machine be too slow for a moment
+        time.sleep(attempt)
         controller.clear()
         code, out, error = run("play", path, "--device", "1")
         if "left out" not in out:
@@ -49,9 +50,7 @@ def check_stream(controller, path):
     check("all others are rumble", all(len(r) == 10 and r[0] == 0x10 for r in stream))
     check("counters count every report", [r[1] for r in stream] == [(3 + i) % 16 for i in range(len(stream))])
     check("the last two packets are neutral", all(map(is_neutral, stream[-2:])) and not is_neutral(stream[-4]))
-    if "left out" in out:
-        print("this machine is too slow to judge the pace")
-        return
+    check("once in ten times no packet is left out", "left out" not in out, out)
     check("it is what --dry-run lists", list(reports) == expected)
     gaps = [1e3 * (b - a) for a, b in zip(times[3:], times[4:])]
     median = statistics.median(gaps)
