@@ -50,7 +50,8 @@ class Limits(CommandTest):
             text, (travel, heat) = self.rendered(*options)
             self.assertLess(travel, 1.005, options)
             self.assertLess(heat, 1.001, options)
-            self.assertGreater(max(travel, heat), 0.5, options)
+            if options:  # flattened, a tone on the resonance is too weak for the limits
+                self.assertGreater(max(travel, heat), 0.9, options)
             self.assertIn("protection: travel is kept within its limit; heat is kept within its limit\n", text)
 
     def test_without_protection_it_does_not_and_the_plan_says_so(self):
