@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from command import COMMAND, CommandTest, sine, wav
+from command import COMMAND, CommandTest, noise, sine, wav
 
 HAPTIC = {"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {
     "amplitude": [{"time": 0, "amplitude": 0.2, "emphasis": {"amplitude": 0.5, "frequency": 0.4}},
@@ -56,10 +56,10 @@ class Convert(CommandTest):
         report = self.report("convert", "clip.json", "a.ahap", "--split")
         self.assertEqual([output["file"] for output in report["outputs"]], ["a.ahap"])
         self.put("a.haptic", json.dumps(HAPTIC))
-        self.succeeds("convert", "a.haptic", "a.ahap", "--split")
+        self.succeeds("convert", "a.haptic", "a.ahap", "--split", "-y")
         kept = (self.folder / "a-transients.ahap").read_bytes()
-        done = self.run_command("convert", "clip.json", "a.ahap", "--split")
-        self.assertEqual(done.returncode, 0)
+        done = self.run_command("convert", "clip.json", "a.ahap", "--split", "-y")
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("warning: a-transients.ahap: was there before", done.stderr.decode())
         self.assertEqual((self.folder / "a-transients.ahap").read_bytes(), kept)
 
@@ -181,14 +181,19 @@ class Convert(CommandTest):
         self.assertGreaterEqual(len(envelopes(self.folder / "tone.haptic")["amplitude"]), 2)
         report = self.report("encode", "tone.wav", "--format", "ahap", "--split")
         self.assertEqual(report["files"][0]["output"], "tone.ahap")
-        self.assertIn("tone-transients.ahap", self.names())
+        self.assertNotIn("tone-transients.ahap", self.names())  # a tone has no event that its voice does not reach
+        self.put("knock.wav", wav([0.0] * 4800 + [(1 - i / 480) * x for i, x in enumerate(noise(480, level=0.9))]
+                                  + [0.0] * 19200))
+        self.succeeds("encode", "knock.wav", "--format", "ahap", "--split")
+        self.assertIn("knock-transients.ahap", self.names())
         self.fails(2, ["encode", "tone.wav", "-o", "x.json", "--points", "5"], "--points")
 
     def test_info_reads_formats_of_others(self):
         self.put("a.haptic", json.dumps(HAPTIC))
         report = self.report("info", "a.haptic")
-        self.assertEqual((report["kind"], report["format"], report["duration"], report["transients"]),
-                         ("clip", "haptic", 1.25, 2))
+        self.assertEqual((report["kind"], report["format"], report["transients"]), ("clip", "haptic", 2))
+        # The file ends at 1.25 s with an emphasis, which then sounds for 2 periods of 100 * 2.8^0.6 Hz.
+        self.assertAlmostEqual(report["duration"], 1.25 + 2 / (100 * 2.8 ** 0.6), delta=1e-4)
         self.assertIn("Haptics Studio", self.succeeds("info", "a.haptic"))
 
 
