@@ -88,7 +88,7 @@ TEST_CASE(".tact: numbers in quotes are taken as what they say, with a warning",
 {
     const auto read = readAs("tact", tact("\"100\"", "\"0.75\""));
     REQUIRE(read.warnings.size() == 2);
-    CHECK(read.warnings[0].find("6 numbers are in quotes") != std::string::npos);
+    CHECK(read.warnings[0].find("5 numbers are in quotes") != std::string::npos);
     CHECK(read.clip.duration == Approx(0.3));
     CHECK(valueAt(read.clip.bands[0].amplitude, 0.2) == 0.75);
     CHECK(valueAt(read.clip.bands[0].amplitude, 0.05) == 0.0);
