@@ -81,7 +81,7 @@ struct ArrivalStrength
     const std::size_t size = nextFastFftSize(recording.frames() + played.size());
     // Below its range an equalizer may leave the sweep 40 dB stronger than within. What markers, which are short,
     // spread down there must not be raised as well, or they stand out more than the sweep.
-    constexpr double regularisation = -30.0; // dB
+    constexpr double regularisation = -40.0; // dB
     Deconvolver deconvolver(played, size, regularisation);
     const auto before = static_cast<std::ptrdiff_t>(played.size());
     ArrivalStrength arrivals{-static_cast<double>(before) / recording.rate, {}, 0};
