@@ -129,8 +129,12 @@ void addTimeLoss(const ExportVoice& voice, LossList& losses)
 
 bool isHaptic(std::string_view bytes)
 {
-    // Enough to tell it from other JSON; what is wrong inside, the reader says.
-    return bytes.find("\"signals\"") != std::string_view::npos && bytes.find("\"envelopes\"") != std::string_view::npos;
+    // Enough to tell it from other JSON and from projects with such clips; what is wrong inside, the reader says.
+    const auto has = [bytes](std::string_view word)
+    {
+        return bytes.find(word) != std::string_view::npos;
+    };
+    return has("\"signals\"") && has("\"envelopes\"") && !has("\"clipId\"");
 }
 } // namespace
 
