@@ -1,6 +1,7 @@
 #include "cli/ConvertCommand.h"
 
 #include "cli/Checks.h"
+#include "cli/Counted.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
@@ -89,7 +90,7 @@ std::string summary(const std::vector<ConvertTask>& tasks)
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
     if (const auto skipped = countSkipped(tasks); skipped > 0)
-        text += fmt::format(", {} exist and were left", skipped);
+        text += ", " + counted(skipped, "exists and was left", "exist and were left");
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     return text + fmt::format(": {}", bytesText(bytes));

@@ -59,7 +59,7 @@ std::string summary(const std::vector<EncodeTask>& tasks)
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
     if (skipped > 0)
-        text += fmt::format(", {} exist and were left", skipped);
+        text += ", " + counted(skipped, "exists and was left", "exist and were left");
     if (failed > 0)
         text += fmt::format(", {} failed", failed);
     if (duration > 0.0)

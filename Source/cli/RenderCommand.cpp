@@ -86,7 +86,7 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
     if (fresh > 0)
         text += fmt::format(", {} up to date", fresh);
     if (skipped > 0)
-        text += fmt::format(", {} exist and were left", skipped);
+        text += ", " + counted(skipped, "exists and was left", "exist and were left");
     if (done + fresh + skipped < tasks.size())
         text += fmt::format(", {} failed", tasks.size() - done - fresh - skipped);
     if (seconds > 0.0)

@@ -128,6 +128,10 @@ class CommandTest(unittest.TestCase):
         self.names()
         return done
 
+    def warns(self, *arguments, says, **options):
+        """Runs; exit 0 and one line on stderr that says so. Returns stdout."""
+        return (self.fails(0, arguments, "warning: ", says, **options).stdout or b"").decode(errors="replace")
+
     def clip(self, file="clip.json", seconds=1.0, **changes):
         """Writes a small valid clip: one band at 100 Hz that fades in and out, one event. Returns its content."""
         content = {

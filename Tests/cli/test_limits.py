@@ -41,8 +41,10 @@ class Limits(CommandTest):
         self.clip(seconds=2.0, bands=[tone], envelope=[], transients=[])
 
     def rendered(self, *options):
-        text = self.succeeds("render", "clip.json", "-o", "out.wav", "--profile", "lra.json", "--rate", str(RATE),
-                             "--gain", "12", "--explain", *options)
+        render = ["render", "clip.json", "-o", "out.wav", "--profile", "lra.json", "--rate", str(RATE), "--gain", "12",
+                  "--explain", *options]
+        held_back = options and "--no-protection" not in options  # flattened, a tone on the resonance is too weak
+        text = self.warns(*render, says="of --gain are taken away again") if held_back else self.succeeds(*render)
         return text, strain(read_float_wav(self.folder / "out.wav")[1])
 
     def test_an_overdriven_actuator_keeps_its_limits_and_the_plan_says_so(self):

@@ -185,8 +185,9 @@ class Part(CommandTest):
     """A part of a render is that part of the whole, sample by sample."""
 
     def part_of(self, file, start, end, *options):
-        self.succeeds("render", file, "-o", "whole.wav", "-q", *options)
-        self.succeeds("render", file, "-o", "part.wav", "-q", "--from", str(start), "--to", str(end), *options)
+        for render in (["whole.wav"], ["part.wav", "--from", str(start), "--to", str(end)]):
+            done = self.run_command("render", file, "-q", *options, "-o", *render)  # a gain may be too much: a warning
+            self.assertEqual(done.returncode, 0, done.stderr)
         rate, whole = read_float_wav(self.folder / "whole.wav")
         _, part = read_float_wav(self.folder / "part.wav")
         self.assertEqual(len(part), min(round(end * rate), len(whole)) - round(start * rate))
