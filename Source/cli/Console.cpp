@@ -78,6 +78,13 @@ void Console::error(std::string_view file, const Error& error)
     message(file.empty() ? error.text() : fmt::format("{}: {}", file, error.text()));
 }
 
+void Console::repeatedError(std::string_view file, const Error& error)
+{
+    const std::lock_guard lock(mutex);
+    if (report)
+        report->addFailure(file, error);
+}
+
 void Console::warning(std::string_view file, std::string_view what)
 {
     if (const std::lock_guard lock(mutex); report)

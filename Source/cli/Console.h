@@ -65,6 +65,9 @@ public:
     /// `pacini: FILE: where: what` on stderr, always one line; `file` may be empty.
     void error(std::string_view file, const Error& error);
 
+    /// An error that was told before for another file: only a report names this one too.
+    void repeatedError(std::string_view file, const Error& error);
+
     /// `pacini: FILE: warning: what` on stderr, always one line.
     void warning(std::string_view file, std::string_view what);
 

@@ -375,9 +375,8 @@ Exit ConvertCommand::convertClips(Console& console)
                      attempt(task, end,
                              [&]
                              { return convertClip(task.input, task.output, task.replaceable, *settings, earlier); });
-                     if (task.error && end.isNews(*task.error))
-                         console.error(task.input.string(), *task.error);
-                     else if (task.result)
+                     tellError(console, task, end);
+                     if (task.result)
                      {
                          if (!task.result->upToDate && !dryRun)
                              sayWritten(console, task, settings->folder);

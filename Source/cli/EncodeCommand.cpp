@@ -336,8 +336,7 @@ Exit EncodeCommand::run(Console& console)
                  {
                      EncodeTask& task = tasks[i];
                      attempt(task, end, [&] { return job.run(task.input, task.output, task.replaceable, progress); });
-                     if (task.error && end.isNews(*task.error))
-                         console.error(task.input.string(), *task.error);
+                     tellError(console, task, end);
                      if (!task.result)
                          return;
                      if (!task.result->upToDate && !dryRun)

@@ -373,8 +373,7 @@ Exit RenderCommand::run(Console& console)
                              [&] { return render(task.input, task.output, task.replaceable, settings, progress); });
                      if (task.result)
                          console.warnings(task.input.string(), task.result->warnings);
-                     if (task.error && end.isNews(*task.error))
-                         console.error(task.input.string(), *task.error);
+                     tellError(console, task, end);
                      if (!task.result)
                          return;
                      if (!task.result->upToDate && !dryRun)

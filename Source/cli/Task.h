@@ -82,6 +82,18 @@ void attempt(Task<ResultType>& task, const BatchEnd& end, Work&& work)
     }
 }
 
+/// Tells the error of a task, if it has one; what ends the whole list is said once.
+template <typename ResultType>
+void tellError(Console& console, const Task<ResultType>& task, BatchEnd& end)
+{
+    if (!task.error)
+        return;
+    if (end.isNews(*task.error))
+        console.error(task.input.string(), *task.error);
+    else
+        console.repeatedError(task.input.string(), *task.error);
+}
+
 /// The error of writing `output`, for a message that starts with the name of the input.
 [[nodiscard]] inline Error atOutput(const std::filesystem::path& output, Error error)
 {
