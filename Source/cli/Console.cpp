@@ -68,6 +68,8 @@ void Console::wrote(const std::filesystem::path& path, std::string_view details)
 {
     if (const std::lock_guard lock(mutex); report)
         report->addWritten(path);
+    if (path == "-")
+        return;
     note(fmt::format("wrote {}{}{}", printable(path.string()), details.empty() ? "" : ": ", details));
 }
 

@@ -30,6 +30,7 @@ ELSEWHERE = {
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS hosts"),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
+    "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),
     "python3 Resources/docs/make_editor_pictures.py": ("Resources/docs/make_editor_pictures.py", "__main__"),
     "Tests/hosts/check_standalone.py PROGRAM PICTURE": ("Tests/hosts/CMakeLists.txt", "check_standalone.py"),
     "build/release/plugins": ("cmake/bootstrap.sh", "build/release/plugins"),
@@ -40,8 +41,9 @@ ELSEWHERE = {
 
 # Code within the text that needs words to be run, or other words here.
 COMPLETED = {
-    "pacini --help": "pacini --help",
-    "pacini COMMAND --help": "pacini compare --help",
+    "pacini help": "pacini help -q",
+    "pacini help COMMAND": "pacini help compare",
+    "pacini completions bash": "pacini completions bash -q",
     "pacini devices": "pacini devices --help",
     "pacini play door.json": "pacini play door.json --dry-run --like switch",
     "pacini plot PROFILE": "pacini plot lra-175 -o lra.png",
@@ -150,7 +152,9 @@ class Documents(CommandTest):
         expected, _ = FAILING.get(printed.command, (0, ""))
         self.assertEqual(done.returncode, expected, f"{printed}\nran as: {line}\n{done.stdout}{done.stderr}")
         self.assertNotIn("does not exist", done.stderr)
-        for message in done.stderr.splitlines():
+        # Where standard output takes the result, what was done is told beside it.
+        notes = re.compile(r"^\d+ (encoded|rendered): " if "-o -" in line else r"^$")
+        for message in filter(lambda text: not notes.search(text), done.stderr.splitlines()):
             self.assertRegex(message, r": warning: " if expected == 0 else r"^pacini: ", f"{printed}")
         written = re.findall(r"(?:-o|--output|--plot|--markdown) (\S+)", line)
         named = [re.sub(r"[,;:)]$", "", word) for word in printed.comment.split()]
@@ -269,18 +273,24 @@ class Options(CommandTest):
 
     def help_of(self, command):
         """Option to default; empty without one."""
-        lines = self.succeeds(*command.split(), "--help").splitlines()
-        return {name: "".join(re.findall(r"\S=(\S+)", line)[:1])
-                for line in lines if re.match(r"  (?:-\w,)?--", line)
-                for name in line.split()[0].split(",")}
+        texts, names = {}, []
+        for line in self.succeeds(*command.split(), "--help").splitlines():
+            if option := re.match(r"  (?:(-\w), |    )(--[\w-]+)", line):
+                names = [name for name in option.groups() if name]
+                texts.update({name: line for name in names})
+            elif not line.startswith(" " * 20):
+                names = []
+            texts.update({name: texts[name] + " " + line.strip() for name in names if not option})
+        return {name: "".join(re.findall(r"\[([^\[\]]+)\]\s*$", text)) for name, text in texts.items()}
 
     def setUp(self):
         super().setUp()
         self.readme = documents()[0]
         top = self.succeeds("--help")
-        commands = re.findall(r"(?m)^  ([a-z]+) {2,}", top[top.index("Subcommands"):])
+        commands = re.findall(r"(?m)^  ([a-z]+) {2,}", top[top.index("Commands:"):top.index("Options")])
         self.assertGreater(len(commands), 10)
-        steps = re.findall(r"(?m)^  ([a-z]+) {3,}", self.succeeds("measure", "--help").split("Subcommands")[1])
+        top = self.succeeds("measure", "--help")
+        steps = re.findall(r"(?m)^  ([a-z]+) {3,}", top[top.index("Steps:"):top.index("Options")])
         self.helps = {command: self.help_of(command) for command in commands}
         self.helps.update({f"measure {step}": self.help_of(f"measure {step}") for step in steps})
         self.all = {name for options in self.helps.values() for name in options} | {"--version"}
