@@ -113,7 +113,7 @@ struct Limit
 {
     double fs, error;
 };
-constexpr std::array limits = {Limit{48000.0, 5e-4}, Limit{16000.0, 5e-3}, Limit{8000.0, 3e-2}};
+constexpr std::array rateLimits = {Limit{48000.0, 5e-4}, Limit{16000.0, 5e-3}, Limit{8000.0, 3e-2}};
 } // namespace
 
 TEST_CASE("The body is stable for every joint, and for every profile that is valid", "[actuator][body]")
@@ -123,7 +123,7 @@ TEST_CASE("The body is stable for every joint, and for every profile that is val
     for (int i = 0; i < bodyDraws; ++i)
     {
         const auto drawn = i == 0 ? DrawnBody{} : draws.next();
-        for (const Limit& limit : limits)
+        for (const Limit& limit : rateLimits)
             for (const BodyHold hold : {BodyHold::corrected, BodyHold::linear})
                 largest = std::max(largest, spectralRadius(designBodyModel(makeBodyChain(drawn.body, drawn.resonance),
                                                                            BodyPoint::skin, limit.fs, hold)));
@@ -168,7 +168,7 @@ TEST_CASE("The linear hold is the matrix exponential's", "[actuator][body]")
     {
         const auto drawn = draws.next();
         largest =
-            std::max(largest, holdError(makeBodyChain(drawn.body, drawn.resonance), limits[std::size_t(i) % 3].fs));
+            std::max(largest, holdError(makeBodyChain(drawn.body, drawn.resonance), rateLimits[std::size_t(i) % 3].fs));
     }
     CAPTURE(largest);
     CHECK(largest <= 1e-8);
@@ -176,7 +176,7 @@ TEST_CASE("The linear hold is the matrix exponential's", "[actuator][body]")
 
 TEST_CASE("The filter follows the continuous response", "[actuator][body]")
 {
-    for (const Limit& limit : limits)
+    for (const Limit& limit : rateLimits)
     {
         for (const BodyPoint point : bodyPoints)
             CHECK(responseError(makeBodyChain({}, {65.93, 3.969}), point, limit.fs) <= 0.01 * limit.error);
@@ -197,7 +197,7 @@ TEST_CASE("The filter follows the continuous response", "[actuator][body]")
 TEST_CASE("A lightly damped joint near a multiple of the sample rate leaves no image in the band of touch",
           "[actuator][body]")
 {
-    for (const Limit& limit : limits)
+    for (const Limit& limit : rateLimits)
     {
         double largest = 0.0, largestOfHold = 0.0;
         for (int i = 0; i < 500; ++i)
@@ -259,7 +259,7 @@ TEST_CASE("Constant drive gives no acceleration and the static excursion", "[act
     {
         const auto drawn = draws.next();
         const auto chain = makeBodyChain(drawn.body, drawn.resonance);
-        for (const Limit& limit : limits)
+        for (const Limit& limit : rateLimits)
             for (const BodyPoint point : bodyPoints)
             {
                 const double still = std::abs(chain.response(point, 0_Hz));
@@ -299,7 +299,7 @@ TEST_CASE("Where two modes of the chain coincide nothing blows up", "[actuator][
         const double error = holdError(chain, 48000.0, 2000);
         CAPTURE(closest, error);
         CHECK(error <= 2e-6);
-        for (const Limit& limit : limits)
+        for (const Limit& limit : rateLimits)
             for (const BodyPoint point : bodyPoints)
                 CHECK(responseError(chain, point, limit.fs) <= 0.01 * limit.error);
     }
