@@ -172,7 +172,7 @@ TEST_CASE("A candidate of another length, a silent reference and samples that ar
     CHECK(measures["files"][0]["hts"] == 0.0);
     const Outcome bad = compareIn(folder, "a.wav nan.wav --json");
     CHECK(bad.status == 0);
-    CHECK(bad.messages.find("pacini: nan.wav: warning: 1 samples") == 0);
+    CHECK(bad.messages.find("pacini: nan.wav: warning: 1 sample ") == 0);
     CHECK(nlohmann::json::parse(bad.out)["files"][0]["notFinite"] == 1);
 }
 

@@ -116,9 +116,10 @@ TEST_CASE("encode writes the signal of a method as a WAV that never replaces the
         CHECK(beside->channels == 1);
         std::filesystem::create_directory(folder / name);
         CHECK(encode(folder, std::string("door.wav --method ") + name + " -o " + name).status == 0);
-        CHECK(bytesOf(folder / name / "door.wav") == bytesOf(folder / ("door." + std::string(name) + ".wav")));
+        // Their marks say where the recording lies as seen from each.
+        CHECK((readAudio(folder / name / "door.wav")->samples == beside->samples));
         CHECK(encode(folder, std::string("door.wav --method ") + name + " -o door.wav").status == 1);
-        CHECK(encode(folder, std::string("door.wav --method ") + name + " -o ./").status == 1);
+        CHECK(encode(folder, std::string("door.wav --method ") + name + " -o ./").status == 0);
     }
     CHECK(bytesOf(folder / "door.wav") == recording);
 }
@@ -235,5 +236,6 @@ TEST_CASE("No method loses channels in antiphase", "[cli]")
         CHECK(both.source.channels == 2);
     }
     CHECK(encode(folder, "mono.wav stereo.wav -o signals/ --method lowpass").status == 0);
-    CHECK(bytesOf(folder / "signals" / "mono.wav") == bytesOf(folder / "signals" / "stereo.wav"));
+    CHECK(
+        (readAudio(folder / "signals" / "mono.wav")->samples == readAudio(folder / "signals" / "stereo.wav")->samples));
 }

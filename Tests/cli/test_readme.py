@@ -42,7 +42,7 @@ ELSEWHERE = {
 # Code within the text that needs words to be run, or other words here.
 COMPLETED = {
     "pacini help": "pacini help -q",
-    "pacini help COMMAND": "pacini help compare",
+    "pacini help COMMAND": "pacini help compare -q",
     "pacini completions bash": "pacini completions bash -q",
     "pacini devices": "pacini devices --help",
     "pacini play door.json": "pacini play door.json --dry-run --like switch",
@@ -158,7 +158,7 @@ class Documents(CommandTest):
             self.assertRegex(message, r": warning: " if expected == 0 else r"^pacini: ", f"{printed}")
         written = re.findall(r"(?:-o|--output|--plot|--markdown) (\S+)", line)
         named = [re.sub(r"[,;:)]$", "", word) for word in printed.comment.split()]
-        for name in written + [word for word in named if re.fullmatch(r"[\w-]+\.(json|pacb|wav|haptic|svg|png)", word)]:
+        for name in [name for name in written if name != "-"] + [word for word in named if re.fullmatch(r"[\w-]+\.(json|pacb|wav|haptic|svg|png)", word)]:
             if "--wearers" in line and name.endswith(".wav"):
                 name = name.replace(".wav", "-01.wav")
             path = self.folder / name

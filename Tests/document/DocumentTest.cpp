@@ -312,7 +312,7 @@ TEST_CASE("A full disk is told with its reason, and the project stays unsaved an
     const Project before = document.project();
     const auto full = document.saveAs("/dev/full");
     REQUIRE_FALSE(full);
-    CHECK(full.error().code == ErrorCode::io);
+    CHECK(full.error().code == ErrorCode::diskFull);
     CHECK(full.error().text().find("the disk is full") != std::string::npos);
     CHECK(document.path().empty());
     CHECK(document.isDirty());

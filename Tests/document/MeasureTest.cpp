@@ -287,9 +287,13 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
         REQUIRE_FALSE(fitting->notes.empty());
         CHECK(fitting->notes.front().find("' clips: ") != std::string::npos);
         CHECK(fitting->notes.front().find("record or drive at a lower level") != std::string::npos);
-        narrow.range = 1.1 * standardGravity;
-        SimulatedMeasureRig smaller(narrow, 0.0);
-        CHECK(failure(smaller, {0, 1, 2}).find("' clips: ") != std::string::npos);
+        // Something so strong that nothing is seen of the sweep.
+        RecordedSweep drowned = recordedOn(small, signal, sweep, {0});
+        for (std::size_t n = 0; n < drowned.channels.front().size(); ++n)
+            drowned.channels.front()[n] = n / 40 % 2 == 0 ? 1.0f : -1.0f;
+        const auto nothing = analyseFitting("x", drowned, settings);
+        REQUIRE_FALSE(nothing.ok());
+        CHECK(nothing.error().message.find("' clips: ") != std::string::npos);
     }
     SECTION("the recording ends too early")
     {

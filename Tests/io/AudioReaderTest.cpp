@@ -132,7 +132,7 @@ TEST_CASE("Channels and rates outside the accepted range are refused", "[io][aud
           "has 65 channels, 1 to 64 are accepted; mix it down");
     CHECK(failureOf(folder, wavBytes({.sampleRate = 7999}, data)).message ==
           "has a sample rate of 7999 Hz, 8000 to 768000 Hz are accepted; resample it");
-    CHECK(failureOf(folder, wavBytes({.sampleRate = 384001}, data)).code == ErrorCode::invalidData);
+    CHECK(failureOf(folder, wavBytes({.sampleRate = 768001}, data)).code == ErrorCode::invalidData);
     const AudioReadOptions slow{.lowestSampleRate = 2000};
     CHECK(readAudio(put(folder / "slow", wavBytes({.sampleRate = 2000}, data)), slow)->sampleRate == 2000);
     CHECK(failureOf(folder, wavBytes({.sampleRate = 1999}, data), slow).message ==

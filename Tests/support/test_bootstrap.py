@@ -76,6 +76,7 @@ class Bootstrap(unittest.TestCase):
     def test_a_disk_without_room_is_told_before_anything_is_built(self):
         self.program("dpkg-query", "echo installed")
         self.program("df", 'echo "Filesystem blocks Used Available Capacity Mounted"; echo "disk 1 1 7 99% /"')
+        self.program("du", 'printf "0\\tbuild\\n"')  # nothing is built yet
         done, calls = self.run_bootstrap("build")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"bootstrap: building needs about \d+ MB in .*, but only 7 MB are free")
