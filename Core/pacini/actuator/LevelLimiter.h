@@ -67,6 +67,18 @@ public:
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
+        // Nearly always: nothing exceeds 1, which a loop without branches finds out at a fraction of what gains cost.
+        if (gain.idle() && staysWithin(in))
+        {
+            for (std::size_t i = 0; i < in.size(); ++i)
+            {
+                line[position] = in[i];
+                position = position == latency ? 0 : position + 1;
+                out[i] = toSample(static_cast<double>(line[position]));
+            }
+            lastCall = {};
+            return;
+        }
         double smallest = 1.0;
         for (std::size_t i = 0; i < in.size(); ++i)
         {
@@ -88,6 +100,15 @@ public:
     [[nodiscard]] const ProtectionMeter& meter() const noexcept { return lastCall; }
 
 private:
+    /// Whether no sample is beyond +-1 or not a number.
+    [[nodiscard]] static bool staysWithin(std::span<const float> in) noexcept
+    {
+        int beyond = 0;
+        for (const float x : in)
+            beyond |= static_cast<int>(!(x <= 1.0f)) | static_cast<int>(!(x >= -1.0f));
+        return beyond == 0;
+    }
+
     double fs = ProcessSpec{}.sampleRate;
     Params current;
     KneeLimiterGain<HardKnee> gain;
