@@ -5,6 +5,7 @@
 #include <pacini/foundation/Clamp.h>
 
 #include <cmath>
+#include <initializer_list>
 
 namespace pacini
 {
