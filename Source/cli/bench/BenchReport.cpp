@@ -119,9 +119,9 @@ Result<std::vector<std::filesystem::path>> writeReport(const BenchReport& report
             if (isOccupied(folder / file))
                 return notReplaced(folder / file, "exists, beside no report of this bench");
     std::vector<std::filesystem::path> written;
-    const auto write = [&](const std::string& name, const std::string& text) -> Result<void>
+    const auto write = [&](const std::string& file, const std::string& text) -> Result<void>
     {
-        written.push_back(folder / name);
+        written.push_back(folder / file);
         if (const auto bytes = writeFileAtomically(written.back(), text); !bytes)
             return bytes.error();
         return {};
