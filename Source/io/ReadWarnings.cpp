@@ -1,5 +1,7 @@
 #include "io/ReadWarnings.h"
 
+#include "io/NearestName.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,28 +86,6 @@ std::string lowerCase(std::string_view text)
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return lower;
 }
-
-/// Letters to insert, leave out, replace or swap with their neighbour until `a` is `b` (optimal string alignment; F. J.
-/// Damerau, "A technique for computer detection and correction of spelling errors", 1964).
-std::size_t slips(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        last[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i)
-    {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j)
-        {
-            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                row[j] = std::min(row[j], before[j - 2] + 1);
-        }
-        before.swap(last);
-        last.swap(row);
-    }
-    return last[b.size()];
-}
 } // namespace
 
 void ReadWarnings::add(std::string_view where, std::string_view message)
@@ -134,7 +114,7 @@ std::string_view nearestKey(std::string_view given, const std::vector<std::strin
     // Short words are near to nearly everything: of up to five letters one may be wrong, two from six letters on.
     std::size_t least = lower.size() < 6 ? 2 : 3;
     for (const std::string_view key : known)
-        if (const std::size_t wrong = slips(lower, lowerCase(key)); wrong < least)
+        if (const std::size_t wrong = typingDistance(lower, lowerCase(key)); wrong < least)
         {
             least = wrong;
             nearest = key;
@@ -142,7 +122,7 @@ std::string_view nearestKey(std::string_view given, const std::vector<std::strin
     // A single wrong letter is a slip; beyond that another word for a key is more likely.
     if (least > 1)
         for (const auto& [word, key] : otherWords)
-            if ((lower == word || (word.size() >= 5 && slips(lower, word) == 1)) &&
+            if ((lower == word || (word.size() >= 5 && typingDistance(lower, word) == 1)) &&
                 std::find(known.begin(), known.end(), key) != known.end())
                 return key;
     if (!nearest.empty() || lower.size() < 3)
