@@ -2,9 +2,9 @@
 
 // What a command may do to files that stand where its results go.
 //
-// A file that the user named as the output is replaced, unless it is one of the inputs. Any other is replaced only when
-// it was made by Pacini from the same input and is still as it was made; otherwise the command fails on this input and
-// says so. -n leaves all that exist, -y replaces all.
+// A file that the user named as the output is replaced, unless it is one of the inputs or what they were made from.
+// Any other is replaced only when it was made by Pacini from the same input and is still as it was made; otherwise
+// the command fails on this input and says so. -n leaves all that exist, -y replaces all.
 
 #include "io/AtomicFile.h"
 #include "io/FileOrigin.h"

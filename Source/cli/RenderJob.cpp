@@ -114,6 +114,14 @@ bool isUpToDate(const std::filesystem::path& output, const FileOrigin& origin, R
     result.upToDate = true;
     return true;
 }
+
+/// Whether `output` is the recording beside the clip `input` that it says it was made from.
+bool isRecordingOf(const Clip& clip, const std::filesystem::path& input, const std::filesystem::path& output)
+{
+    std::error_code unknown; // false when one of them is missing
+    return !clip.source.file.empty() && !isStream(input) &&
+           std::filesystem::equivalent(input.parent_path() / clip.source.file, output, unknown);
+}
 } // namespace
 
 Scene sceneOf(Clip clip)
@@ -179,6 +187,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     const auto existing = mayReplace(output, origin, replaceable);
     if (!existing)
         return existing.error();
+    if (replaceable == Replaceable::named && !result.isScene && isRecordingOf(scene.clips.front(), input, output))
+        return notReplaced(output, "is the recording that this clip was made from");
     if (settings.dryRun)
         return result;
 

@@ -68,6 +68,16 @@ class Recordings(Overwrite):
         self.fails(1, ["convert", "a.json", "a.pacb", "-o", ".", "--format", "packed", "-y"],
                    "would overwrite a.pacb, which is an input too", lines=2)
 
+    def test_the_recording_of_a_clip_is_kept_although_named(self):
+        self.put("a.wav", wav(sine(100, 0.2)))
+        self.succeeds("encode", "a.wav")
+        self.keeps("a.wav", ["render", "a.json", "-o", "a.wav"], "is the recording that this clip was made from")
+        self.keeps("a.wav", ["render", str(self.folder / "a.json"), "-o", "./a.wav"], "is the recording")
+        (self.folder / "drives").mkdir()
+        for _ in range(2):  # of the same name elsewhere it is only a drive signal
+            self.succeeds("render", "a.json", "-o", "drives/a.wav")
+        self.succeeds("render", "a.json", "-o", "a.wav", "-y")
+
     def test_a_drive_signal_that_was_worked_on_is_kept(self):
         self.put("a.wav", wav(sine(100, 0.2)))
         self.succeeds("encode", "a.wav")
