@@ -10,6 +10,7 @@
 #include "io/Utf8.h"
 
 #include <pacini/analysis/MonoMix.h>
+#include <pacini/analysis/SoundPeak.h>
 
 #include <algorithm>
 #include <optional>
@@ -60,6 +61,16 @@ Result<std::vector<float>> readMono(AudioReader& reader, const std::function<voi
     work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(reader.channels())); });
     return samples;
 }
+
+/// Sounds that are worth being read twice, so that what is found in them need not be kept.
+bool isLong(const AudioReader& reader)
+{
+    constexpr double seconds = 1200.0;
+    return static_cast<double>(reader.frames().value_or(0)) > seconds * reader.sampleRate();
+}
+
+/// How much of the time of encoding a long sound its peak takes.
+constexpr double shareOfPeak = 0.35;
 
 /// Encoder parameters that follow from the sound.
 bool dependsOnSound(const EncoderParameter& parameter)
@@ -132,26 +143,42 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     auto made = makeClip(reader, input, progress, work);
     if (!made)
         return made.error();
-    // Both formats hold the same data: what lies on the grids of `quantise` bits.
+    // Both formats hold the same data: what lies on the grids of `quantise` bits. A clip of hours is large, so that there
+    // is never a second one.
     std::vector<std::byte> packed;
-    work.run([&] { packed = packClip(*made, packParamsFor(*made)); });
+    work.run(
+        [&]
+        {
+            const PackParams grids = packParamsFor(*made);
+            packed = packClip(std::move(*made), grids);
+        });
     Clip clip = unpackClip(packed).value();
     work.run([&] { sealClip(clip); });
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
+    return settings.target.foreign == nullptr ? writeOwn(std::move(clip), output, existing)
+                                              : writeForeign(clip, output, replaceable, work, result);
+}
+
+Result<std::size_t> EncodeJob::writeOwn(Clip clip, const fs::path& output, Existing existing) const
+{
+    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
+    const auto written = writeClip(output, std::move(clip), format, existing);
+    return written ? written : atOutput(output, written.error());
+}
+
+Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& output, Replaceable replaceable,
+                                            Stopwatch& work, EncodeResult& result) const
+{
     std::optional<Result<ExportedClip>> exported;
     work.run([&] { exported = exportClip(clip, settings.target, settings.exporting); });
     if (!*exported)
         return exported->error();
-    if (settings.target.foreign != nullptr)
-    {
-        const auto allowed = mayReplace(output, **exported, replaceable);
-        if (!allowed)
-            return allowed.error();
-        existing = *allowed;
-    }
-    const auto written = writeExport(output, **exported, existing);
+    const auto allowed = mayReplace(output, **exported, replaceable);
+    if (!allowed)
+        return allowed.error();
+    const auto written = writeExport(output, **exported, *allowed);
     if (!written)
         return atOutput(output, written.error());
     result.stray = strayCompanion(output, settings.target, **exported);
@@ -194,7 +221,7 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
     Clip clip;
     if (settings.method == Method::a2vt)
     {
-        auto encoded = encodeInPieces(reader, progress, work);
+        auto encoded = encodeInPieces(reader, input, progress, work);
         if (!encoded)
             return encoded.error();
         clip = std::move(encoded).value();
@@ -213,16 +240,44 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
     return clip;
 }
 
-Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work)
+Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& input, const Progress& progress,
+                                       Stopwatch& work)
 {
-    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0)); });
-    const auto read =
-        forEachPiece(reader, progress, [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
+    std::optional<double> peak;
+    double done = 0.0;
+    if (isLong(reader) && !isStream(input))
+    {
+        done = shareOfPeak;
+        const auto found = peakOf(input, [&](double part) { progress(shareOfPeak * part); }, work);
+        if (!found)
+            return found.error();
+        peak = *found;
+    }
+    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak); });
+    const auto read = forEachPiece(
+        reader, [&](double part) { progress(done + (1.0 - done) * part); },
+        [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
     if (!read)
         return read.error();
     Clip clip;
     work.run([&] { clip = encoder.finish(); });
     return clip;
+}
+
+Result<double> EncodeJob::peakOf(const fs::path& input, const Progress& progress, Stopwatch& work) const
+{
+    auto reader = AudioReader::open(input, settings.reading);
+    if (!reader)
+        return withAdvice(reader.error(), true);
+    SoundPeak peak(Encoder::bandsOf(settings.params));
+    peak.start(reader->sampleRate(), reader->channels());
+    const auto read =
+        forEachPiece(*reader, progress, [&](std::span<const float> piece) { work.run([&] { peak.push(piece); }); });
+    if (!read)
+        return read.error();
+    double found = 0.0;
+    work.run([&] { found = peak.finish(); });
+    return found;
 }
 
 std::vector<EncoderParameter> EncodeJob::expectedRecord(const Clip& clip) const

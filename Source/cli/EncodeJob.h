@@ -88,7 +88,12 @@ private:
 
     [[nodiscard]] Result<Clip> makeClip(AudioReader& reader, const Path& input, const Progress& progress,
                                         Stopwatch& work);
-    [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Progress& progress, Stopwatch& work);
+    [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Path& input, const Progress& progress,
+                                              Stopwatch& work);
+    [[nodiscard]] Result<double> peakOf(const Path& input, const Progress& progress, Stopwatch& work) const;
+    [[nodiscard]] Result<std::size_t> writeOwn(Clip clip, const Path& output, Existing existing) const;
+    [[nodiscard]] Result<std::size_t> writeForeign(const Clip& clip, const Path& output, Replaceable replaceable,
+                                                   Stopwatch& work, EncodeResult& result) const;
 
     EncodeSettings settings;
     Encoder encoder;

@@ -1,6 +1,5 @@
 #include "io/ClipFile.h"
 
-#include "io/AtomicFile.h"
 #include "io/ClipJson.h"
 #include "io/InputFile.h"
 
@@ -10,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -88,13 +88,28 @@ std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path)
     return looksLikeJson(start) ? std::optional(ClipFormat::json) : std::nullopt;
 }
 
-Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format)
+Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, ClipFormat format, Existing existing)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    if (format == ClipFormat::json)
-        return writeFileAtomically(path, writeClipJson(clip));
-    return writeFileAtomically(path, packClip(clip, packParamsFor(clip)));
+    if (format == ClipFormat::packed)
+    {
+        const PackParams params = packParamsFor(clip);
+        return writeFileAtomically(path, packClip(std::move(clip), params), existing);
+    }
+    auto file = AtomicFile::create(path, existing);
+    if (!file)
+        return file.error();
+    std::size_t bytes = 0;
+    writeClipJson(clip,
+                  [&](std::string_view piece)
+                  {
+                      bytes += piece.size();
+                      file->write(std::as_bytes(std::span(piece)));
+                  });
+    if (auto done = file->commit(); !done)
+        return done.error();
+    return bytes;
 }
 
 } // namespace pacini

@@ -2,6 +2,7 @@
 
 // Clips in files, as JSON or packed.
 
+#include "io/AtomicFile.h"
 #include "io/ReadWarnings.h"
 
 #include <pacini/clip/Clip.h>
@@ -34,6 +35,7 @@ enum class ClipFormat
 
 /// Writes a clip and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io as
 /// in AtomicFile.
-[[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, const Clip& clip, ClipFormat format);
+[[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, ClipFormat format,
+                                            Existing existing = Existing::replace);
 
 } // namespace pacini

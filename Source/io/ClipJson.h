@@ -7,6 +7,7 @@
 #include <pacini/clip/Clip.h>
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -37,5 +38,9 @@ inline constexpr std::size_t largestClipText = std::size_t(512) << 20;
 /// quarter of a second on one line (an edit changes few lines), and numbers in the shortest form that reads back
 /// exactly. readClipJson(writeClipJson(clip)) == clip, except that bytes which are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string writeClipJson(const Clip& clip);
+
+/// The same text in pieces of some 256 kB, for long clips: its points take two times their memory as text.
+using TextSink = std::function<void(std::string_view)>;
+void writeClipJson(const Clip& clip, const TextSink& sink);
 
 } // namespace pacini

@@ -12,11 +12,20 @@ namespace pacini
 
 namespace
 {
-/// Builds the text. Members and elements are put down by `line`, which sets commas and indentation.
+/// Builds the text. Members and elements are put down by `line`, which sets commas and indentation, and hands on what is
+/// there when that has become much.
 class Writer
 {
 public:
     std::string text;
+
+    explicit Writer(const TextSink& where) : sink(where) {}
+
+    void finish()
+    {
+        sink(text);
+        text.clear();
+    }
 
     void open(char bracket)
     {
@@ -41,6 +50,8 @@ public:
             text += ',';
         first = false;
         newLine();
+        if (text.size() >= mostKept)
+            finish();
     }
 
     void key(std::string_view name)
@@ -123,6 +134,9 @@ public:
     }
 
 private:
+    static constexpr std::size_t mostKept = std::size_t(1) << 18;
+
+    const TextSink& sink;
     int depth = 0;
     bool first = true;
 
@@ -187,8 +201,15 @@ void writeNoiseBand(Writer& out, const NoiseBand& band)
 std::string writeClipJson(const Clip& clip)
 {
     constexpr std::size_t bytesPerPoint = 64;
-    Writer out;
-    out.text.reserve(1024 + bytesPerPoint * (breakpointCount(clip) + clip.transients.size()));
+    std::string text;
+    text.reserve(1024 + bytesPerPoint * (breakpointCount(clip) + clip.transients.size()));
+    writeClipJson(clip, [&text](std::string_view piece) { text += piece; });
+    return text;
+}
+
+void writeClipJson(const Clip& clip, const TextSink& sink)
+{
+    Writer out(sink);
     out.open('{');
     out.member("format", clipFormatName);
     out.member("version", clipFormatVersion);
@@ -224,7 +245,7 @@ std::string writeClipJson(const Clip& clip)
                  });
     out.close('}');
     out.text += '\n';
-    return std::move(out.text);
+    out.finish();
 }
 
 } // namespace pacini

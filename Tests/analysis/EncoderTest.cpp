@@ -2,6 +2,7 @@
 #include "support/Measure.h"
 
 #include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/SoundPeak.h>
 #include <pacini/foundation/Random.h>
 
 #include <algorithm>
@@ -361,6 +362,56 @@ TEST_CASE("Eight identical kicks give eight equal events, loud or quiet", "[anal
             CHECK(clip.transients[k].sharpness == Approx(clip.transients[0].sharpness).margin(0.05));
         }
     }
+}
+
+TEST_CASE("Long sounds are fitted in sections that cannot be felt", "[analysis][encoder]")
+{
+    // A tone over the first seam, at 600 s, silence over the second, at 1200 s, and kicks over the third, at 1800 s.
+    constexpr int fs = 8000;
+    auto x = test::sine(2000 * fs, 110.0, fs, 0.25);
+    std::fill(x.begin() + 1000 * fs, x.begin() + 1500 * fs, 0.0f);
+    std::fill(x.begin() + 1700 * fs, x.end(), 0.0f);
+    for (std::size_t k = 0; k < 400; ++k)
+        addKick(x, 1700 * fs + k * 5200, fs, k % 7 == 0 ? 0.9 : 0.4);
+
+    EncoderParams params;
+    const Clip clip = encode(x, fs, 1, params);
+    REQUIRE(validate(clip).ok());
+    const double level = valueAt(clip.envelope, 300.0);
+    const Band& band = loudestBand(clip, 300.0);
+    for (double t = 590.0; t < 610.0; t += 0.01)
+    {
+        CAPTURE(t);
+        REQUIRE(valueAt(clip.envelope, t) == Approx(level).epsilon(0.02));
+        REQUIRE(valueAt(band.amplitude, t) == Approx(level).epsilon(0.02));
+        REQUIRE(valueAt(band.pitch, t) == Approx(110.0).epsilon(0.01));
+        REQUIRE(valueAt(clip.centroid, t) == Approx(110.0).epsilon(0.03));
+    }
+    for (double t = 1001.0; t < 1499.0; t += 0.5)
+        REQUIRE(valueAt(clip.envelope, t) == 0.0);
+    CHECK(valueAt(clip.envelope, 1600.0) == Approx(level).epsilon(0.02));
+    CHECK(valueAt(clip.envelope, 999.0) == Approx(level).epsilon(0.02));
+    // The same kicks as a sound of their own, away from any seam, are the same curve.
+    const std::vector<float> part(x.begin() + 1700 * fs, x.begin() + 1900 * fs);
+    const Clip alone = encode(part, fs, 1, params);
+    double sum = 0.0;
+    double difference = 0.0;
+    for (double t = 20.0; t < 180.0; t += 0.005)
+    {
+        const double whole = valueAt(clip.envelope, 1700.0 + t);
+        sum += whole * whole;
+        difference += std::pow(whole - valueAt(alone.envelope, t), 2.0);
+    }
+    CHECK(difference < 0.02 * 0.02 * sum);
+
+    SoundPeak peak(Encoder::bandsOf(params));
+    peak.start(fs, 1);
+    peak.push(x);
+    Encoder told(params);
+    told.start(fs, 1, x.size(), peak.finish());
+    for (std::size_t i = 0; i < x.size(); i += 10007)
+        told.push(std::span(x).subspan(i, std::min<std::size_t>(10007, x.size() - i)));
+    CHECK(told.finish() == clip);
 }
 
 TEST_CASE("Wrong parameters are refused by name", "[analysis][encoder]")

@@ -6,7 +6,7 @@ import subprocess
 import threading
 import unittest
 
-from command import COMMAND, LONGEST, SOURCE, CommandTest, noise, sine, wav
+from command import COMMAND, LONGEST, SOURCE, CommandTest, noise, sine, wav, wav_header
 
 
 def endless_header(content):
@@ -134,6 +134,20 @@ class Pipes(CommandTest):
         os.close(write)
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"pipe has gone away", done.stderr)
+
+    def test_a_long_sound_is_the_same_clip_from_a_pipe(self):
+        second = os.urandom(8000)
+        sound = wav_header(1500 * len(second), rate=8000, bits=8) + b"".join(
+            second[i % 8000:] + second[:i % 8000] for i in range(1500))
+        self.succeeds("encode", self.put("noise.wav", sound), "-o", "file.json")
+        with open(self.folder / "noise.wav", "rb") as piped:
+            self.succeeds("encode", "-", "-o", "pipe.json", stdin=piped)
+        clips = [json.loads((self.folder / name).read_text()) for name in ("file.json", "pipe.json")]
+        for clip in clips:
+            for differs in ("name", "source"):
+                del clip[differs]
+            del clip["encoder"]["seal"]
+        self.assertTrue(clips[0] == clips[1])
 
 
 if __name__ == "__main__":

@@ -70,6 +70,9 @@ public:
         advance();
     }
 
+    /// The onsets that are known now, as finish() would return them if nothing came that masks them.
+    [[nodiscard]] std::vector<Onset> onsetsSoFar() const { return unmaskedOnsets(onsets, params); }
+
     /// All onsets in order of time. The sound counts as silent after its last frame.
     [[nodiscard]] std::vector<Onset> finish()
     {

@@ -96,15 +96,14 @@ inline void setQuantise(Clip& clip, int bits)
 /// The packed form of a valid clip: "PACB", a version, a checksum, and a range-coded rest. Amplitudes, frequencies and
 /// times are rounded to the grids of `params` (bits outside 4-16 are clamped); what is on the grids already is kept
 /// exactly.
-[[nodiscard]] inline std::vector<std::byte> packClip(const Clip& clip, PackParams params = {})
+[[nodiscard]] inline std::vector<std::byte> packClip(Clip clip, PackParams params = {})
 {
     params.bits = std::clamp(params.bits, 4, 16);
     params.ticksPerSecond = std::clamp<std::uint32_t>(params.ticksPerSecond, 1, 1000000);
     RangeWriter writer;
     detail::codePackParams(writer, params);
-    Clip copy = clip;
     detail::ClipCoder<RangeWriter> coder(writer, params);
-    coder.code(copy);
+    coder.code(clip);
     std::vector<std::byte> payload = writer.finish();
     payload.resize(std::max(payload.size(), coder.leastBytes())); // the reader takes what is missing as zeros anyway
     return detail::withHeader(payload);

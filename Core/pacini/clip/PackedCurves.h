@@ -82,6 +82,7 @@ public:
 
         Hints readers(hints);
         lastResidual = 0;
+        result.reserve(curve.size()); // 0 when reading: a count is not believed
         for (std::size_t i = 0; result.size() < most && (regular ? i == 0 || result.back().tick < end : i < count); ++i)
         {
             const GridPoint wanted = Coder::reading ? GridPoint{} : curve[i];

@@ -1,0 +1,101 @@
+#pragma once
+
+// Interleaved samples of any rate -> one signal per channel at the rate of the offline analysis.
+
+#include <pacini/analysis/BandAnalysis.h>
+#include <pacini/filters/RationalDecimator.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// Use: start, push any number of times, finish; channels() is what the last of these made. Keeps its filters between
+/// sounds of one rate. One thread at a time; allocates.
+class AnalysisInput
+{
+public:
+    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
+    void start(int sampleRate, std::size_t channelCount)
+    {
+        if (decimators.empty() || decimators.front().inputRate() != sampleRate)
+            decimators.assign(channelCount, RationalDecimator(sampleRate, analysisRate));
+        decimators.resize(channelCount, decimators.front());
+        for (RationalDecimator& decimator : decimators)
+            decimator.reset();
+        decimated.resize(channelCount);
+        clear();
+    }
+
+    /// Takes whole frames and returns them with samples that can be computed with: those beyond +-1e12 are limited to
+    /// it, those that are not finite count as 0, so that all squares are finite. Valid until the next call, and not
+    /// longer than `interleaved`.
+    std::span<const float> push(std::span<const float> interleaved)
+    {
+        interleaved = withinLimits(interleaved);
+        clear();
+        const std::size_t channelCount = decimators.size();
+        if (channelCount == 1)
+            decimators.front().push(interleaved, decimated.front());
+        else
+            for (std::size_t c = 0; c < channelCount; ++c)
+            {
+                channel.resize(interleaved.size() / channelCount);
+                for (std::size_t i = 0; i < channel.size(); ++i)
+                    channel[i] = interleaved[i * channelCount + c];
+                decimators[c].push(channel, decimated[c]);
+            }
+        return interleaved;
+    }
+
+    /// What the filters still hold.
+    void finish()
+    {
+        clear();
+        for (std::size_t c = 0; c < decimators.size(); ++c)
+            decimators[c].finish(decimated[c]);
+    }
+
+    /// Samples at analysisRate, all channels of one length. Valid until the next call of another function.
+    [[nodiscard]] std::span<const std::span<const float>> channels()
+    {
+        views.assign(decimated.begin(), decimated.end());
+        return views;
+    }
+
+private:
+    void clear()
+    {
+        for (std::vector<float>& samples : decimated)
+            samples.clear();
+    }
+
+    [[nodiscard]] std::span<const float> withinLimits(std::span<const float> interleaved)
+    {
+        const auto isSound = [](float x)
+        {
+            return std::abs(x) <= limits::sample;
+        };
+        if (std::all_of(interleaved.begin(), interleaved.end(), isSound))
+            return interleaved;
+        limited.resize(interleaved.size());
+        std::transform(interleaved.begin(), interleaved.end(), limited.begin(),
+                       [](float x)
+                       { return std::isfinite(x) ? clampTo(x, -limits::sample, limits::sample) : 0.0f; });
+        return limited;
+    }
+
+    std::vector<RationalDecimator> decimators; // one per channel
+    std::vector<std::vector<float>> decimated;
+    std::vector<std::span<const float>> views;
+    std::vector<float> channel;
+    std::vector<float> limited;
+};
+
+} // namespace pacini

@@ -1,0 +1,182 @@
+#pragma once
+
+// Dense analysis -> the curves of a clip, section after section.
+
+#include <pacini/analysis/BandAnalysis.h>
+#include <pacini/analysis/CurveFitter.h>
+#include <pacini/clip/Clip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Fits the curves of clips. A section is fitted by itself, with a price per point that keeps its own number of points
+/// below the cap, and joined to what the clip has already: so a long sound needs no more memory than its clip.
+class ClipFitter
+{
+public:
+    /// At most `breakpoints` per second of sound and band.
+    explicit ClipFitter(double breakpoints) : pointsPerSecond(breakpoints) {}
+
+    /// Adds the curves of `found`, which begins `start` s after the clip, a multiple of 0.06 s, at the last frame of the
+    /// section before. The clip has its bands; its curves end at `start`, or are empty.
+    void add(Clip& clip, const BandAnalysisResult& found, double gain, double start)
+    {
+        Clip section;
+        for (const Band& band : clip.bands)
+            section.bands.push_back({band.lowFrequency, band.centreFrequency, band.highFrequency, 0, {}, {}});
+        const auto bands = static_cast<double>(clip.bands.size());
+        double price = std::pow(20.0 / pointsPerSecond, 1.56);
+        fit(section, found, gain, price);
+        const double most = pointsPerSecond * bands * std::max(activeSeconds(found, gain), 0.1);
+        while (static_cast<double>(breakpointCount(section)) > most + 2.0 * (bands + 2.0) && price < 1e6)
+        {
+            price *= 1.6;
+            fit(section, found, gain, price);
+        }
+        for (std::size_t k = 0; k < clip.bands.size(); ++k)
+        {
+            joinLevel(clip.bands[k].amplitude, std::move(section.bands[k].amplitude), start);
+            joinPitch(clip.bands[k].pitch, section.bands[k].pitch, start);
+        }
+        joinLevel(clip.envelope, std::move(section.envelope), start);
+        joinPitch(clip.centroid, section.centroid, start);
+    }
+
+private:
+    void fit(Clip& clip, const BandAnalysisResult& found, double gain, double price)
+    {
+        clip.envelope =
+            curves.fitAmplitude(found.envelope, BandAnalysisResult::envelopeStep, gain, floor, envelopePrice * price);
+        const std::size_t n = found.tracks.front().amplitude.size();
+        std::vector<double> total(n, 1e-20);
+        for (const auto& track : found.tracks)
+            for (std::size_t i = 0; i < n; ++i)
+                total[i] += static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
+        std::vector<double> level(n);
+        for (std::size_t i = 0; i < n; ++i)
+            level[i] = std::max(0.0, 1.0 - 10.0 * std::log10(total[i] * gain * gain) / floorDecibels);
+        PitchTrack centroid(n);
+        for (std::size_t k = 0; k < clip.bands.size(); ++k)
+        {
+            const auto& track = found.tracks[k];
+            Band& band = clip.bands[k];
+            band.amplitude =
+                curves.fitAmplitude(track.amplitude, BandAnalysisResult::bandStep, gain, floor, bandPrice * price);
+            PitchTrack pitch(n);
+            for (std::size_t i = 0; i < n; ++i)
+            {
+                const double power = static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
+                const double share = power / total[i];
+                const double f =
+                    track.frequency[i] > 0.0f ? static_cast<double>(track.frequency[i]) : band.centreFrequency;
+                pitch.add(i, std::clamp(f, 0.8 * band.lowFrequency, 1.25 * band.highFrequency),
+                          std::sqrt(share) * level[i]);
+                centroid.add(i, f, share * level[i]);
+            }
+            band.pitch = band.amplitude.empty() ? Curve{} : pitch.fit(curves, band.centreFrequency, pitchPrice * price);
+        }
+        const double middle = 0.5 * (clip.bands.front().lowFrequency + clip.bands.back().highFrequency);
+        clip.centroid = centroid.fit(curves, middle, centroidPrice * price);
+    }
+
+    /// Frequencies averaged over three frames of the analysis by their importance (60 ms: pitch on the skin is slower
+    /// than level), before they are fitted.
+    class PitchTrack
+    {
+    public:
+        explicit PitchTrack(std::size_t frames) : sums((frames + 2) / 3, 0.0), importance(sums.size(), 0.0) {}
+
+        void add(std::size_t frame, double frequency, double weight)
+        {
+            const std::size_t i = std::min((frame + 1) / 3, sums.size() - 1);
+            sums[i] += weight * frequency;
+            importance[i] += weight;
+        }
+
+        Curve fit(CurveFitter& curves, double otherwise, double price)
+        {
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] = importance[i] > 1e-9 ? sums[i] / importance[i] : i > 0 ? sums[i - 1] : otherwise;
+            return curves.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
+        }
+
+    private:
+        std::vector<double> sums;
+        std::vector<double> importance;
+    };
+
+    /// Time in which the envelope is above -75 dB of full drive (Weber 2020, section 4.3).
+    [[nodiscard]] static double activeSeconds(const BandAnalysisResult& found, double gain)
+    {
+        std::size_t active = 0;
+        for (float e : found.envelope)
+            active += gain * static_cast<double>(e) > 1.778e-4 ? 1 : 0;
+        return static_cast<double>(active) * BandAnalysisResult::envelopeStep;
+    }
+
+    /// A curve of levels goes on at `start`, where the sections share a frame. An empty one is silence.
+    static void joinLevel(Curve& curve, Curve next, double start)
+    {
+        const bool sounds = reaches(curve, start);
+        if (start == 0.0)
+            curve = std::move(next);
+        else if (next.empty() && sounds)
+            curve.back().value = 0.0;
+        else if (!next.empty())
+        {
+            if (!sounds)
+                next.front().value = 0.0;
+            append(curve, next, start);
+        }
+    }
+
+    /// A curve of frequencies goes on at `start`. Where it is a single point, that holds for its whole section; where it
+    /// is empty, the one before or after.
+    static void joinPitch(Curve& curve, const Curve& next, double start)
+    {
+        constexpr double step = 3.0 * BandAnalysisResult::bandStep;
+        if (next.empty())
+            return;
+        if (!curve.empty() && !reaches(curve, start))
+            curve.push_back({start - step, curve.back().value});
+        append(curve, next, start);
+    }
+
+    [[nodiscard]] static bool reaches(const Curve& curve, double time)
+    {
+        return !curve.empty() && curve.back().time > time - 0.5 * BandAnalysisResult::envelopeStep;
+    }
+
+    /// Where both have a point at `start`, they meet half-way.
+    static void append(Curve& curve, const Curve& next, double start)
+    {
+        double first = next.front().value;
+        if (reaches(curve, start))
+        {
+            first = 0.5 * (first + curve.back().value);
+            curve.pop_back();
+        }
+        curve.reserve(curve.size() + next.size()); // no more: a clip of hours is large
+        curve.push_back({start, first});
+        for (std::size_t i = 1; i < next.size(); ++i)
+            curve.push_back({start + next[i].time, next[i].value});
+    }
+
+    static constexpr double floorDecibels = -45.0; // below full drive: the range of touch
+    static constexpr double floor = 0.005623413251903491;
+    static constexpr double envelopePrice = 5.0;  // dB^2 frames
+    static constexpr double bandPrice = 25.0;     // dB^2 frames
+    static constexpr double pitchPrice = 20.0;    // semitones^2 frames
+    static constexpr double centroidPrice = 60.0; // semitones^2 frames
+
+    double pointsPerSecond;
+    CurveFitter curves;
+};
+
+} // namespace pacini
