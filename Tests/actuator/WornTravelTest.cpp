@@ -2,6 +2,7 @@
 #include "actuator/Witness.h"
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
+#include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 #include "support/Paths.h"
@@ -12,8 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
