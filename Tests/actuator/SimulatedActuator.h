@@ -2,7 +2,10 @@
 
 // Actuators as differential equations, integrated finely in long double: unlike the exact steps of the code under test.
 
+#include <pacini/actuator/Profile.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -63,6 +66,102 @@ private:
     int substeps;
     long double x = 0;
     long double v = 0;
+    long double largest = 0;
+};
+
+/// Newton's law for the chain of a profile's body: the moving mass on its suspension in the device, the device on its
+/// joint to the skin, the skin on the ground.
+struct WornChain
+{
+    using Real = long double;
+    /// Travel of the mass against the device, device against skin and skin against ground, m, and their rates, m/s.
+    using State = std::array<Real, 6>;
+
+    WornChain(const BodyParams& params, const Resonance& resonance, double forceAtOne)
+        : body(params),
+          force(forceAtOne),
+          k(suspension(params, resonance)),
+          c(2 * std::numbers::pi_v<Real> * resonance.frequency * params.movingMass / resonance.q)
+    {
+    }
+
+    static Real suspension(const BodyParams& body, const Resonance& resonance)
+    {
+        const Real w0 = 2 * std::numbers::pi_v<Real> * resonance.frequency;
+        return w0 * w0 * body.movingMass;
+    }
+    /// The force that gives the stated travel with the base held still, or that of the body if it is larger.
+    static Real forceOf(const Profile& profile)
+    {
+        const Real stated = suspension(*profile.body, profile.resonance) * profile.drive.excursion.value_or(0.0);
+        return profile.drive.overdrive * std::max(stated, static_cast<Real>(profile.body->force));
+    }
+
+    [[nodiscard]] State slope(const State& z, Real drive) const
+    {
+        const Real coil = force * drive - k * z[0] - c * z[3]; // on the mass; the device bears the opposite
+        const Real joint = body.jointStiffness * z[1] + body.jointDamping * z[4];
+        const Real skin = body.skinStiffness * z[2] + body.skinDamping * z[5];
+        const Real device = (-coil - joint) / body.deviceMass;
+        const Real ground = (joint - skin) / body.skinMass;
+        return {z[3], z[4], z[5], coil / body.movingMass - device, device - ground, ground};
+    }
+    /// A bound on the angular frequencies of all modes, Hz times 2 pi: by Gershgorin's circles of the stiffnesses over
+    /// the masses, with the dampers over the masses.
+    [[nodiscard]] Real fastest() const
+    {
+        const auto bound = [this](Real coilLink, Real jointLink, Real skinLink)
+        {
+            return std::max({2 * coilLink / body.movingMass, 2 * (coilLink + jointLink) / body.deviceMass,
+                             (2 * jointLink + skinLink) / body.skinMass});
+        };
+        return std::sqrt(bound(k, body.jointStiffness, body.skinStiffness)) +
+               bound(c, body.jointDamping, body.skinDamping);
+    }
+
+    BodyParams body;
+    Real force, k, c;
+};
+
+/// The moving mass of an actuator as it is worn; classical Runge-Kutta.
+class SimulatedBody
+{
+public:
+    SimulatedBody(const WornChain& worn, double fs) : chain(worn), duration(1.0L / fs)
+    {
+        substeps = std::max(8, static_cast<int>(std::ceil(chain.fastest() * duration / 0.2L)));
+    }
+
+    void hold(double drive)
+    {
+        const auto h = duration / substeps;
+        const auto moved = [](WornChain::State x, WornChain::Real by, const WornChain::State& slope)
+        {
+            for (std::size_t i = 0; i < x.size(); ++i)
+                x[i] += by * slope[i];
+            return x;
+        };
+        for (int i = 0; i < substeps; ++i)
+        {
+            const auto k1 = chain.slope(z, drive);
+            const auto k2 = chain.slope(moved(z, h / 2, k1), drive);
+            const auto k3 = chain.slope(moved(z, h / 2, k2), drive);
+            const auto k4 = chain.slope(moved(z, h, k3), drive);
+            for (std::size_t j = 0; j < z.size(); ++j)
+                z[j] += h / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]);
+            largest = std::max(largest, std::abs(z[0]));
+        }
+    }
+
+    [[nodiscard]] double displacement() const { return static_cast<double>(z[0]); }
+    [[nodiscard]] double velocity() const { return static_cast<double>(z[3]); }
+    [[nodiscard]] double peak() const { return static_cast<double>(largest); }
+
+private:
+    WornChain chain;
+    long double duration;
+    int substeps = 1;
+    WornChain::State z{};
     long double largest = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "actuator/Witness.h"
 
+#include <pacini/actuator/PolePairInverse.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Random.h>
 #include <pacini/realtime/Translator.h>
@@ -37,6 +38,7 @@ struct LimitCase
     Profile profile;
     double fs = 48000.0;
     std::size_t frames = 0;
+    double swing = 67.0; ///< Hz at which it is driven: its resonance, held or worn
 };
 
 /// Overdrive of 1 to 10, limits from half to three times the worst that the rated drive can do. Resonance, rate and
@@ -107,8 +109,20 @@ inline LimitCase randomLimitCase(Random& random)
             section.q = wide(0.3, 20.0);
             profile.equalizer.pushBack(section);
         }
-    if (chance(0.2))
+    if (chance(0.1))
         profile.body = BodyParams{};
+    else if (chance(0.6))
+        wear(profile, random);
+    if (profile.body)
+    {
+        // Mostly the force that the stated travel needs.
+        const double w0 = 2.0 * std::numbers::pi * profile.resonance.frequency;
+        const double stated = profile.body->movingMass * w0 * w0 * drive.excursion.value_or(1e-4);
+        profile.body->force = std::clamp(stated * (chance(0.8) ? 1.0 : wide(0.5, 2.0)), 1e-6, 1e3);
+    }
+    result.swing = profile.body && chance(0.6)
+                       ? std::min(loadedResonance(*profile.body, profile.resonance).frequency, 0.4 * result.fs)
+                       : profile.resonance.frequency;
     if (chance(0.3))
         profile.transient = {static_cast<TransientShape>(random.next() % 3),
                              std::clamp(profile.resonance.frequency, 1.0, 2000.0), wide(0.5, 20.0)};
@@ -119,7 +133,7 @@ inline LimitCase randomLimitCase(Random& random)
 /// steps.
 inline std::vector<float> hardSound(Random& random, const LimitCase& limitCase, double level)
 {
-    const double f0 = limitCase.profile.resonance.frequency;
+    const double f0 = limitCase.swing;
     const double w = 2.0 * std::numbers::pi / limitCase.fs;
     const auto kind = random.next() % 8;
     const double detuned = f0 * random.uniform(0.9, 1.1);
@@ -144,8 +158,9 @@ inline std::vector<float> hardSound(Random& random, const LimitCase& limitCase, 
     return x;
 }
 
-/// The protection under a bang-bang drive that an adversary who sees the mass chooses: with the velocity, which is the
-/// worst that a drive within bounds can do, or against it for a while to gather way; now and then a hard sound instead.
+/// The protection under a bang-bang drive that an adversary who sees the mass, held or worn, chooses: with the
+/// velocity, which is the worst that a drive within bounds can do, or against it for a while to gather way; now and
+/// then a hard sound instead.
 template <typename Mass>
 Strain strainOfStage(const LimitCase& limitCase, Random& random)
 {
@@ -168,10 +183,16 @@ Strain strainOfStage(const LimitCase& limitCase, Random& random)
         return witness.strain();
     }
     const auto turn = static_cast<std::size_t>(random.uniform(0.3, 1.5) * static_cast<double>(limitCase.frames));
+    const bool seesWorn =
+        witness.movingAsWorn().has_value() && limitCase.swing != limitCase.profile.resonance.frequency;
     for (std::size_t n = 0; n < limitCase.frames; ++n)
     {
-        const double way =
-            n % (turn + 1) < turn * 3 / 4 ? witness.moving().velocity() : witness.moving().displacement();
+        const bool along = n % (turn + 1) < turn * 3 / 4;
+        const auto pushed = [along](const auto& mass)
+        {
+            return along ? mass.velocity() : mass.displacement();
+        };
+        const double way = seesWorn ? pushed(*witness.movingAsWorn()) : pushed(witness.moving());
         auto u = static_cast<float>(way < 0.0 ? -level : level);
         protection.process(std::span(&u, 1), std::span(&u, 1));
         witness.hold(u);
@@ -182,7 +203,7 @@ Strain strainOfStage(const LimitCase& limitCase, Random& random)
 /// A clip around the resonance: full amplitudes, tones, bursts, sweeps and beats, events and noise.
 inline Clip hardClip(Random& random, const LimitCase& limitCase)
 {
-    const double f0 = limitCase.profile.resonance.frequency;
+    const double f0 = limitCase.swing;
     Clip clip;
     clip.duration = static_cast<double>(limitCase.frames) / limitCase.fs;
     const double end = clip.duration;

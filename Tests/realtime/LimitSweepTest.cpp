@@ -13,19 +13,23 @@ TEST_CASE("No drive takes one of a thousand random actuators beyond its limits",
     // Not by the steps of the guard nor by those of the long sweep, but by an integration of its own.
     using Mass = test::SimulatedResonator;
     std::array<int, 3> pushed{};
+    int pushedAsWorn = 0;
     for (std::uint64_t seed = 1; seed <= 1000; ++seed)
     {
         const auto [limitCase, strain] = test::runLimitCase<Mass>(seed);
         CAPTURE(seed, limitCase.way, limitCase.fs, limitCase.profile.drive.overdrive);
         CHECK(strain.travel <= test::Witness<Mass>::tolerance);
+        CHECK(strain.worn <= test::Witness<Mass>::tolerance);
         CHECK(strain.heat <= test::Witness<Mass>::tolerance);
         CHECK(strain.level <= 1.0);
-        pushed[static_cast<std::size_t>(limitCase.way)] += std::max(strain.travel, strain.heat) > 0.9 ? 1 : 0;
+        pushed[static_cast<std::size_t>(limitCase.way)] += strain.worst() > 0.9 ? 1 : 0;
+        pushedAsWorn += strain.worn > 0.9 && strain.worn > strain.travel ? 1 : 0;
     }
     // The limits are really reached, on every way.
     CHECK(pushed[0] > 300);
     CHECK(pushed[1] > 100);
     CHECK(pushed[2] > 50);
+    CHECK(pushedAsWorn > 50);
 }
 
 TEST_CASE("The mass of the long sweep swings as the integrated one", "[realtime][protection]")
@@ -45,6 +49,32 @@ TEST_CASE("The mass of the long sweep swings as the integrated one", "[realtime]
             CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(1e-5));
             CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
         }
+}
+
+TEST_CASE("The worn mass of the long sweep swings as the integrated one", "[realtime][protection]")
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    {
+        Random random(seed);
+        Profile profile;
+        profile.resonance = {random.uniform(20.0, 400.0), random.uniform(0.3, 50.0)};
+        profile.drive.excursion = 1e-3;
+        test::wear(profile, random);
+        const double fs = seed % 2 == 0 ? 8000.0 : 192000.0;
+        CAPTURE(seed, fs);
+        const test::WornChain chain(*profile.body, profile.resonance,
+                                    static_cast<double>(test::WornChain::forceOf(profile)));
+        test::SwingingBody swinging(chain, fs);
+        test::SimulatedBody integrated(chain, fs);
+        for (const float u : test::noise(4000, 3))
+        {
+            swinging.hold(static_cast<double>(u));
+            integrated.hold(static_cast<double>(u));
+        }
+        CHECK(swinging.displacement() == Approx(integrated.displacement()).epsilon(1e-4));
+        CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(1e-4));
+        CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
+    }
 }
 
 TEST_CASE("A new set-up does not forget that the actuator moves and is warm", "[realtime][protection]")

@@ -64,6 +64,7 @@ struct BodyChain
     double skinDamping = 0.0;
     BodyShape shape = BodyShape::elastic;
     BodyForce driven = BodyForce::coil;
+    bool operator==(const BodyChain&) const = default;
 
     /// The denominator of every response, for s a complex number, a polynomial or a PairNumber. Its degree is even.
     template <typename S>

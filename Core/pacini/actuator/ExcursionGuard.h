@@ -2,9 +2,12 @@
 
 // Keeps the moving mass of an actuator within its travel, whatever the drive.
 
+#include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>
 #include <pacini/actuator/MovingMass.h>
+#include <pacini/actuator/TravelModes.h>
+#include <pacini/actuator/WornGuard.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
@@ -13,24 +16,28 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace pacini
 {
 
-/// The moving mass as a second-order resonator and the travel that it has. Clamped to the ranges of a valid profile.
+/// The moving mass as a second-order resonator, its base held still, and the travel that it has. Clamped to the ranges
+/// of a valid profile. Where it is known what the base is, the mass is guarded as it is worn, too: the base gives way
+/// then, and the mass resonates higher against it.
 struct ExcursionParams
 {
-    double frequency = 67.0;    ///< Hz, 1 to 20000
-    double q = 1.0;             ///< 0.01 to 1000
-    double excursion = 1e-3;    ///< m at a drive of 1 far below resonance, 1e-9 to 10 (with overdrive)
-    double maxExcursion = 1e-3; ///< m from rest, 1e-7 to 0.1
+    double frequency = 67.0;         ///< Hz, 1 to 20000
+    double q = 1.0;                  ///< 0.01 to 1000
+    double excursion = 1e-3;         ///< m at a drive of 1 far below resonance, 1e-9 to 10 (with overdrive)
+    double maxExcursion = 1e-3;      ///< m from rest, 1e-7 to 0.1
+    std::optional<BodyChain> worn{}; ///< its force is that at a drive of 1 (with overdrive); none: only held still
     bool operator==(const ExcursionParams&) const = default;
 };
 
-/// The largest displacement in metres that any drive within +-1 can cause: that of a drive which changes its sign with
-/// the velocity. Each half swing then overshoots by exp(-pi zeta / sqrt(1 - zeta^2)), a geometric series; the
-/// overdamped mass never overshoots.
+/// The largest displacement in metres that any drive within +-1 can cause with the base held still: that of a drive
+/// which changes its sign with the velocity. Each half swing then overshoots by exp(-pi zeta / sqrt(1 - zeta^2)), a
+/// geometric series; the overdamped mass never overshoots.
 [[nodiscard]] inline double worstExcursion(const ExcursionParams& params) noexcept
 {
     const double zeta = 0.5 / params.q;
@@ -84,12 +91,13 @@ struct ExcursionCoefficients
 }
 
 /// Admits of every wanted drive as much as keeps the energy of the modelled mass within its limit to the end of the
-/// sample. A drive of 0 never raises the energy, so that there always is an admissible drive and the limit holds for
-/// ever, for any input; a limiter that only turns down a gain has no such proof, since a resonator that is already
-/// moving goes on when the drive falls. At resonance the largest drive that keeps the energy is proportional to the
-/// velocity, so that even a sinusoid held by the guard alone stays nearly a sinusoid.
-/// (A safety filter on an invariant set: A. Ames et al., "Control barrier functions: theory and applications", ECC
-/// 2019, here for the exact discrete model.)
+/// sample, and of the mass as it is worn (see WornGuard) the like. Both bear any smaller drive of the same sign, so
+/// that one does not undo the other. A drive of 0 never raises the energy, so that there always is an admissible drive
+/// and the limit holds for ever, for any input; a limiter that only turns down a gain has no such proof, since a
+/// resonator that is already moving goes on when the drive falls. At resonance the largest drive that keeps the energy
+/// is proportional to the velocity, so that even a sinusoid held by the guard alone stays nearly a sinusoid. (A safety
+/// filter on an invariant set: A. Ames et al., "Control barrier functions: theory and applications", ECC 2019, here for
+/// the exact discrete model.)
 class ExcursionGuard
 {
 public:
@@ -99,11 +107,17 @@ public:
         wantedLimit = 0.99 * guard.energyLimit;
         moved.beginGroup();
         asWanted.beginGroup();
+        if (params.worn)
+            worn.design(*params.worn, clampTo(params.maxExcursion, 1e-7, 0.1), fs);
+        if (!params.worn || !isWorn)
+            worn.reset();
+        isWorn = params.worn.has_value();
     }
     void reset() noexcept
     {
         moved = {};
         asWanted = {};
+        worn.reset();
     }
 
     /// Follows the drive as it is wanted and returns the energy that it would cause over the limit, less 1 %: what the
@@ -111,7 +125,8 @@ public:
     double measure(double wanted) noexcept
     {
         asWanted.follow(wanted, guard.steps.back(), guard.group);
-        return asWanted.state().energy() / wantedLimit;
+        const double still = asWanted.state().energy() / wantedLimit;
+        return isWorn ? std::max(still, worn.measure(wanted)) : still;
     }
 
     /// The drive nearest to `wanted` that is admissible now; it never changes its sign.
@@ -134,11 +149,16 @@ public:
             const double most = b > 0.0 ? room / (b + root) : (root - b) / a;
             drive = sign * std::min(std::abs(drive), most);
         }
-        return drive;
+        return isWorn ? worn.admit(drive) : drive;
     }
 
     /// Lets the mass move under the drive that is really played.
-    void advance(double drive) noexcept { moved.follow(drive, guard.steps.back(), guard.group); }
+    void advance(double drive) noexcept
+    {
+        moved.follow(drive, guard.steps.back(), guard.group);
+        if (isWorn)
+            worn.advance(drive);
+    }
 
     /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
     /// measure exceeds `mostMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
@@ -167,6 +187,8 @@ public:
         if (!stays(wantedMost, wantedPeak, mostMeasure * wantedLimit) ||
             !stays(playedMost, playedPeak, guard.energyLimit))
             return false;
+        if (isWorn && !worn.advanceFreely(wanted, wantedPeak, played, playedPeak, mostMeasure))
+            return false;
         asWanted = wantedMass;
         moved = playedMass;
         return true;
@@ -176,6 +198,8 @@ public:
     {
         moved.flush();
         asWanted.flush();
+        if (isWorn)
+            worn.flush();
     }
 
     [[nodiscard]] const ExcursionCoefficients& coefficients() const noexcept { return guard; }
@@ -185,6 +209,8 @@ private:
     double wantedLimit = 0.99 * guard.energyLimit; // m^2
     MovingMass moved;
     MovingMass asWanted;
+    bool isWorn = false;
+    WornGuard worn;
 };
 
 } // namespace pacini

@@ -37,7 +37,8 @@ struct ProtectionMeter
     bool operator==(const ProtectionMeter&) const = default;
 };
 
-/// For every input the output stays within +-1, the modelled mass within its travel, the modelled coil below its power.
+/// For every input the output stays within +-1, the modelled mass within its travel (its base held still and, where a
+/// body is known, as it is worn), the modelled coil below its power.
 ///
 /// - A first-order high-pass takes out the input's mean.
 /// - One smooth gain answers the worst of three levels, each relative to its limit (see LimiterGain): the drive itself,

@@ -2,11 +2,14 @@
 
 // Which limits of an actuator have to be guarded.
 
+#include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/ExcursionGuard.h>
 #include <pacini/actuator/Profile.h>
+#include <pacini/actuator/TravelModes.h>
 #include <pacini/foundation/Units.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -38,12 +41,25 @@ struct ProtectionNeeds
     };
     Limit excursion = Limit::unknown;
     Limit heat = Limit::unknown;
-    double worstExcursion = 0.0; ///< m with overdrive, when known
+    double worstExcursion = 0.0; ///< m with overdrive, when known; the larger of a base held still and worn
+    double worstWorn = 0.0;      ///< m of these as it is worn, when the profile has a body: a bound
     double worstPower = 0.0;     ///< W with overdrive, when known
 };
 
 /// The time constant of coils whose profile has none: short for them, so that protection acts too early, not too late.
 inline constexpr double defaultThermalTime = 1.0; // s
+
+/// The chain in which the moving mass of a valid profile travels as it is worn, its force that of a drive of 1; none
+/// without a body, nor of a motor, whose mass turns. The force gives the stated travel on a base held still. A body
+/// states it once more: of two numbers that disagree the larger counts.
+[[nodiscard]] inline std::optional<BodyChain> wornChain(const Profile& profile) noexcept
+{
+    if (!profile.body || !profile.drive.excursion || profile.technology == Technology::erm)
+        return std::nullopt;
+    BodyChain chain = makeBodyChain(*profile.body, profile.resonance);
+    chain.force = profile.drive.overdrive * std::max(*profile.drive.excursion * chain.suspensionStiffness, chain.force);
+    return chain;
+}
 
 /// The excursion limit of a valid profile, if it has one.
 [[nodiscard]] inline std::optional<ExcursionParams> excursionParams(const Profile& profile) noexcept
@@ -52,7 +68,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     if (!drive.maxExcursion || !drive.excursion)
         return std::nullopt;
     return ExcursionParams{profile.resonance.frequency, profile.resonance.q, drive.overdrive * *drive.excursion,
-                           *drive.maxExcursion};
+                           *drive.maxExcursion, wornChain(profile)};
 }
 
 /// The heat limit of a valid profile, if it has one. The rated drive is the peak of a sinusoid of maxVoltageRms, or of
@@ -75,7 +91,8 @@ inline constexpr double defaultThermalTime = 1.0; // s
     ProtectionNeeds needs;
     if (const auto params = excursionParams(profile))
     {
-        needs.worstExcursion = worstExcursion(*params);
+        needs.worstWorn = params->worn ? worstTravel(*params->worn) : 0.0;
+        needs.worstExcursion = std::max(worstExcursion(*params), needs.worstWorn);
         needs.excursion = needs.worstExcursion <= params->maxExcursion ? Limit::unharmed : Limit::guarded;
     }
     if (const auto params = coilHeatParams(profile))
@@ -92,7 +109,11 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const ProtectionNeeds needs = protectionNeeds(profile);
     ProtectionParams params;
     if (needs.excursion == ProtectionNeeds::Limit::guarded)
+    {
         params.excursion = excursionParams(profile);
+        if (needs.worstWorn <= params.excursion->maxExcursion)
+            params.excursion->worn.reset();
+    }
     if (needs.heat == ProtectionNeeds::Limit::guarded)
         params.heat = coilHeatParams(profile);
     params.lowFrequency = Hertz(profile.range.lowFrequency);

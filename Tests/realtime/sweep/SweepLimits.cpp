@@ -20,31 +20,35 @@ struct Tally
     std::size_t pushed = 0; ///< to within a tenth of a limit
     std::size_t passed = 0;
     Strain worst;
-    std::uint64_t worstTravelSeed = 0, worstHeatSeed = 0;
+    std::uint64_t worstTravelSeed = 0, worstWornSeed = 0, worstHeatSeed = 0;
 
     void add(std::uint64_t seed, const LimitCase& limitCase, const Strain& strain)
     {
         ++ways[static_cast<std::size_t>(limitCase.way)];
-        pushed += strain.travel > 0.9 || strain.heat > 0.9 ? 1 : 0;
+        pushed += strain.worst() > 0.9 ? 1u : 0u;
         if (strain.travel > worst.travel)
             worstTravelSeed = seed;
+        if (strain.worn > worst.worn)
+            worstWornSeed = seed;
         if (strain.heat > worst.heat)
             worstHeatSeed = seed;
         worst.add(strain);
-        if (std::max(strain.travel, strain.heat) > Witness<SwingingMass>::tolerance || !(strain.level <= 1.0))
+        if (strain.worst() > Witness<SwingingMass>::tolerance || !(strain.level <= 1.0))
         {
             ++passed;
-            std::printf("seed %llu, way %d: travel %.4f, heat %.4f, level %.4f\n",
+            std::printf("seed %llu, way %d: travel %.4f, as worn %.4f, heat %.4f, level %.4f\n",
                         static_cast<unsigned long long>(seed), static_cast<int>(limitCase.way), strain.travel,
-                        strain.heat, strain.level);
+                        strain.worn, strain.heat, strain.level);
         }
     }
     void print(std::size_t done) const
     {
         std::printf("%zu actuators (%zu by the protection alone, %zu in scenes, %zu live), %zu of them pushed to a "
-                    "limit; %zu passed one. Worst travel %.6f (seed %llu), heat %.6f (seed %llu), level %.6f\n",
+                    "limit; %zu passed one. Worst travel %.6f (seed %llu), as worn %.6f (seed %llu), heat %.6f (seed "
+                    "%llu), level %.6f\n",
                     done, ways[0], ways[1], ways[2], pushed, passed, worst.travel,
-                    static_cast<unsigned long long>(worstTravelSeed), worst.heat,
+                    static_cast<unsigned long long>(worstTravelSeed), worst.worn,
+                    static_cast<unsigned long long>(worstWornSeed), worst.heat,
                     static_cast<unsigned long long>(worstHeatSeed), worst.level);
         std::fflush(stdout);
     }
