@@ -258,7 +258,7 @@ void HjifFit::together(std::vector<Curve>& curves) const
     std::vector<double> diagonal(x.size()), residual(x.size()), scaled(x.size()), changed(x.size());
     for (std::size_t a = 0; a < n; ++a)
     {
-        // The diagonal as far as it lies on steps: hats are smooth enough for that.
+        // Only near the diagonal, but all that it does is scale.
         for (std::size_t i = 0; i < count; ++i)
             product[i] = static_cast<double>(products(i, a, a).first) +
                          static_cast<double>(i > 0 ? products(i - 1, a, a).second : 0.0f);

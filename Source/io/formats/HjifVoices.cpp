@@ -29,7 +29,7 @@ constexpr double fineStep = 0.001;           // s: that of the levelling gain
 constexpr double usualPrice = 12.0;          // dB^2 steps
 constexpr double floorBelowLoudest = 0.018;  // -35 dB
 constexpr double bytesPerPoint = 58.0;       // about
-constexpr double pointsPerKilobyte = 0.6;    // of likeness, per second: what a kilobyte must gain
+constexpr double pointsPerKilobyte = 0.6;    // of HjifDistance: what a kilobyte per second must gain
 constexpr double longestSearched = 120.0;    // s: it takes 50 ms a second
 constexpr std::size_t candidatesRefined = 2; // of the ways to make few voices
 
@@ -156,10 +156,11 @@ private:
             for (const Curve& curve : curves)
                 points += curve.size();
             const HjifDistance distance = likeness.distanceTo(withCurves(candidate.exact, curves));
-            const double kilobytes = 1e-3 * bytesPerPoint * static_cast<double>(points) / clip.duration;
+            const double kilobytes =
+                1e-3 * bytesPerPoint * static_cast<double>(points) / std::max(clip.duration, HjifFit::step);
             const double cost = distance.value + pointsPerKilobyte * kilobytes;
             least = std::min(least, cost);
-            if (cost < leastOfAll)
+            if (found.curves.empty() || cost < leastOfAll)
             {
                 leastOfAll = cost;
                 found = {candidate.exact, std::move(curves)};

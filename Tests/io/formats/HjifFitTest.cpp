@@ -2,6 +2,7 @@
 
 #include "io/formats/HjifFit.h"
 
+#include "io/formats/HjifFormat.h"
 #include "support/Catch.h"
 
 #include <pacini/synthesis/Decoder.h>
@@ -109,5 +110,9 @@ TEST_CASE("Silent and very short bands have keyframes, too, or none", "[formats]
         CHECK(curves[1].empty());
         for (const Breakpoint& point : curves[0])
             CHECK(point.value == Approx(0.5).margin(0.05));
+        clip.envelope = {{0.0, 0.5}, {duration, 0.5}}; // levelled clips are searched
+        const auto exported = writeHjif(clip, {});
+        REQUIRE(exported);
+        CHECK(isHjif(exported->files.at(0).bytes));
     }
 }
