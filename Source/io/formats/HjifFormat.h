@@ -12,21 +12,21 @@ namespace pacini
 {
 
 /// Reads all vibrotactile channels as bands of one clip; several channels sound together at 1 / n of their amplitude.
-/// VectorialWave bands become bands, Curve bands too (half a period between extrema), Transient bands events. Curve and
-/// WaveletWave bands of a channel with wavelets are one waveform (see HjifWaveform), which is translated as a sound is;
-/// with nothing beside it, it is levelled by an envelope. Errors have a place such as
+/// VectorialWave bands become bands, Curve bands too (half a period between extrema), Transient bands and short waves
+/// events, one where both begin together. Curve and WaveletWave bands of a channel with wavelets are one waveform (see
+/// HjifWaveform), which is translated as a sound is; with nothing beside it, it is levelled by an envelope. Errors have
+/// a place such as
 /// `perceptions[0].channels[0].bands[2].effects[1].position`: what must be there for a signal is missing or of the
 /// wrong kind, the version is none, nothing is left to play; tooLarge for waveforms of more than 2^25 samples.
 /// Warnings: what is out of range is clamped; composite effects, spatial and non-vibrating perceptions are left out.
 [[nodiscard]] Result<ImportedClip> readHjif(std::string_view bytes);
 
 /// Levelled clips become a few VectorialWave bands of few keyframes (see hjifVoicesOf), others one for each of their
-/// bands with all of its points. Events become a Transient band of equal energy, which is two periods of 91 Hz in the
-/// reference player whatever their sharpness. In trains of less than 60 ms it would fill the gaps: those of their
-/// events that the bands do not reach become short waves, which the reader takes for events again. Up to 7 bands make
-/// the Simple Parametric profile at level 1, up to 63 the Main profile at level 2. `amplitudePoints` and
-/// `frequencyPoints` limit the keyframes of each band. Time is in ms, frequency in Hz without fraction, amplitudes have
-/// three digits.
+/// bands with all of its points. Events become a Transient band, which is two periods of 91 Hz in the reference player
+/// whatever their sharpness, and short waves where that is not enough (see hjifEventsOf), which the reader takes for
+/// events again. Up to 7 bands make the Simple Parametric profile at level 1, up to 63 the Main profile at level 2.
+/// `amplitudePoints` and `frequencyPoints` limit the keyframes of each band. Time is in ms, frequency in Hz without
+/// fraction, amplitudes have three digits.
 [[nodiscard]] Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params);
 
 [[nodiscard]] bool isHjif(std::string_view bytes);

@@ -1,6 +1,7 @@
 #include "io/formats/HjifImport.h"
 
 #include "io/JsonText.h"
+#include "io/formats/HjifEvents.h"
 #include "io/formats/HjifFormat.h"
 #include "io/formats/HjifVoices.h"
 #include "io/formats/HjifWaveform.h"
@@ -104,6 +105,7 @@ private:
         scale.level = std::abs(channel.gain) * std::pow(10.0, exponent) * share;
         if (channel.rate && channel.samples && *channel.rate > 0.0 && *channel.samples >= 0.0)
             wantedDuration = std::max(wantedDuration, *channel.samples / *channel.rate);
+        const std::size_t firstEvent = clip.transients.size();
         drawn = std::any_of(channel.bands.begin(), channel.bands.end(), isWavelet);
         if (drawn)
             waveform.addChannel();
@@ -121,8 +123,34 @@ private:
                                                "not '{}'",
                                                shownText(band.type)));
         }
+        addPulses(firstEvent);
         if (drawn)
             waveform.scale(scale.level);
+    }
+
+    /// Short waves are events. One that begins with a Transient of the channel, whose events begin at `first`, is the
+    /// rest of its energy.
+    void addPulses(std::size_t first)
+    {
+        const double together = 0.5 / scale.ticks;
+        const auto earlier = [](const Transient& a, const Transient& b)
+        {
+            return a.time < b.time;
+        };
+        const auto begin = clip.transients.begin() + static_cast<std::ptrdiff_t>(first);
+        std::stable_sort(begin, clip.transients.end(), earlier);
+        const std::size_t taps = clip.transients.size();
+        for (const Transient& pulse : pulses)
+        {
+            const auto from = clip.transients.begin() + static_cast<std::ptrdiff_t>(first);
+            const auto to = clip.transients.begin() + static_cast<std::ptrdiff_t>(taps);
+            const auto tap = std::lower_bound(from, to, Transient{pulse.time - together, 0.0, 0.0}, earlier);
+            if (tap != to && tap->time < pulse.time + together)
+                tap->amplitude = std::min(hjifTogether(*tap, pulse.amplitude), limits::amplitude);
+            else
+                clip.transients.push_back(pulse);
+        }
+        pulses.clear();
     }
 
     void addBand(const HjifBand& band, const std::string& where)
@@ -247,7 +275,7 @@ private:
         const auto event = hjifPulse(effect, position, scale);
         if (!event)
             return false;
-        clip.transients.push_back(*event);
+        pulses.push_back(*event);
         latestEvent = std::max(latestEvent, (position + effect.keyframes.back().position) / scale.ticks);
         return true;
     }
@@ -286,7 +314,8 @@ private:
         finishImported(clip);
     }
 
-    HjifScale scale; ///< of the channel being read
+    HjifScale scale;               ///< of the channel being read
+    std::vector<Transient> pulses; ///< of its short waves
     HjifWaveform waveform;
     bool drawn = false; ///< the channel being read, as far as it has no parameters
     const std::vector<HjifEffect>* library = nullptr;

@@ -1,10 +1,10 @@
 #include "io/formats/ForeignText.h"
+#include "io/formats/HjifEvents.h"
 #include "io/formats/HjifFormat.h"
 #include "io/formats/HjifVoices.h"
 #include "io/formats/LossList.h"
 #include "io/formats/PlayedClip.h"
 
-#include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <fmt/format.h>
@@ -271,35 +271,24 @@ private:
     void addEvents(std::vector<std::string>& bands)
     {
         EventBand transients, waves;
-        for (std::size_t i = 0; i < clip.transients.size(); ++i)
+        const std::vector<HjifEvent> told = hjifEventsOf(clip);
+        for (std::size_t i = 0; i < told.size(); ++i)
         {
             const Transient& event = clip.transients[i];
             if (event.amplitude <= 0.0)
                 continue;
-            double gap = limits::duration;
-            if (i > 0)
-                gap = event.time - clip.transients[i - 1].time;
-            if (i + 1 < clip.transients.size())
-                gap = std::min(gap, clip.transients[i + 1].time - event.time);
             const std::int64_t tick = tickOf(event.time);
             movedTime = std::max(movedTime, std::abs(static_cast<double>(tick) / ticksPerSecond - event.time));
-            if (fillsGap(event, gap))
-            {
-                constexpr double fine = 1e6; // Hz: the pulse as if continuous
-                const Pulse pulse = makePulse({}, event.sharpness, gap, fine, 1.0);
-                const double frequency = std::round(pulse.cyclesPerFrame * fine);
-                const double length = static_cast<double>(pulse.frames) / fine;
-                losses.add(LossKind::event, event.time, length, 0.0,
+            if (told[i].wave > 0.0)
+                waves.add(wavePulse(tick, told[i]), told[i].frequency, told[i].frequency);
+            if (told[i].inTrain)
+                losses.add(LossKind::event, event.time, told[i].length, 0.0,
                            "a transient would fill the gaps of a fast train: its events are written as short waves");
-                waves.add(wavePulse(tick, length, event.amplitude, frequency), frequency, frequency);
-                continue;
+            if (told[i].tap > 0.0)
+            {
+                const double place = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
+                transients.add(transient(tick, told[i].tap, place), hjifDullFrequency, hjifSharpFrequency);
             }
-            constexpr double dull = 0.2; // its pulse has 123 Hz
-            if (event.sharpness > dull && !isCovered(event))
-                losses.add(LossKind::event, event.time, hjifTransientLength, 0.0,
-                           "a transient is always dull and 22 ms long in the reference player");
-            const double told = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
-            transients.add(transient(tick, event, told), hjifDullFrequency, hjifSharpFrequency);
         }
         if (!transients.effects.empty())
             bands.push_back(transients.band("Transient"));
@@ -307,33 +296,19 @@ private:
             bands.push_back(waves.band("VectorialWave"));
     }
 
-    /// Whether the bands hide the pulse: 20 dB above it.
-    [[nodiscard]] bool isCovered(const Transient& event) const
-    {
-        return hjifTransientLevel(event.sharpness) * event.amplitude < 0.1 * hjifLevelAt(clip, event.time);
-    }
-
-    /// Whether 22 ms are too long for an event in a fast train. Nobody tells how long hidden ones are.
-    [[nodiscard]] bool fillsGap(const Transient& event, double gap) const
-    {
-        constexpr double train = 0.06; // s: from here on the decoder's pulses are short
-        return gap < train && !isCovered(event);
-    }
-
-    [[nodiscard]] std::string transient(std::int64_t tick, const Transient& event, double frequency) const
+    [[nodiscard]] std::string transient(std::int64_t tick, double amplitude, double frequency) const
     {
         return fmt::format(R"({{"effect_type":"Basis","position":{},"keyframes":[{{"relative_position":0,)"
                            R"("amplitude_modulation":{},"frequency_modulation":{}}}]}})",
-                           tick, threeDigits(hjifTransientLevel(event.sharpness) * event.amplitude / gain),
-                           std::llround(frequency));
+                           tick, threeDigits(amplitude / gain), std::llround(frequency));
     }
 
     /// A few periods under a Hann window, as the decoder plays an event, in straight lines: between keyframes of every
     /// eighth of it, its peak among them, they are within 4 % of its height.
-    [[nodiscard]] std::string wavePulse(std::int64_t tick, double length, double amplitude, double frequency) const
+    [[nodiscard]] std::string wavePulse(std::int64_t tick, const HjifEvent& told) const
     {
         constexpr std::int64_t pieces = 8;
-        const std::int64_t half = std::max<std::int64_t>(1, std::llround(0.5 * length * ticksPerSecond));
+        const std::int64_t half = std::max<std::int64_t>(1, std::llround(0.5 * told.length * ticksPerSecond));
         std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":0,"keyframes":[)", tick);
         std::int64_t last = -1;
         for (std::int64_t n = 0; n <= pieces; ++n)
@@ -343,8 +318,8 @@ private:
                 continue;
             text += fmt::format(
                 R"({}{{"relative_position":{},"amplitude_modulation":{}{}}})", n == 0 ? "" : ",", at,
-                threeDigits(hannAt(static_cast<double>(at) / static_cast<double>(2 * half)) * amplitude / gain),
-                n == 0 ? fmt::format(R"(,"frequency_modulation":{})", frequency) : "");
+                threeDigits(hannAt(static_cast<double>(at) / static_cast<double>(2 * half)) * told.wave / gain),
+                n == 0 ? fmt::format(R"(,"frequency_modulation":{})", told.frequency) : "");
             last = at;
         }
         return text + "]}";

@@ -205,7 +205,7 @@ TEST_CASE("An HJIF file with all bands sounds as the clip does", "[formats][form
 {
     compareAll(
         "HJIF", [](const Clip& clip) { return test::decoded(clip, fs); },
-        [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 1.0, 6.0);
+        [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 1.0, 3.0);
 }
 
 TEST_CASE("A .haptic file of the usual density sounds as the clip's one voice does", "[formats][formatquality]")

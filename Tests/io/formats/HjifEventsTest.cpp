@@ -122,6 +122,27 @@ TEST_CASE("An event is as strong in HJIF as beside the bands, not on top of them
     }
 }
 
+TEST_CASE("An event of any sharpness is a transient of HJIF that keeps its strength and amplitude", "[formats]")
+{
+    constexpr double fs = 8000.0;
+    for (const double sharpness : {0.0, 0.2, 0.21, 0.4, 0.6, 0.8, 1.0})
+    {
+        CAPTURE(sharpness);
+        Clip clip;
+        clip.duration = 1.0;
+        clip.transients = {{0.5, 0.6, sharpness}};
+        const std::string text = hjifOf(clip);
+        CHECK(transientTimes(text) == std::vector<double>{500.0});
+        const auto read = readHjif(text);
+        REQUIRE(read);
+        REQUIRE(read->clip.transients.size() == 1);
+        CHECK(read->clip.transients.front().amplitude == Approx(0.6).margin(0.015));
+        CHECK(read->clip.transients.front().sharpness == Approx(sharpness).margin(0.003));
+        const double wanted = powerOf(test::decoded(clip, static_cast<int>(fs)), fs, 0.49, 0.55);
+        CHECK(10.0 * std::log10(powerOf(test::playHjif(text, fs), fs, 0.49, 0.55) / wanted) == Approx(0.0).margin(1.0));
+    }
+}
+
 TEST_CASE("An event that the bands reach is an event of HJIF that adds nothing", "[formats]")
 {
     constexpr double fs = 8000.0;
