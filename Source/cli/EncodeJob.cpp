@@ -143,8 +143,8 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     auto made = makeClip(reader, input, progress, work);
     if (!made)
         return made.error();
-    // Both formats hold the same data: what lies on the grids of `quantise` bits. A clip of hours is large, so that there
-    // is never a second one.
+    // Both formats hold the same data: what lies on the grids of `quantise` bits. A clip of hours is large, so that
+    // there is never a second one.
     std::vector<std::byte> packed;
     work.run(
         [&]
@@ -248,7 +248,8 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& inpu
     if (isLong(reader) && !isStream(input))
     {
         done = shareOfPeak;
-        const auto found = peakOf(input, [&](double part) { progress(shareOfPeak * part); }, work);
+        const auto found = peakOf(
+            input, [&](double part) { progress(shareOfPeak * part); }, work);
         if (!found)
             return found.error();
         peak = *found;

@@ -12,8 +12,8 @@ namespace pacini
 
 namespace
 {
-/// Builds the text. Members and elements are put down by `line`, which sets commas and indentation, and hands on what is
-/// there when that has become much.
+/// Builds the text. Members and elements are put down by `line`, which sets commas and indentation, and hands on what
+/// is there when that has become much.
 class Writer
 {
 public:

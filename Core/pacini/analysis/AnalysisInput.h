@@ -86,8 +86,7 @@ private:
             return interleaved;
         limited.resize(interleaved.size());
         std::transform(interleaved.begin(), interleaved.end(), limited.begin(),
-                       [](float x)
-                       { return std::isfinite(x) ? clampTo(x, -limits::sample, limits::sample) : 0.0f; });
+                       [](float x) { return std::isfinite(x) ? clampTo(x, -limits::sample, limits::sample) : 0.0f; });
         return limited;
     }
 

@@ -56,9 +56,9 @@ struct BandAnalysisResult
 /// each band is transformed back from just its own bins, at a low rate, as an analytic signal. Bands are linear
 /// filters, so blocks add up to what one transform of the whole sound would give, but for the ringing that outlasts the
 /// 0.25 s guard. Transforms are in float: their rounding lies 130 dB below the peak of a block, and clips end at -72
-/// dB. Memory grows only with the result, 5.6 kB per second for 12 bands, and not even so where take() carries that off.
-/// reset() makes the object ready for the next sound and keeps its transforms, whose making costs as much as a second of
-/// sound.
+/// dB. Memory grows only with the result, 5.6 kB per second for 12 bands, and not even so where take() carries that
+/// off. reset() makes the object ready for the next sound and keeps its transforms, whose making costs as much as a
+/// second of sound.
 class BandAnalysis
 {
 public:
@@ -149,8 +149,8 @@ public:
         first.peak = result.peak;
         first.envelope = cut(result.envelope, BandAnalysisResult::envelopeStep);
         for (BandAnalysisResult::Track& track : result.tracks)
-            first.tracks.push_back(
-                {cut(track.amplitude, BandAnalysisResult::bandStep), cut(track.frequency, BandAnalysisResult::bandStep)});
+            first.tracks.push_back({cut(track.amplitude, BandAnalysisResult::bandStep),
+                                    cut(track.frequency, BandAnalysisResult::bandStep)});
         return first;
     }
 

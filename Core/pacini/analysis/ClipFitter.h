@@ -23,8 +23,8 @@ public:
     /// At most `breakpoints` per second of sound and band.
     explicit ClipFitter(double breakpoints) : pointsPerSecond(breakpoints) {}
 
-    /// Adds the curves of `found`, which begins `start` s after the clip, a multiple of 0.06 s, at the last frame of the
-    /// section before. The clip has its bands; its curves end at `start`, or are empty.
+    /// Adds the curves of `found`, which begins `start` s after the clip, a multiple of 0.06 s, at the last frame of
+    /// the section before. The clip has its bands; its curves end at `start`, or are empty.
     void add(Clip& clip, const BandAnalysisResult& found, double gain, double start)
     {
         Clip section;
@@ -136,8 +136,8 @@ private:
         }
     }
 
-    /// A curve of frequencies goes on at `start`. Where it is a single point, that holds for its whole section; where it
-    /// is empty, the one before or after.
+    /// A curve of frequencies goes on at `start`. Where it is a single point, that holds for its whole section; where
+    /// it is empty, the one before or after.
     static void joinPitch(Curve& curve, const Curve& next, double start)
     {
         constexpr double step = 3.0 * BandAnalysisResult::bandStep;

@@ -35,8 +35,8 @@ struct PackParams
 namespace detail
 {
 
-/// Codes a whole clip both ways: with a RangeWriter it writes the clip that it is given, and takes its curves away as it
-/// goes, since a clip of hours is large; with a RangeReader it fills one.
+/// Codes a whole clip both ways: with a RangeWriter it writes the clip that it is given, and takes its curves away as
+/// it goes, since a clip of hours is large; with a RangeReader it fills one.
 template <typename Coder>
 class ClipCoder
 {
