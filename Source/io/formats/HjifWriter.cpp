@@ -284,6 +284,11 @@ private:
             if (told[i].inTrain)
                 losses.add(LossKind::event, event.time, told[i].length, 0.0,
                            "a transient would fill the gaps of a fast train: its events are written as short waves");
+            if (told[i].tap > 0.0 && told[i].wave > 0.0)
+                losses.add(
+                    LossKind::event, event.time, hjifTransientLength, 0.0,
+                    "half of a sharp event is a transient, which is dull and 22 ms long in the reference player; "
+                    "the rest is a short wave of its own frequency");
             if (told[i].tap > 0.0)
             {
                 const double place = hjifDullFrequency + event.sharpness * (hjifSharpFrequency - hjifDullFrequency);
