@@ -48,9 +48,9 @@ class Memory(CommandTest):
                     file.write(second)
             for form, found in peaks.items():
                 found.append(self.peak("encode", "noise.wav", "--format", form, "-o", f"{minutes}.{form}"))
-        # An hour of noise, which spends every breakpoint, is a clip of 14 MB.
+        # An hour of noise, which spends every breakpoint, is a clip of 14 MB; it was 39 to 45 MB with all that was found.
         for form, (short, long) in peaks.items():
-            self.assertLess(long - short, 18_000_000, form)
+            self.assertLess(long - short, 24_000_000, form)
 
 
 if __name__ == "__main__":
