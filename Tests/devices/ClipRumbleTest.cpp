@@ -188,7 +188,7 @@ TEST_CASE("An event that the bands reach is still a click, and holds motors up; 
     CHECK(motorsOf(atEvent({ControllerHaptics::xbox})).strong == Approx(0.5 * 0.8));
     const WaveformState clicked =
         waveformOf(atEvent({ControllerHaptics::waveforms, Transport::usb, standardTrigger()}));
-    CHECK(clicked == WaveformState{Waveform::event, 0.5, true});
+    CHECK(clicked == WaveformState{devices::Waveform::event, 0.5, true});
     const auto tones = decodeRumble(sidesOf(atEvent({ControllerHaptics::hdRumble})).left);
     REQUIRE(tones);
     CHECK(tones->high.amplitude == 0.0);
@@ -224,7 +224,7 @@ TEST_CASE("On waveforms an event has its own time, then what lasts goes on", "[d
     {
         CAPTURE(packet);
         const bool isEvent = packet >= 10 && packet < 14;
-        CHECK(states[packet].waveform == (isEvent ? Waveform::event : Waveform::rumble)); // 200 Hz
+        CHECK(states[packet].waveform == (isEvent ? devices::Waveform::event : devices::Waveform::rumble)); // 200 Hz
         CHECK(states[packet].begins == (packet == 10 || packet == 11));
         CHECK(states[packet].intensity == Approx(packet == 10 ? 0.8 : isEvent ? 0.9 : 0.25));
     }
@@ -235,9 +235,9 @@ TEST_CASE("High bands buzz, low ones rumble, and both together are as intense as
     Clip clip = steadyClip({}, 0.3);
     clip.bands.push_back({350.0, 400.0, 450.0, 0, {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.4}, {1.0, 0.4}}, {}});
     const auto states = waveformsOf(clip, standardTrigger(), 45);
-    CHECK(states[10] == WaveformState{Waveform::rumble, states[10].intensity, false});
+    CHECK(states[10] == WaveformState{devices::Waveform::rumble, states[10].intensity, false});
     CHECK(states[10].intensity == Approx(0.3));
-    CHECK(states[40].waveform == Waveform::buzz);
+    CHECK(states[40].waveform == devices::Waveform::buzz);
     CHECK(states[40].intensity == Approx(0.5));
 }
 
@@ -262,8 +262,8 @@ TEST_CASE("A device without lasting waveforms plays events only, one without eve
     for (std::size_t packet = 0; packet < 20; ++packet)
     {
         CAPTURE(packet);
-        CHECK(clicked[packet].waveform == (packet == 10 ? Waveform::event : Waveform::stop));
-        CHECK(rumbled[packet].waveform == Waveform::rumble);
+        CHECK(clicked[packet].waveform == (packet == 10 ? devices::Waveform::event : devices::Waveform::stop));
+        CHECK(rumbled[packet].waveform == devices::Waveform::rumble);
         const bool isHeld = packet == 10 || packet == 11; // 30 ms
         CHECK(rumbled[packet].intensity == Approx(isHeld ? 1.0 : 0.1));
     }

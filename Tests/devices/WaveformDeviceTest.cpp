@@ -156,21 +156,21 @@ TEST_CASE("A touchpad's trigger has the ordinal, its steps of intensity, no repe
     Answer answer{"05 0310 0510 0410 0C 00 00"};
     const auto trigger = chosenWaveforms(deviceOf(touchpadDescriptor), answer.reader());
     REQUIRE(trigger);
-    const auto hex = [&](Waveform waveform, double intensity)
+    const auto hex = [&](devices::Waveform waveform, double intensity)
     {
         return hexOf(waveformReport(*trigger, {waveform, intensity}));
     };
     const std::string rest = "0000008813"; // 5000 ms
-    CHECK(hex(Waveform::event, 1.0) == "060304" + rest);
-    CHECK(hex(Waveform::event, 0.5) == "060302" + rest);
-    CHECK(hex(Waveform::event, 0.01) == "060301" + rest); // not rounded away
-    CHECK(hex(Waveform::rumble, 0.7) == "060403" + rest);
-    CHECK(hex(Waveform::buzz, 0.2) == "060501" + rest);
-    CHECK(hex(Waveform::buzz, 0.12) == "060200" + rest);
-    CHECK(hex(Waveform::stop, 1.0) == "060200" + rest);
+    CHECK(hex(devices::Waveform::event, 1.0) == "060304" + rest);
+    CHECK(hex(devices::Waveform::event, 0.5) == "060302" + rest);
+    CHECK(hex(devices::Waveform::event, 0.01) == "060301" + rest); // not rounded away
+    CHECK(hex(devices::Waveform::rumble, 0.7) == "060403" + rest);
+    CHECK(hex(devices::Waveform::buzz, 0.2) == "060501" + rest);
+    CHECK(hex(devices::Waveform::buzz, 0.12) == "060200" + rest);
+    CHECK(hex(devices::Waveform::stop, 1.0) == "060200" + rest);
     for (const double wrong : {0.0, -1.0, std::nan("")})
-        CHECK(hex(Waveform::event, wrong) == "060200" + rest);
-    CHECK(hex(Waveform::buzz, 2.0) == "060504" + rest);
+        CHECK(hex(devices::Waveform::event, wrong) == "060200" + rest);
+    CHECK(hex(devices::Waveform::buzz, 2.0) == "060504" + rest);
 }
 
 TEST_CASE("Numbers that do not end with bytes have their own bits only", "[devices]")
@@ -180,13 +180,13 @@ TEST_CASE("Numbers that do not end with bytes have their own bits only", "[devic
     REQUIRE(trigger);
     CHECK(answer.lastReport == 0);
     CHECK(trigger->eventTime.value == Approx(0.020));
-    const auto bits = [&](Waveform waveform, double intensity)
+    const auto bits = [&](devices::Waveform waveform, double intensity)
     {
         return hexOf(waveformReport(*trigger, {waveform, intensity}));
     };
-    CHECK(bits(Waveform::event, 1.0) == "004306"); // 3 and 100 << 4
-    CHECK(bits(Waveform::buzz, 0.5) == "002403");  // 4 and 50 << 4
-    CHECK(bits(Waveform::stop, 0.0) == "000200");
+    CHECK(bits(devices::Waveform::event, 1.0) == "004306"); // 3 and 100 << 4
+    CHECK(bits(devices::Waveform::buzz, 0.5) == "002403");  // 4 and 50 << 4
+    CHECK(bits(devices::Waveform::stop, 0.0) == "000200");
 }
 
 TEST_CASE("Without an intensity a waveform plays from half strength on, an event always", "[devices]")
@@ -194,19 +194,19 @@ TEST_CASE("Without an intensity a waveform plays from half strength on, an event
     Answer silent;
     const auto trigger = chosenWaveforms(deviceOf(dialDescriptor), silent.reader());
     REQUIRE(trigger);
-    const auto ordinal = [&](Waveform waveform, double intensity)
+    const auto ordinal = [&](devices::Waveform waveform, double intensity)
     {
         return hexOf(waveformReport(*trigger, {waveform, intensity}));
     };
-    CHECK(ordinal(Waveform::buzz, 0.6) == "010004");
-    CHECK(ordinal(Waveform::buzz, 0.4) == "010002");
-    CHECK(ordinal(Waveform::event, 0.1) == "010003");
+    CHECK(ordinal(devices::Waveform::buzz, 0.6) == "010004");
+    CHECK(ordinal(devices::Waveform::buzz, 0.4) == "010002");
+    CHECK(ordinal(devices::Waveform::event, 0.1) == "010003");
 }
 
 TEST_CASE("A device without a waveform for a state is stopped", "[devices]")
 {
     WaveformTrigger trigger = standardTrigger();
     trigger.event = 0;
-    CHECK(hexOf(waveformReport(trigger, {Waveform::event, 1.0})) == "010200000000");
-    CHECK(hexOf(waveformReport(standardTrigger(), {Waveform::event, 1.0})) == "010364000000");
+    CHECK(hexOf(waveformReport(trigger, {devices::Waveform::event, 1.0})) == "010200000000");
+    CHECK(hexOf(waveformReport(standardTrigger(), {devices::Waveform::event, 1.0})) == "010364000000");
 }
