@@ -13,8 +13,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <span>
+#include <vector>
 
 namespace pacini::test
 {
@@ -217,8 +217,8 @@ public:
     {
         // The mass of a motor turns with the device.
         if (profile.body && limits.maxExcursion && profile.technology != Technology::erm)
-            worn.emplace(WornChain(*profile.body, profile.resonance, static_cast<double>(WornChain::forceOf(profile))),
-                         fs);
+            worn.emplace_back(
+                WornChain(*profile.body, profile.resonance, static_cast<double>(WornChain::forceOf(profile))), fs);
     }
 
     void hold(float sample)
@@ -226,8 +226,8 @@ public:
         const auto drive = static_cast<double>(sample);
         level = std::max(level, std::abs(drive));
         mass.hold(drive);
-        if (worn)
-            worn->hold(drive);
+        for (auto& swinging : worn)
+            swinging.hold(drive);
         const double power = fullPower * drive * drive;
         temperature = power + (temperature - power) * cooling;
         hottest = std::max(hottest, temperature);
@@ -239,18 +239,19 @@ public:
     }
 
     [[nodiscard]] const Mass& moving() const { return mass; }
-    [[nodiscard]] const auto& movingAsWorn() const { return worn; }
+    /// Null without a body, or a limit.
+    [[nodiscard]] const auto* movingAsWorn() const { return worn.empty() ? nullptr : &worn.front(); }
     [[nodiscard]] Strain strain() const
     {
         return {limits.maxExcursion ? mass.peak() / *limits.maxExcursion : 0.0,
-                worn ? worn->peak() / *limits.maxExcursion : 0.0, limits.maxPower ? hottest / *limits.maxPower : 0.0,
-                level};
+                worn.empty() ? 0.0 : worn.front().peak() / *limits.maxExcursion,
+                limits.maxPower ? hottest / *limits.maxPower : 0.0, level};
     }
 
 private:
     ActuatorDrive limits;
     Mass mass;
-    std::optional<typename WornMass<Mass>::Type> worn;
+    std::vector<typename WornMass<Mass>::Type> worn; ///< one or none
     double fullPower, cooling;
     double temperature = 0.0, hottest = 0.0, level = 0.0;
 };

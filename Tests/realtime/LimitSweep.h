@@ -183,8 +183,7 @@ Strain strainOfStage(const LimitCase& limitCase, Random& random)
         return witness.strain();
     }
     const auto turn = static_cast<std::size_t>(random.uniform(0.3, 1.5) * static_cast<double>(limitCase.frames));
-    const bool seesWorn =
-        witness.movingAsWorn().has_value() && limitCase.swing != limitCase.profile.resonance.frequency;
+    const bool seesWorn = witness.movingAsWorn() != nullptr && limitCase.swing != limitCase.profile.resonance.frequency;
     for (std::size_t n = 0; n < limitCase.frames; ++n)
     {
         const bool along = n % (turn + 1) < turn * 3 / 4;
