@@ -30,7 +30,7 @@ struct BandAnalysisParams
     double overlap = 0.5;          ///< see BandFades
     double envelopeWindow = 0.010; ///< s, Hann window of the total envelope
     double bandWindow = 0.040;     ///< s, Hann window of band envelopes and pitches
-    bool onlyPeak = false;         ///< find nothing but BandAnalysisResult::peak, in a third of the time
+    bool onlyPeak = false;         ///< find nothing but BandAnalysisResult::peak
     bool operator==(const BandAnalysisParams&) const = default;
 };
 
@@ -49,6 +49,34 @@ struct BandAnalysisResult
     double peak = 0.0;           ///< largest magnitude of the analytic signal of all bands together
     std::vector<float> envelope; ///< mean magnitude of that analytic signal
     std::vector<Track> tracks;   ///< one for every band
+
+    /// Up to where all frames are there, s. O(bands).
+    [[nodiscard]] double seconds() const noexcept
+    {
+        std::size_t frames = tracks.front().amplitude.size();
+        for (const Track& track : tracks)
+            frames = std::min(frames, track.amplitude.size());
+        return std::min(static_cast<double>(frames) * bandStep, static_cast<double>(envelope.size()) * envelopeStep);
+    }
+
+    /// Takes away the first `length` s, a multiple of bandStep below seconds(); so much earlier the rest begins. The
+    /// frame at the cut is in both, the peak too.
+    [[nodiscard]] BandAnalysisResult takeFirst(double length)
+    {
+        const auto cut = [length](std::vector<float>& frames, double step)
+        {
+            const auto at = frames.begin() + static_cast<std::ptrdiff_t>(std::llround(length / step));
+            std::vector<float> first(frames.begin(), at + 1);
+            frames.erase(frames.begin(), at);
+            return first;
+        };
+        BandAnalysisResult first;
+        first.peak = peak;
+        first.envelope = cut(envelope, envelopeStep);
+        for (Track& track : tracks)
+            first.tracks.push_back({cut(track.amplitude, bandStep), cut(track.frequency, bandStep)});
+        return first;
+    }
 };
 
 /// Zero-phase analysis of a stream of one or more channels at analysisRate. The signal is cut into blocks with short
@@ -56,9 +84,9 @@ struct BandAnalysisResult
 /// each band is transformed back from just its own bins, at a low rate, as an analytic signal. Bands are linear
 /// filters, so blocks add up to what one transform of the whole sound would give, but for the ringing that outlasts the
 /// 0.25 s guard. Transforms are in float: their rounding lies 130 dB below the peak of a block, and clips end at -72
-/// dB. Memory grows only with the result, 5.6 kB per second for 12 bands, and not even so where take() carries that
-/// off. reset() makes the object ready for the next sound and keeps its transforms, whose making costs as much as a
-/// second of sound.
+/// dB. Memory grows only with the result, 5.6 kB per second for 12 bands, and not even so where takeFirst() carries
+/// that off. reset() makes the object ready for the next sound and keeps its transforms, whose making costs as much as
+/// a second of sound.
 class BandAnalysis
 {
 public:
@@ -118,41 +146,8 @@ public:
             analyseAndAdvance();
     }
 
-    /// Up to where the result is complete now, s.
-    [[nodiscard]] double complete() const noexcept { return secondsOf(output); }
-
-    /// Up to where all frames of `result` are there, s. O(bands).
-    [[nodiscard]] static double secondsOf(const BandAnalysisResult& result) noexcept
-    {
-        std::size_t frames = result.tracks.front().amplitude.size();
-        for (const BandAnalysisResult::Track& track : result.tracks)
-            frames = std::min(frames, track.amplitude.size());
-        return std::min(static_cast<double>(frames) * BandAnalysisResult::bandStep,
-                        static_cast<double>(result.envelope.size()) * BandAnalysisResult::envelopeStep);
-    }
-
-    /// Takes the first `seconds` out of the result, a multiple of bandStep below complete(); so much earlier the rest
-    /// begins. The frame at the cut is in both. `peak` is that of the sound so far.
-    [[nodiscard]] BandAnalysisResult take(double seconds) { return takeFrom(output, seconds); }
-
-    /// take() out of what finish() returned.
-    [[nodiscard]] static BandAnalysisResult takeFrom(BandAnalysisResult& result, double seconds)
-    {
-        const auto cut = [seconds](std::vector<float>& frames, double step)
-        {
-            const auto at = frames.begin() + static_cast<std::ptrdiff_t>(std::llround(seconds / step));
-            std::vector<float> first(frames.begin(), at + 1);
-            frames.erase(frames.begin(), at);
-            return first;
-        };
-        BandAnalysisResult first;
-        first.peak = result.peak;
-        first.envelope = cut(result.envelope, BandAnalysisResult::envelopeStep);
-        for (BandAnalysisResult::Track& track : result.tracks)
-            first.tracks.push_back({cut(track.amplitude, BandAnalysisResult::bandStep),
-                                    cut(track.frequency, BandAnalysisResult::bandStep)});
-        return first;
-    }
+    /// What is complete by now; taken from its front, it is not kept.
+    [[nodiscard]] BandAnalysisResult& found() noexcept { return output; }
 
     /// Completes the analysis of the sound and returns what was not taken of it.
     [[nodiscard]] BandAnalysisResult finish()

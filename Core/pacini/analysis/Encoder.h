@@ -129,8 +129,8 @@ public:
         features->push(input.push(interleaved));
         detectOnsets();
         analysis.push(input.channels());
-        while (knownPeak && analysis.complete() > sectionSeconds + aheadSeconds)
-            addSection(analysis.take(sectionSeconds), *knownPeak, detector->onsetsSoFar());
+        while (knownPeak && analysis.found().seconds() > sectionSeconds + aheadSeconds)
+            addSection(analysis.found().takeFirst(sectionSeconds), *knownPeak, detector->onsetsSoFar());
     }
 
     /// Completes the clip. Packing rounds its values to the grids of `quantise` bits.
@@ -143,8 +143,8 @@ public:
         BandAnalysisResult rest = analysis.finish();
         const std::vector<Onset> onsets = detector->finish();
         const double peak = knownPeak.value_or(rest.peak);
-        while (BandAnalysis::secondsOf(rest) > sectionSeconds + aheadSeconds)
-            addSection(BandAnalysis::takeFrom(rest, sectionSeconds), peak, onsets);
+        while (rest.seconds() > sectionSeconds + aheadSeconds)
+            addSection(rest.takeFirst(sectionSeconds), peak, onsets);
         addSection(std::move(rest), peak, onsets);
         complete(onsets, peak);
         return std::exchange(clip, {});
