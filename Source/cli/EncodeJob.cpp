@@ -70,7 +70,7 @@ bool isLong(const AudioReader& reader)
 }
 
 /// How much of the time of encoding a long sound its peak takes.
-constexpr double shareOfPeak = 0.35;
+constexpr double shareOfPeak = 0.2;
 
 /// Encoder parameters that follow from the sound.
 bool dependsOnSound(const EncoderParameter& parameter)
