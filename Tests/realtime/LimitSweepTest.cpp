@@ -8,6 +8,23 @@
 
 using namespace pacini;
 
+namespace
+{
+/// Holds the same noise in both, whose places then agree within `margin`.
+template <typename Swinging, typename Integrated>
+void checkSwingsAs(Swinging& swinging, Integrated& integrated, double margin)
+{
+    for (const float u : test::noise(4000, 3))
+    {
+        swinging.hold(static_cast<double>(u));
+        integrated.hold(static_cast<double>(u));
+    }
+    CHECK(swinging.displacement() == Approx(integrated.displacement()).epsilon(margin));
+    CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(margin));
+    CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
+}
+} // namespace
+
 TEST_CASE("No drive takes one of a thousand random actuators beyond its limits", "[realtime][protection]")
 {
     // Not by the steps of the guard nor by those of the long sweep, but by an integration of its own.
@@ -40,14 +57,7 @@ TEST_CASE("The mass of the long sweep swings as the integrated one", "[realtime]
             CAPTURE(q, fs);
             test::SwingingMass swinging(400.0, q, 1e-3, fs);
             test::SimulatedResonator integrated(400.0, q, 1e-3, fs);
-            for (const float u : test::noise(4000, 3))
-            {
-                swinging.hold(static_cast<double>(u));
-                integrated.hold(static_cast<double>(u));
-            }
-            CHECK(swinging.displacement() == Approx(integrated.displacement()).epsilon(1e-5));
-            CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(1e-5));
-            CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
+            checkSwingsAs(swinging, integrated, 1e-5);
         }
 }
 
@@ -66,14 +76,7 @@ TEST_CASE("The worn mass of the long sweep swings as the integrated one", "[real
                                     static_cast<double>(test::WornChain::forceOf(profile)));
         test::SwingingBody swinging(chain, fs);
         test::SimulatedBody integrated(chain, fs);
-        for (const float u : test::noise(4000, 3))
-        {
-            swinging.hold(static_cast<double>(u));
-            integrated.hold(static_cast<double>(u));
-        }
-        CHECK(swinging.displacement() == Approx(integrated.displacement()).epsilon(1e-4));
-        CHECK(swinging.velocity() == Approx(integrated.velocity()).epsilon(1e-4));
-        CHECK(swinging.peak() == Approx(integrated.peak()).epsilon(1e-3));
+        checkSwingsAs(swinging, integrated, 1e-4);
     }
 }
 
