@@ -5,6 +5,7 @@
 #include "cli/ProgramFolder.h"
 #include "cli/bench/BenchReport.h"
 #include "io/AtomicFile.h"
+#include "io/ShippedProfiles.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,16 @@ Exit BenchCommand::run(Console& console)
     for (const Bench& bench : allBenches())
         if (what == "all" || what == bench.name)
             reports.emplace_back(bench);
+    // Told before minutes of measuring, of which a table without rows would be left.
+    if (std::any_of(reports.begin(), reports.end(),
+                    [](const BenchReport& report) { return report.bench.needsProfiles; }) &&
+        shippedProfiles(programFolder()).empty())
+    {
+        console.error(
+            programFolder().string(),
+            {ErrorCode::io, "", "has no folder 'profiles' in it or above it, which bench actuators measures"});
+        return Exit::failed;
+    }
     for (std::size_t i = 0; i < found.files.size(); ++i)
     {
         const auto& file = found.files[i];

@@ -41,6 +41,13 @@ class Profiles(CommandTest):
         done = subprocess.run([self.folder / "alone", "profiles"], capture_output=True, timeout=60)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.decode(), r"^pacini: .*profiles.*\n$")
+        (self.folder / "a.wav").write_bytes(wav(sine(100, 0.2)))
+        for what in ("actuators", "all"):
+            done = subprocess.run([self.folder / "alone", "bench", what, self.folder / "a.wav", "-o", self.folder / "out"],
+                                  capture_output=True, timeout=60)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr.decode(), r"^pacini: .*profiles.*\n$")
+            self.assertFalse((self.folder / "out").exists())
 
     def test_a_profile_is_shown_by_name_and_by_file(self):
         by_name = self.succeeds("info", "l5-wristband")

@@ -132,7 +132,9 @@ Bench actuatorsBench()
              {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
             {{"", "Likeness against felt level", "played", "level", "HTS", "profile", {}, {}, false}},
             {},
-            measureActuators};
+            measureActuators,
+            true,
+            true};
 }
 
 } // namespace pacini::cli

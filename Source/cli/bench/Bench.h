@@ -41,7 +41,8 @@ struct Bench
     std::vector<std::string> perSound; ///< Markdown shows each sound's row that agrees in these keys with the first row
     /// Adds the rows of one sound.
     void (*measure)(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows);
-    bool usesSounds = true; ///< false: makes its own signals, once
+    bool usesSounds = true;     ///< false: makes its own signals, once
+    bool needsProfiles = false; ///< measures on each shipped profile
 };
 
 /// The RMS error that a signal-to-noise ratio (dB) means, in % of the signal.
