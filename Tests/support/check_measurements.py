@@ -22,12 +22,17 @@ def complaint(text, version):
         return "does not say which Pacini made it; " + AGAIN
     if minor(made[1]) != minor(version):
         return f"was made by Pacini {made[1]}, this is {version}; " + AGAIN
+    empty = re.search(r"^\|[-|: ]+\|\n(?!\|)", text, re.M)
+    if empty:
+        return f"has a table without rows: line {text.count(chr(10), 0, empty.start()) + 1}; " + AGAIN
     return None
 
 
 def main():
     page = "# Measurements\n\nMade by Pacini 1.2.3 with\n"
     assert complaint(page, "1.2.0") is None and complaint(page, "1.3.0") and complaint(page, "2.2.3")
+    table = "\n| a | b |\n|---|---:|\n"
+    assert complaint(page + table, "1.2.3") and complaint(page + table + "| 1 | 2 |\n", "1.2.3") is None
     assert complaint("# Measurements\n", "1.2.3")
     wrong = [(name, why) for name in PAGES if (why := complaint((Path(sys.argv[1]) / name).read_text(), sys.argv[2]))]
     for name, why in wrong:
