@@ -1,7 +1,7 @@
 // What the rows of the sound and of the actuator show, and how the view follows.
 
 #include "editor/Bench.h"
-#include "support/Paths.h"
+#include "support/ShippedProfile.h"
 
 #include <array>
 
@@ -12,9 +12,7 @@ namespace
 {
 editor::NamedProfile shipped(const std::string& name)
 {
-    auto read = readProfile(sourceFolder() / "profiles" / (name + ".json"));
-    REQUIRE(read.ok());
-    return {name, std::make_shared<const Profile>(std::move(read).value())};
+    return {name, std::make_shared<const Profile>(shippedProfile(name))};
 }
 
 juce::Image pictureOf(juce::Component& component)

@@ -1,10 +1,10 @@
-#include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
 #include "support/Measure.h"
 #include "support/Paths.h"
 #include "support/Render.h"
+#include "support/ShippedProfile.h"
 
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -17,16 +17,10 @@
 
 using namespace pacini;
 using test::drive;
+using test::shippedProfile;
 
 namespace
 {
-Profile shipped(const std::string& name)
-{
-    const auto profile = readProfile(sourceFolder() / "profiles" / (name + ".json"));
-    REQUIRE(profile.ok());
-    return *profile;
-}
-
 Band band(double hertz, double level, int priority = 0)
 {
     return {hertz / 1.2, hertz, hertz * 1.2, priority, {{0.0, level}, {1.0, level}}, {{0.0, hertz}, {1.0, hertz}}};
@@ -51,7 +45,7 @@ TEST_CASE("An adapted clip lies within the actuator's range and voices, and is a
 {
     for (const auto& entry : shippedProfiles(sourceFolder()))
     {
-        const Profile profile = shipped(entry.name);
+        const Profile profile = shippedProfile(entry.name);
         if (profile.technology == Technology::pcm)
             continue;
         const auto flattening = flatteningOf(profile, Decibels(6.0));
@@ -115,7 +109,7 @@ TEST_CASE("Voices that merge keep their power, and the pitch is that of whicheve
 TEST_CASE("Flattening starts and stops a slow actuator sooner", "[adaptation]")
 {
     // A burst at the resonance of an LRA, felt through its body.
-    const Profile profile = shipped("lra-175");
+    const Profile profile = shippedProfile("lra-175");
     Clip clip;
     clip.duration = 1.0;
     clip.bands = {{160.0, 175.0, 190.0, 0, {{0.1, 0.0}, {0.1, 0.1}, {0.6, 0.1}, {0.6, 0.0}}, {}}};
@@ -155,7 +149,7 @@ TEST_CASE("Voices go to the plays of most priority, then strength, and are lost 
 
 TEST_CASE("An actuator of one voice plays one of two clips at a time", "[adaptation]")
 {
-    const Profile profile = shipped("lra-175");
+    const Profile profile = shippedProfile("lra-175");
     Scene scene;
     Clip low, high;
     low.duration = high.duration = 1.0;
@@ -185,7 +179,7 @@ TEST_CASE("An actuator of one voice plays one of two clips at a time", "[adaptat
 
 TEST_CASE("A motor gets a voltage, not a vibration", "[adaptation]")
 {
-    const Profile profile = shipped("erm-coin");
+    const Profile profile = shippedProfile("erm-coin");
     Clip clip;
     clip.duration = 2.0;
     clip.bands = {{150.0, 200.0, 250.0, 0, {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.8}, {1.5, 0.8}, {1.5, 0.0}}, {}}};
@@ -209,7 +203,7 @@ TEST_CASE("No scene drives an actuator beyond full scale", "[adaptation]")
 {
     for (const auto& entry : shippedProfiles(sourceFolder()))
     {
-        const Profile profile = shipped(entry.name);
+        const Profile profile = shippedProfile(entry.name);
         for (std::uint64_t seed = 1; seed < 5; ++seed)
         {
             Clip clip = test::randomClip(seed);
@@ -224,7 +218,7 @@ TEST_CASE("No scene drives an actuator beyond full scale", "[adaptation]")
 
 TEST_CASE("The look-ahead of the protection is taken out of the output", "[adaptation]")
 {
-    Profile profile = shipped("l5-wristband");
+    Profile profile = shippedProfile("l5-wristband");
     profile.equalizer.clear();
     CompileParams params;
     params.adapt = false;

@@ -1,9 +1,9 @@
 #include "io/AudioReader.h"
-#include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/Render.h"
+#include "support/ShippedProfile.h"
 
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/analysis/Encoder.h>
@@ -64,13 +64,12 @@ TEST_CASE("Adapting beats playing it as it is by 5 points of HTS on every narrow
     REQUIRE(sounds.size() >= 6);
     for (const char* name : {"lra-175", "lra-235-narrow", "erm-coin", "phone-taptic", "joycon-hd-rumble"})
     {
-        const auto profile = readProfile(sourceFolder() / "profiles" / (std::string(name) + ".json"));
-        REQUIRE(profile.ok());
+        const Profile profile = test::shippedProfile(name);
         double gained = 0.0;
         for (const Sound& sound : sounds)
             for (const bool adapt : {false, true})
             {
-                const auto y = felt(sound.clip, *profile, adapt);
+                const auto y = felt(sound.clip, profile, adapt);
                 const auto features = htsCandidateFeatures(analyzer, std::span<const float>(y), 48000);
                 REQUIRE(features.ok());
                 gained += (adapt ? 1.0 : -1.0) * compare(sound.features, *features, HtsMode::translation).score;

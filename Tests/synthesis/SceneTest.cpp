@@ -3,6 +3,7 @@
 #include "support/HeapGuard.h"
 #include "support/Measure.h"
 #include "support/Render.h"
+#include "support/ShippedProfile.h"
 
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
@@ -274,6 +275,40 @@ TEST_CASE("What is left out costs less than predicted, and that less than the to
             if (tolerance == -40.0)
                 CHECK(plan->leftOut.size() >= 12);
         }
+}
+
+TEST_CASE("The error of leaving out keeps its bound behind limiters", "[scene]")
+{
+    // Full drive alone; travel and heat as well; a limit that a quarter of the drive reaches.
+    const Profile wristband = test::shippedProfile("l5-wristband");
+    Profile narrow = test::shippedProfile("lra-175");
+    narrow.drive.maxExcursion = 0.25 * worstExcursion(*excursionParams(narrow));
+    const std::vector<const Profile*> profiles = {nullptr, &wristband, &narrow};
+    std::size_t limited = 0, leftOut = 0;
+    for (const Profile* profile : profiles)
+        for (std::uint64_t seed = 1; seed <= 10; ++seed)
+            for (double tolerance : {-30.0, -40.0, -60.0})
+            {
+                CAPTURE(profile == nullptr ? "none" : profile->name, seed, tolerance);
+                Scene scene = crowd(seed, 24, 1 + seed % 8);
+                scene.gain = 3.0 * static_cast<double>(seed % 6);
+                scene.actuators = 1 + static_cast<int>(seed % 2);
+                for (std::size_t i = 1 + seed % 8; i < 16; ++i) // audible, but little
+                    scene.plays[i].gain += 35.0;
+                CompileParams params;
+                params.tolerance = tolerance;
+                const auto plan = compilePlan(scene, profile, params);
+                REQUIRE(plan.ok());
+                ScenePlayer player(*plan);
+                const auto some = test::renderChannels(player, player.actuators(), 4096);
+                const double measured = errorInDecibels(some, render(scene, playEverything(), profile));
+                CHECK(measured <= plan->predictedError);
+                CHECK(plan->predictedError <= tolerance);
+                limited += player.mostReduction() > 1.0 ? 1 : 0;
+                leftOut += plan->leftOut.empty() ? 0 : 1;
+            }
+    CHECK(limited >= 45);
+    CHECK(leftOut >= 60);
 }
 
 TEST_CASE("A plan names what it leaves out and why", "[scene]")

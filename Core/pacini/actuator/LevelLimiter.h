@@ -36,7 +36,7 @@ public:
     {
         fs = spec.sampleRate;
         line.assign(static_cast<std::size_t>(Protection::maxLookAhead * fs) + 1, 0.0f);
-        gain.prepare(line.size() - 1);
+        gain.prepare(line.size() - 1, static_cast<std::size_t>(longestLimiterHold * fs));
         setParams(current);
         reset();
     }
@@ -53,8 +53,7 @@ public:
             std::fill(line.begin(), line.end(), 0.0f);
             position = 0;
         }
-        const double low = clampTo(params.lowFrequency.value, 1.0, 20000.0);
-        gain.design(latency, static_cast<std::size_t>(clampTo(0.5 / low, 0.002, 0.05) * fs), fs);
+        gain.design(latency, static_cast<std::size_t>(limiterHold(params.lowFrequency) * fs), fs);
     }
 
     void reset() noexcept

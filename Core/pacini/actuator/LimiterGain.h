@@ -2,6 +2,10 @@
 
 // The gain of a limiter: knee, hold, release, look-ahead.
 
+#include <pacini/actuator/SlidingMaximum.h>
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Units.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -39,22 +43,31 @@ struct HardKnee
     static constexpr double startSquared = 1.0; ///< up to it the gain is 1
 };
 
-/// The gain that brings a level down to its limit. It holds the highest level for the time of `hold` (half a period of
-/// the lowest tone: the gain does not follow the waveform), then lets it go by 40 dB/s. With a look-ahead of n frames
-/// the gain is the mean of its newest n + 1 values, so that it arrives gradually at the frame that needs it, n frames
-/// after the level was told; hold must not be shorter than the look-ahead. Without look-ahead the gain acts at once.
+/// The gain that brings a level down to its limit. It answers the highest level within the time of `hold` (half a
+/// period of the lowest tone: the gain does not follow the waveform), which it then lets go by 40 dB/s. With a
+/// look-ahead of n frames the gain is the mean of its newest n + 1 values, so that it arrives gradually at the frame
+/// that needs it, n frames after the level was told; hold must not be shorter than the look-ahead. Without look-ahead
+/// the gain acts at once.
+///
+/// Nothing here is decided by comparing peaks, so the gain is a continuous function of the levels: what changes no
+/// level by more than d (parts of the limit) changes no frame behind the gain by more than its own change and d.
+/// LimitedError builds on that.
 template <typename Knee>
 class KneeLimiterGain
 {
 public:
     static constexpr double releaseRate = 40.0; ///< dB/s
 
-    /// Allocates room for look-aheads of up to `maxLookAhead` frames.
-    void prepare(std::size_t maxLookAhead) { window.assign(maxLookAhead + 1, 1.0); }
+    /// Allocates room for look-aheads of up to `maxLookAhead` frames and holds of up to `maxHold`.
+    void prepare(std::size_t maxLookAhead, std::size_t maxHold)
+    {
+        window.assign(maxLookAhead + 1, 1.0);
+        newest.prepare(std::max(maxHold, maxLookAhead + 1) + 1);
+    }
 
     void design(std::size_t lookAheadFrames, std::size_t holdFrames, double fs) noexcept
     {
-        hold = std::max(holdFrames, lookAheadFrames + 1);
+        newest.setLength(std::max(holdFrames, lookAheadFrames + 1) + 1);
         decay = std::pow(10.0, -releaseRate / (10.0 * fs));
         if (lookAheadFrames + 1 != length)
         {
@@ -66,8 +79,8 @@ public:
     void reset() noexcept
     {
         std::fill(window.begin(), window.end(), 1.0);
+        newest.reset();
         held = Knee::startSquared;
-        left = 0;
         target = 1.0;
         position = 0;
         sum = static_cast<double>(length);
@@ -81,23 +94,21 @@ public:
     /// Takes the square of the level over its limit and returns the gain, between 0 and 1.
     double tick(double ratioSquared) noexcept
     {
+        const bool matters = ratioSquared > Knee::startSquared;
         if (idle())
         {
-            if (!(ratioSquared > Knee::startSquared))
+            if (!matters)
                 return 1.0;
             position = 0;
             sum = static_cast<double>(length);
             lap = 0.0;
         }
-        const double before = held;
-        if (ratioSquared > held)
-            held = ratioSquared;
-        if (ratioSquared >= samePeak * held)
-            left = hold;
-        else if (left > 0)
-            --left;
+        if (matters)
+            newest.push(ratioSquared);
         else
-            held = std::max({ratioSquared, held * decay, Knee::startSquared}); // all lower ones are the same
+            newest.skip();
+        const double before = held;
+        held = std::max(held * decay, newest.empty() ? Knee::startSquared : newest.largest());
         if (held != before)
             target = held > Knee::startSquared ? Knee::gain(held) : 1.0;
         unity = target == 1.0 ? unity + 1 : 0;
@@ -115,12 +126,9 @@ public:
     }
 
 private:
-    static constexpr double samePeak = 0.9; // the next peak of the same tone, met by other samples
-
-    std::size_t hold = 1;
+    SlidingMaximum newest; ///< of the levels that matter
     double decay = 1.0;
     double held = Knee::startSquared;
-    std::size_t left = 0;
     double target = 1.0;
     std::size_t unity = 1; // how often the target has been 1 of late
     std::size_t length = 1;
@@ -129,6 +137,14 @@ private:
     double lap = 0.0;
     std::vector<double> window = std::vector<double>(1, 1.0);
 };
+
+inline constexpr double longestLimiterHold = 0.05; // s
+
+/// How long a limiter holds where `low` is the lowest tone, s: half its period, within 2 to 50 ms.
+[[nodiscard]] inline double limiterHold(Hertz low) noexcept
+{
+    return clampTo(0.5 / clampTo(low.value, 1.0, 20000.0), 0.002, longestLimiterHold);
+}
 
 using LimiterGain = KneeLimiterGain<SoftKnee>;
 

@@ -71,7 +71,7 @@ public:
         fs = spec.sampleRate;
         const auto frames = static_cast<std::size_t>(maxLookAhead * fs);
         line.assign(frames + lineRoom, 0.0);
-        gain.prepare(frames);
+        gain.prepare(frames, static_cast<std::size_t>(longestLimiterHold * fs));
         setParams(current);
         reset();
     }
@@ -110,7 +110,7 @@ public:
             std::fill(line.begin(), line.end(), 0.0);
             position = latency;
         }
-        gain.design(latency, static_cast<std::size_t>(clampTo(0.5 / low, 0.002, 0.05) * fs), fs);
+        gain.design(latency, static_cast<std::size_t>(limiterHold(params.lowFrequency) * fs), fs);
     }
 
     void reset() noexcept
@@ -305,7 +305,7 @@ private:
             drive = heat.admit(drive);
         if (current.excursion)
             drive = excursion.admit(drive);
-        if (std::abs(wanted - drive) > 1e-6)
+        if (std::abs(wanted - drive) > 1e-4) // below -80 dB is what the second high-pass adds to a drive at its limit
             ++lastCall.guardedFrames;
         return drive;
     }

@@ -21,6 +21,8 @@ namespace pacini
 class DriveStage
 {
 public:
+    DriveStage() { limiter.prepare(0, static_cast<std::size_t>(limiterHold * highestInnerRate)); }
+
     /// Of a design, which stays where it is. Silence follows.
     void adopt(const TranslatorDesign& wanted) noexcept
     {
@@ -31,7 +33,7 @@ public:
             motor.prepare({fs, controlHop});
             motor.setParams(*wanted.motor);
         }
-        limiter.design(0, static_cast<std::size_t>(0.010 * fs), fs);
+        limiter.design(0, static_cast<std::size_t>(limiterHold * fs), fs);
         strengthShare = hopShare(0.010, fs); // a motor follows no faster
         burstHops = static_cast<std::size_t>(wanted.motorBurst * fs / static_cast<double>(controlHop)) + 1;
         reset();
@@ -124,6 +126,8 @@ public:
     [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
 
 private:
+    static constexpr double limiterHold = 0.010; // s
+
     /// Twice smoothed: the drive of a motor sharpens every ripple.
     void aimStrength(double energy) noexcept
     {

@@ -84,7 +84,10 @@ struct TranslatorDesign
     TranslatorPlan plan;
 };
 
-/// The whole factor by which the translator lowers a rate: to 6 kHz or a little more, where 1 kHz has room.
+inline constexpr double highestInnerRate = 12000.0; // Hz
+
+/// The whole factor by which the translator lowers a rate: to 6 kHz or a little more, where 1 kHz has room, and less
+/// than highestInnerRate.
 [[nodiscard]] inline std::size_t translatorFactor(double fs) noexcept
 {
     return static_cast<std::size_t>(std::max(1.0, std::floor(clampTo(fs, 2000.0, 1e7) / 6000.0)));

@@ -7,6 +7,7 @@
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/ErrorSum.h>
 #include <pacini/synthesis/LeaveOut.h>
+#include <pacini/synthesis/LimitedError.h>
 #include <pacini/synthesis/LoopUnroll.h>
 #include <pacini/synthesis/PlayEnergy.h>
 #include <pacini/synthesis/RenderPlan.h>
@@ -77,6 +78,20 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
 }
 
 inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
+
+/// Makes energies those behind the limiter of the actuator, where it can come to act; a motor has none. Returns what a
+/// small change of the whole scene costs there, in energies of that change.
+inline double limitEnergies(const RenderPlan& plan, std::vector<PlayEnergy>& energies, const Profile* profile)
+{
+    if (plan.motor)
+        return 1.0;
+    const LimitedScene limited(plan, energies, limiterModel(profile));
+    if (!limited.limits())
+        return 1.0;
+    for (std::size_t i = 0; i < energies.size(); ++i)
+        limited.limit(plan.plays[i], plan.duration, energies[i]);
+    return LimitedScene::wholeScene;
+}
 
 /// How an actuator's own events are played, after the clip's method and the user.
 inline void fitPulses(DecoderParams& params, const Profile& profile, const DecoderChoice& choice)
@@ -274,16 +289,17 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
     if (adapts && params.adaptation.voices && profile->polyphony > 0 &&
         profile->polyphony < Profile::unlimitedPolyphony)
         detail::limitVoices(plan, scene, *profile, energies, outputFilter);
-    double whole = 0.0;
-    for (const PlayEnergy& energy : energies)
-        whole += energy.least;
-
-    double lost = 0.0;
+    double lost = 0.0, whole = 0.0;
     if (params.leaveOut)
     {
+        const double wholeError = detail::limitEnergies(plan, energies, profile);
+        for (const PlayEnergy& energy : energies)
+            whole += energy.least;
         lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
         if (plan.profile)
-            lost += whole * detail::leaveOutFlatSections(plan, params.tolerance, params.sampleRate);
+            lost +=
+                whole * wholeError *
+                detail::leaveOutFlatSections(plan, params.tolerance - 10.0 * std::log10(wholeError), params.sampleRate);
     }
     plan.predictedError = detail::errorInDecibels(lost, whole);
     std::stable_sort(plan.plays.begin(), plan.plays.end(),

@@ -20,6 +20,24 @@
 namespace pacini
 {
 
+/// The largest gains of an output filter for the parts of a clip.
+struct PartGains
+{
+    std::vector<double> bands;
+    std::vector<double> noise;
+    double events = 1.0;
+
+    [[nodiscard]] double largest() const noexcept
+    {
+        double most = 0.0;
+        for (const double gain : bands)
+            most = std::max(most, gain);
+        for (const double gain : noise)
+            most = std::max(most, gain);
+        return most;
+    }
+};
+
 /// Energies in (drive^2) s over all actuators.
 struct PlayEnergy
 {
@@ -27,6 +45,12 @@ struct PlayEnergy
     double most = 0.0;         ///< leaving the play out costs at most this
     std::vector<double> bands; ///< leaving one band out costs at most this
     std::vector<double> noise; ///< the same for bands of noise
+    PartGains gains;
+    bool levelled = false;   ///< bands are levelled to the envelope
+    double bandErrors = 1.0; ///< energy of the error over that of a band left out
+
+    /// Beats that are too fast to be levelled stand out by up to 4 / pi of power (Rayleigh).
+    static constexpr double fastBeats = 1.3;
 };
 
 namespace detail
@@ -131,6 +155,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
 
     PlayEnergy result;
     const bool levelled = params.followEnvelope && !clip.envelope.empty();
+    result.levelled = levelled;
     double sum = 0.0, least = 0.0;
     detail::PowerRange whole;
     for (const Band& band : clip.bands)
@@ -146,6 +171,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
         const double own = 0.5 * energy(band.amplitude);
         const auto range = power(low, high);
         result.bands.push_back(own * range.most);
+        result.gains.bands.push_back(std::sqrt(range.most));
         sum += own;
         if (own > 0.0)
         {
@@ -158,6 +184,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
         const double own = energy(band.amplitude);
         const auto range = power(std::max(1.0, band.lowFrequency), std::max(2.0, band.highFrequency));
         result.noise.push_back(own * range.most);
+        result.gains.noise.push_back(std::sqrt(range.most));
         sum += own;
         if (own > 0.0)
         {
@@ -170,16 +197,16 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
     {
         const double wanted = 0.5 * energy(clip.envelope);
         least *= wanted / sum;
-        // Beats that are too fast to be levelled stand out by up to 4 / pi of power (Rayleigh).
-        most = wanted * whole.most * 1.3;
-        const double scale = 4.0 * std::max(1.0, wanted / sum);
+        most = wanted * whole.most * PlayEnergy::fastBeats;
+        result.bandErrors = 4.0 * std::max(1.0, wanted / sum);
         for (double& band : result.bands)
-            band *= scale;
+            band *= result.bandErrors;
         for (double& band : result.noise)
-            band *= scale;
+            band *= result.bandErrors;
     }
 
     const auto broad = power(40.0, 400.0);
+    result.gains.events = std::sqrt(broad.most);
     for (const Transient& event : clip.transients)
     {
         const double at = start + clock.frameOf(event.time);

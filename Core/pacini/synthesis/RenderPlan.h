@@ -53,7 +53,7 @@ struct RenderPlan
     std::vector<PlannedPlay> plays; ///< in order of start
     std::vector<Adaptation> adaptations;
     std::vector<LeftOut> leftOut;
-    double predictedError = 0.0; ///< dB below the scene before limiters, of all left out; -infinity = nothing lost
+    double predictedError = 0.0; ///< dB below the scene, of all left out, behind limiters; -infinity = nothing lost
 };
 
 } // namespace pacini
