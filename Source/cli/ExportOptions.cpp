@@ -20,6 +20,9 @@ void ExportOptions::declare(CLI::App& command)
                     "For other formats: at most this many points of frequency per second [three quarters of --points]")
         ->check(numberFrom(0.5, 10000.0));
     command.add_flag("--split", split, "For formats that can be one file or several: write several");
+    command.add_flag("--quick", quick,
+                     "For formats whose best file is searched for (hjif): write one that is mostly good, in a fraction "
+                     "of the time");
     command.add_option("--sample-rate", rate, "For formats that are samples, Hz [the format's own]")
         ->check(wholeNumberFrom(100, 384000));
     command
@@ -43,6 +46,7 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
     if (rate > 0)
         result.sampleRate = rate;
     result.split = split;
+    result.quick = quick;
     if (!profile.empty())
     {
         result.profile = openProfile(console, profile);
@@ -54,13 +58,13 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
 
 std::string ExportOptions::record() const
 {
-    return fmt::format("points {}, frequency points {}, sample rate {}{}{}", points, frequencyPoints, rate,
-                       split ? ", split" : "", profile.empty() ? "" : ", profile " + profile);
+    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}", points, frequencyPoints, rate,
+                       split ? ", split" : "", quick ? ", quick" : "", profile.empty() ? "" : ", profile " + profile);
 }
 
 bool ExportOptions::given() const noexcept
 {
-    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || !profile.empty();
+    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || !profile.empty();
 }
 
 } // namespace pacini::cli

@@ -33,6 +33,7 @@ private:
     double frequencyPoints = 0.0;
     int rate = 0;
     bool split = false;
+    bool quick = false;
     std::string profile;
 };
 

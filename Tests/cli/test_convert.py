@@ -81,6 +81,19 @@ class Convert(CommandTest):
         self.assertNotEqual(envelopes(self.folder / "other.haptic")["frequency"],
                             envelopes(self.folder / "usual.haptic")["frequency"])
 
+    def test_quick_hjif_is_another_file_and_recorded_as_such(self):
+        wave = [{"time": i / 50, "amplitude": 0.4 + 0.3 * (i * 7 % 5) / 5} for i in range(51)]
+        bands = [{"lowFrequency": 0.8 * f, "centreFrequency": f, "highFrequency": 1.2 * f, "amplitude": wave,
+                  "pitch": [{"time": 0, "frequency": f}]} for f in (60, 90, 130, 180, 250, 350)]
+        self.clip("in/clip.json", envelope=wave, bands=bands)
+        arguments = ["convert", "in", "out", "--format", "hjif"]
+        searched = self.report(*arguments)["files"][0]
+        quick = self.report(*arguments, "--quick")["files"][0]
+        self.assertFalse(quick["upToDate"])
+        self.assertNotEqual(quick["outputs"], searched["outputs"])
+        self.assertTrue(self.report(*arguments, "--quick")["files"][0]["upToDate"])
+        self.assertGreater(self.report("info", "out/clip.hjif")["duration"], 0.9)
+
     def test_a_folder_is_converted_once_and_recorded(self):
         for name in ("a", "b", "sub/c"):
             self.put(f"in/{name}.haptic", json.dumps(HAPTIC))

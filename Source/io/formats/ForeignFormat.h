@@ -70,6 +70,7 @@ struct ExportParams
     std::optional<Profile> profile;        ///< where a format leaves open what its frequencies mean, and for rendering
     std::optional<int> sampleRate;         ///< Hz, of formats that are samples
     bool split = false;                    ///< formats that can be one file or several: several
+    bool quick = false;                    ///< formats whose best file is searched for: one that is mostly good
     bool operator==(const ExportParams&) const = default;
 };
 

@@ -200,12 +200,13 @@ Written usual(const Clip& clip, CarrierMode carriers)
 }
 } // namespace
 
-Clip hjifVoicesOf(const Clip& clip, LossList& losses)
+Clip hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort)
 {
     const DecoderParams decoder = decoderParamsFor(clip, {}, {}, 67.0);
     if (clip.envelope.empty() || clip.bands.empty() || !decoder.followEnvelope)
         return playedClip(clip, 1.0, fineStep);
-    Written written = clip.duration > longestSearched ? usual(clip, decoder.carriers) : Search(clip, decoder).best();
+    const bool search = effort == HjifEffort::search && clip.duration <= longestSearched;
+    Written written = search ? Search(clip, decoder).best() : usual(clip, decoder.carriers);
     if (clip.bands.size() > written.all.bands.size())
         losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
                    fmt::format("{} bands share {}", clip.bands.size(), written.all.bands.size()));

@@ -9,15 +9,22 @@
 namespace pacini
 {
 
+/// How much is tried to make a file of few bytes that feels like the clip.
+enum class HjifEffort
+{
+    search, ///< up to 42 files are compared with the clip: 45 ms a second of sound
+    usual   ///< one that is mostly good: 1 ms
+};
+
 /// The clip as playedClip() makes it, on four to six bands where its bands have pitch (with the events that leaves the
 /// seven of the Simple Parametric profile): more take more bytes, since each carries the rise and fall of the envelope,
 /// and beat more. Pitch is within one or two semitones, of the eighth to the quarter of an octave that skin tells
 /// apart. How many bands, how near their pitch and how many points are what makes the file feel most like the clip for
 /// its bytes (see HjifLikeness): a kilobyte per second costs 0.6 points. Around events that are felt in one of both
-/// only, errors count three times, up to twice over. Clips of more than two minutes have five bands within two
-/// semitones and points that save 12 dB^2 in steps of 5 ms. Events that the bands reach by themselves have an amplitude
-/// by which their pulses stand 25 dB below the bands: they are still events of the file, and add nothing. Clips that
-/// are not levelled keep their points and their events.
-[[nodiscard]] Clip hjifVoicesOf(const Clip& clip, LossList& losses);
+/// only, errors count three times, up to twice over. Without a search, and in clips of more than two minutes, there are
+/// five bands within two semitones and points that save 12 dB^2 in steps of 5 ms. Events that the bands reach by
+/// themselves have an amplitude by which their pulses stand 25 dB below the bands: they are still events of the file,
+/// and add nothing. Clips that are not levelled keep their points and their events.
+[[nodiscard]] Clip hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort = HjifEffort::search);
 
 } // namespace pacini

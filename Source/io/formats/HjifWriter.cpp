@@ -340,7 +340,7 @@ private:
 Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     LossList losses;
-    Clip played = hjifVoicesOf(clip, losses);
+    Clip played = hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search);
     losses.addNoise(clip);
     losses.addText(clip, true);
     const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two

@@ -208,6 +208,15 @@ TEST_CASE("An HJIF file with all bands sounds as the clip does", "[formats][form
         [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 1.0, 3.0);
 }
 
+TEST_CASE("An HJIF file that was not searched for keeps most", "[formats][formatquality]")
+{
+    ExportParams params;
+    params.quick = true;
+    compareAll(
+        "HJIF, quick", [](const Clip& clip) { return test::decoded(clip, fs); },
+        [&](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, params)), fs); }, 3.5, 17.0);
+}
+
 TEST_CASE("A .haptic file of the usual density sounds as the clip's one voice does", "[formats][formatquality]")
 {
     const Render exported = [](const Clip& clip)
