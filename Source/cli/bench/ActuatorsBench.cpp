@@ -111,30 +111,31 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
 
 Bench actuatorsBench()
 {
-    return {"actuators",
-            "Actuators: what adapting a clip gains on each shipped profile",
-            "The clip that the encoder makes of each sound (first 10 s) is played at 48 kHz on every shipped profile, "
-            "with its protection: as it is; adapted without flattening; adapted (the default: the inverse of the "
-            "resonance raises the drive by at most 6 dB); and with 12 dB. HTS and its parts compare the sound with the "
-            "acceleration at the skin that the profile's body model predicts (with the drive where there is none). "
-            "Level is the felt acceleration in dB below or above 1 m/s^2 RMS: flattening trades some for likeness.",
-            {{"clip", "", Reduction::sound},
-             {"profile", "", Reduction::key},
-             {"played", "", Reduction::key},
-             summed("duration", "s"),
-             summed("seconds", "s"),
-             {"HTS", ""},
-             {"wide", "%"},
-             {"band", "%"},
-             {"spectrum", "%"},
-             {"events", "%"},
-             {"level", "dB"},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
-            {{"", "Likeness against felt level", "played", "level", "HTS", "profile", {}, {}, false}},
-            {},
-            measureActuators,
-            true,
-            true};
+    Bench bench{
+        "actuators",
+        "Actuators: what adapting a clip gains on each shipped profile",
+        "The clip that the encoder makes of each sound (first 10 s) is played at 48 kHz on every shipped profile, "
+        "with its protection: as it is; adapted without flattening; adapted (the default: the inverse of the "
+        "resonance raises the drive by at most 6 dB); and with 12 dB. HTS and its parts compare the sound with the "
+        "acceleration at the skin that the profile's body model predicts (with the drive where there is none). "
+        "Level is the felt acceleration in dB below or above 1 m/s^2 RMS: flattening trades some for likeness.",
+        {{"clip", "", Reduction::sound},
+         {"profile", "", Reduction::key},
+         {"played", "", Reduction::key},
+         summed("duration", "s"),
+         summed("seconds", "s"),
+         {"HTS", ""},
+         {"wide", "%"},
+         {"band", "%"},
+         {"spectrum", "%"},
+         {"events", "%"},
+         {"level", "dB"},
+         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
+        {{"", "Likeness against felt level", "played", "level", "HTS", "profile", {}, {}, false}},
+        {},
+        measureActuators};
+    bench.needsProfiles = true;
+    return bench;
 }
 
 } // namespace pacini::cli
