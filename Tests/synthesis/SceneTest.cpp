@@ -304,8 +304,10 @@ TEST_CASE("The error of leaving out keeps its bound behind limiters", "[scene]")
                 const double measured = errorInDecibels(some, render(scene, playEverything(), profile));
                 CHECK(measured <= plan->predictedError);
                 CHECK(plan->predictedError <= tolerance);
-                limited += player.mostReduction() > 1.0 ? 1 : 0;
-                leftOut += plan->leftOut.empty() ? 0 : 1;
+                if (player.mostReduction() > 1.0)
+                    ++limited;
+                if (!plan->leftOut.empty())
+                    ++leftOut;
             }
     CHECK(limited >= 45);
     CHECK(leftOut >= 60);
