@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -294,22 +295,26 @@ public:
                 squares[most.first + k] += most.values[k];
             }
         }
-        // The level is that of a sinusoid at least; of many sounds at once the peaks do not meet: three times the RMS
-        // value.
+        // Of many sounds at once the peaks do not meet. As seldom more than three times, mostly less than twice their
+        // RMS value, and at least the peak of a sinusoid.
         const double scale = model.perDrive * model.perDrive;
-        std::vector<double> lowest(cells.count), highest(cells.count);
-        for (std::size_t k = 0; k < cells.count; ++k)
+        const auto gainAt = [&](double crest)
         {
-            highest[k] = scale * std::min(peaks[k] * peaks[k], 9.0 * 0.5 * squares[k]);
-            lowest[k] = std::min(highest[k], scale * squares[k]);
-        }
-        LimiterMemory memory(model.hold, cells), lowMemory(model.hold, cells);
+            std::vector<double> gain(cells.count);
+            for (std::size_t k = 0; k < cells.count; ++k)
+                gain[k] = scale * std::min(peaks[k] * peaks[k], crest * crest * 0.5 * squares[k]);
+            LimiterMemory memory(model.hold, cells);
+            std::vector<double> levels(cells.count);
+            for (std::size_t k = 0; k < cells.count; ++k)
+                levels[k] = model.gain(memory.at(k, gain));
+            return levels;
+        };
+        const auto least = gainAt(3.0), usual = gainAt(2.0), most = gainAt(std::numbers::sqrt2);
         gains.resize(cells.count);
         for (std::size_t k = 0; k < cells.count; ++k)
         {
-            const double least = model.gain(memory.at(k, highest)), most = model.gain(lowMemory.at(k, lowest));
-            gains[k] = {least * least, most * most};
-            moves = moves || least < 1.0;
+            gains[k] = {usual[k] * usual[k], most[k] * most[k], least[k] < 1.0};
+            moves = moves || least[k] < 1.0;
         }
     }
 
@@ -329,7 +334,7 @@ public:
             for (std::size_t k = 0; k < squares.values.size() && squares.first + k < cells.count; ++k)
             {
                 all += squares.values[k];
-                least += squares.values[k] * gains[squares.first + k].least;
+                least += squares.values[k] * gains[squares.first + k].usual;
                 most += squares.values[k] * gains[squares.first + k].most;
             }
             whole += spreadOf(squares);
@@ -347,11 +352,12 @@ public:
     static constexpr double wholeScene = 2.0;
 
 private:
-    /// Between which the gain's square lies.
-    struct PowerGains
+    /// The gain's square.
+    struct PowerGain
     {
-        double least = 1.0;
+        double usual = 1.0;
         double most = 1.0;
+        bool moves = false; ///< not certainly 1
     };
 
     /// The energy of the highest RMS value of late, where the gain moves.
@@ -367,7 +373,7 @@ private:
             const double level = memory.at(k, squares.values);
             if (k >= squares.values.size() && level <= 1e-6 * largest)
                 break;
-            if (const PowerGains& power = gains[squares.first + k]; power.least < 1.0)
+            if (const PowerGain& power = gains[squares.first + k]; power.moves)
                 sum += level * power.most;
         }
         return 0.5 * sum * model.spread * model.spread * cells.length;
@@ -375,7 +381,7 @@ private:
 
     LimiterModel model;
     TimeCells cells;
-    std::vector<PowerGains> gains; // of each cell
+    std::vector<PowerGain> gains; // of each cell
     bool moves = false;
 };
 
