@@ -28,6 +28,7 @@ ELSEWHERE = {
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
+    "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS hosts"),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
     "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),
@@ -269,7 +270,7 @@ class Options(CommandTest):
                 "What is felt": ["render"], "On the desk": ["play"],
                 "Measure an actuator and make it flat": ["measure sweep", "measure analyse", "measure fit",
                                                          "measure verify", "measure simulate"]}
-    OF_OTHER_TOOLS = {"--preset", "--workflow"}
+    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow"}
 
     def help_of(self, command):
         """Option to default; empty without one."""

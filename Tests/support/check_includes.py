@@ -55,6 +55,8 @@ def violations(root):
     root = Path(root)
     for path in sorted(root.glob("Core/pacini/**/*.h")):
         room = path.relative_to(root / "Core/pacini").parts[0]
+        if room == "pacini.h":
+            continue  # all of Core for guests; no room includes it
         if room not in CORE:
             yield f"{path.relative_to(root)}: '{room}' is not a room of Core"
             continue

@@ -1,0 +1,16 @@
+#pragma once
+
+// All of the core that programs mostly need: encode, render, translate live, measure and flatten an actuator, compare.
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/analysis/Encoder.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/HtsAnalyzer.h>
+#include <pacini/linearize/EqualizedSweep.h>
+#include <pacini/linearize/EqualizerFit.h>
+#include <pacini/linearize/SweepAnalysis.h>
+#include <pacini/realtime/Translator.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/ScenePlayer.h>
