@@ -53,11 +53,12 @@ inline LimiterModel limiterModel(const Profile* profile)
     return model;
 }
 
-/// Scene time in cells of equal length, at least 20 ms, at most 200 000 of them.
+/// Scene time in cells of equal length, at least 20 ms, at most 5000 of them: long scenes take longer cells, and with
+/// them a coarser bound, so that planning takes no longer than reading their points.
 struct TimeCells
 {
     explicit TimeCells(double duration)
-        : length(std::max(0.02, duration / 200'000.0)), count(static_cast<std::size_t>(duration / length) + 1)
+        : length(std::max(0.02, duration / 5'000.0)), count(static_cast<std::size_t>(duration / length) + 1)
     {
     }
     [[nodiscard]] std::size_t at(double time) const noexcept
