@@ -23,10 +23,11 @@ if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
         "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${PACINI_CCACHE}")
 endif()
 
-# Which sources are compiled as one where CMAKE_UNITY_BUILD is on: at most `most` of one folder, in alphabetical order. Files
+# Which sources are compiled as one where the preset asks for it: at most `most` of one folder, in alphabetical order. Files
 # of different folders, and of different foreign formats, share names of helpers.
+set(PACINI_UNITY_BUILD ${CMAKE_UNITY_BUILD})
 function(pacini_compile_as_one target most)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD "${PACINI_UNITY_BUILD}" UNITY_BUILD_MODE GROUP)
     get_target_property(sources ${target} SOURCES)
     foreach(source IN LISTS sources)
         if(NOT source MATCHES "\\.cpp$")

@@ -13,7 +13,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float pickRadius = 8.0f; // pixels
+constexpr float eventPickRadius = 8.0f; // pixels
 constexpr double usualSharpness = 0.5;
 constexpr double usualAmplitude = 0.7;
 
@@ -99,7 +99,7 @@ void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
 std::optional<std::size_t> EventLane::thingAt(juce::Point<float> position) const
 {
     std::optional<std::size_t> best;
-    float nearest = pickRadius;
+    float nearest = eventPickRadius;
     const auto plot = plotArea();
     if (!plot.toFloat().contains(position))
         return best;

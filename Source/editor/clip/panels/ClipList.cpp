@@ -12,7 +12,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int rowHeight = 26;
+constexpr int clipRowHeight = 26;
 constexpr int timeWidth = 6 * grid;
 
 juce::String lengthText(double seconds)
@@ -25,7 +25,7 @@ juce::String lengthText(double seconds)
 
 ClipList::ClipList(Session& shared) : session(shared)
 {
-    list.setRowHeight(rowHeight);
+    list.setRowHeight(clipRowHeight);
     list.setTitle("Clips of the project");
     list.setTooltip("Choose a clip to see it. Return renames, Delete removes, Alt with the arrow keys moves");
     list.setOutlineThickness(0);

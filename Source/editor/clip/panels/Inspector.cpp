@@ -21,8 +21,8 @@ juce::String stretchText(TimeRange range)
     return juce::String(range.from, 3) + " " + tr("to") + " " + juce::String(range.to, 3) + " s";
 }
 
-constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 78 * grid;
+constexpr int inspectorRowHeight = 3 * grid;
+constexpr int inspectorPreferredHeight = 78 * grid;
 
 /// The first thing selected.
 struct FirstThing
@@ -131,7 +131,7 @@ Inspector::Inspector(EditorView& shown)
     const auto slider = [this](juce::Slider& one, const juce::String& title, const juce::String& help)
     {
         one.setSliderStyle(juce::Slider::LinearHorizontal);
-        one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, rowHeight);
+        one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, inspectorRowHeight);
         one.setTitle(title);
         one.setTooltip(help);
         one.setWantsKeyboardFocus(true);
@@ -181,7 +181,7 @@ Inspector::Inspector(EditorView& shown)
     button(fadeInButton, fadeIn, "Fades in over the scope");
     button(fadeOutButton, fadeOut, "Fades out over the scope");
     button(reverseButton, reverse, "Plays the whole clip from its end");
-    setSize(200, preferredHeight);
+    setSize(200, inspectorPreferredHeight);
     addChildComponent(chip);
     session.listeners.add(this);
     lookAndFeelChanged();
@@ -334,7 +334,7 @@ void Inspector::resized()
     };
     const auto row = [](juce::Rectangle<int>& inside, juce::Label& label, juce::Component& field)
     {
-        auto line = inside.removeFromTop(rowHeight);
+        auto line = inside.removeFromTop(inspectorRowHeight);
         label.setBounds(line.removeFromLeft(9 * grid));
         field.setBounds(line);
         inside.removeFromTop(grid / 2);
@@ -347,18 +347,18 @@ void Inspector::resized()
     row(inside, sharpLabel, sharpField);
     inside = card(levelCard, 20 * grid);
     gainLabel.setBounds(inside.removeFromTop(2 * grid));
-    gain.setBounds(inside.removeFromTop(rowHeight + 4));
+    gain.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
     inside.removeFromTop(grid);
-    auto line = inside.removeFromTop(rowHeight + 4);
+    auto line = inside.removeFromTop(inspectorRowHeight + 4);
     const int half = (line.getWidth() - grid) / 2;
     fadeInButton.setBounds(line.removeFromLeft(half));
     line.removeFromLeft(grid);
     fadeOutButton.setBounds(line);
     inside.removeFromTop(grid);
-    reverseButton.setBounds(inside.removeFromTop(rowHeight + 4));
+    reverseButton.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
     inside = card(simplifyCard, 17 * grid);
     keepLabel.setBounds(inside.removeFromTop(2 * grid));
-    keep.setBounds(inside.removeFromTop(rowHeight + 4));
+    keep.setBounds(inside.removeFromTop(inspectorRowHeight + 4));
     cost.setBounds(inside);
     inside = card(factsCard, 16 * grid);
     chip.setBounds(inside.removeFromBottom(4 * grid));

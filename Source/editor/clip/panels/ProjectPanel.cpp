@@ -12,9 +12,9 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 76 * grid;
-constexpr int pause = 600; // ms without a change
+constexpr int projectRowHeight = 3 * grid;
+constexpr int projectPreferredHeight = 76 * grid;
+constexpr int projectPause = 600; // ms without a change
 
 juce::String sizeText(std::uint64_t bytes)
 {
@@ -80,7 +80,7 @@ ProjectPanel::ProjectPanel(EditorView& shown)
         one.onTextChange = [this]
         {
             typed = true;
-            startTimer(pause);
+            startTimer(projectPause);
         };
         one.onFocusLost = [this]
         {
@@ -90,7 +90,7 @@ ProjectPanel::ProjectPanel(EditorView& shown)
     };
     notes(clipNotes, "Notes of the clip", "Notes of the clip, saved with the project");
     notes(projectNotes, "Notes of the project", "Notes of the project, saved with it");
-    setSize(200, preferredHeight);
+    setSize(200, projectPreferredHeight);
     session.listeners.add(this);
     lookAndFeelChanged();
     show();
@@ -187,7 +187,7 @@ void ProjectPanel::resized()
     clipsCard = area;
 
     auto inside = insideOfCard(clipsCard);
-    auto line = inside.removeFromBottom(rowHeight + 4);
+    auto line = inside.removeFromBottom(projectRowHeight + 4);
     const int third = (line.getWidth() - grid) / 3;
     duplicateButton.setBounds(line.removeFromLeft(third + grid / 2));
     line.removeFromLeft(grid / 2);
@@ -197,7 +197,7 @@ void ProjectPanel::resized()
     list.setBounds(inside.withTrimmedBottom(grid));
 
     inside = insideOfCard(soundCard);
-    keepCopy.setBounds(inside.removeFromTop(rowHeight));
+    keepCopy.setBounds(inside.removeFromTop(projectRowHeight));
     copyNote.setBounds(inside.withTrimmedTop(2));
 
     inside = insideOfCard(notesCard);

@@ -13,7 +13,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int rowHeight = 12 * grid;
+constexpr int unfittingRowHeight = 12 * grid;
 constexpr double least = 0.5; // s shown around an edit
 } // namespace
 
@@ -76,7 +76,7 @@ private:
 
 UnfittingList::UnfittingList(Session& shared) : session(shared)
 {
-    list.setRowHeight(rowHeight);
+    list.setRowHeight(unfittingRowHeight);
     list.setColour(juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.setTitle("Edits that do not fit");
     list.setTooltip("Hand edits that found no place over this analysis. They are kept and wait for another one");

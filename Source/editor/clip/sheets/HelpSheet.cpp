@@ -13,12 +13,12 @@ namespace pacini::editor
 namespace
 {
 constexpr int listWidth = 24 * grid;
-constexpr int rowHeight = 4 * grid;
+constexpr int helpRowHeight = 4 * grid;
 } // namespace
 
 HelpSheet::HelpSheet() : Sheet("Manual", 820, 560), topics("Topics", this)
 {
-    topics.setRowHeight(rowHeight);
+    topics.setRowHeight(helpRowHeight);
     topics.setTitle("Topics");
     topics.setTooltip("Topics of the manual");
     text.setMultiLine(true);

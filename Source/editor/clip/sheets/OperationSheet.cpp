@@ -15,10 +15,10 @@ namespace pacini::editor
 namespace
 {
 constexpr int sheetWidth = 56 * grid;
-constexpr int rowHeight = 4 * grid;
+constexpr int operationRowHeight = 4 * grid;
 constexpr int textHeight = 3 * grid;
 constexpr int around = 14 * grid; // title, answers and margins
-constexpr int labelWidth = 11 * grid;
+constexpr int operationLabelWidth = 11 * grid;
 constexpr int numberWidth = 10 * grid;
 constexpr int unitWidth = 14 * grid;
 constexpr std::size_t quickPoints = 20000; // of an edit on the message thread
@@ -152,7 +152,7 @@ private:
     void resized() override
     {
         auto area = getLocalBounds();
-        name.setBounds(area.removeFromLeft(labelWidth));
+        name.setBounds(area.removeFromLeft(operationLabelWidth));
         if (!field.choices.empty())
             return choice.setBounds(area);
         unit.setBounds(area.removeFromRight(unitWidth).withTrimmedLeft(grid / 2));
@@ -170,7 +170,7 @@ private:
 
 OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_ptr<OperationValues> last)
     : Sheet(wanted.name, sheetWidth,
-            around + 2 * textHeight + static_cast<int>(wanted.fields.size()) * (rowHeight + grid)),
+            around + 2 * textHeight + static_cast<int>(wanted.fields.size()) * (operationRowHeight + grid)),
       view(shown),
       session(shown.session()),
       operation(std::move(wanted)),
@@ -318,7 +318,7 @@ void OperationSheet::layOut(juce::Rectangle<int> area)
     scopeLabel.setBounds(area.removeFromTop(textHeight));
     for (const auto& row : rows)
     {
-        row->setBounds(area.removeFromTop(rowHeight));
+        row->setBounds(area.removeFromTop(operationRowHeight));
         area.removeFromTop(grid);
     }
     problem.setBounds(area.removeFromTop(textHeight));

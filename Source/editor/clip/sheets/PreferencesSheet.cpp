@@ -14,7 +14,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int rowHeight = 4 * grid;
+constexpr int preferenceRowHeight = 4 * grid;
 constexpr int nameWidth = 24 * grid;
 constexpr std::array scales{0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
 constexpr std::array laneHeights{32, 48, 64, 96};
@@ -134,10 +134,11 @@ void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& h
 
 void PreferencesSheet::layOut(juce::Rectangle<int> area)
 {
-    const int step = std::min(rowHeight + grid / 2, area.getHeight() / static_cast<int>(rows.size()));
+    const int step = std::min(preferenceRowHeight + grid / 2, area.getHeight() / static_cast<int>(rows.size()));
     for (const auto& row : rows)
     {
-        auto line = area.removeFromTop(step).withSizeKeepingCentre(area.getWidth(), std::min(step - 2, rowHeight - 4));
+        auto line = area.removeFromTop(step).withSizeKeepingCentre(area.getWidth(),
+                                                                   std::min(step - 2, preferenceRowHeight - 4));
         row->name.setBounds(line.removeFromLeft(nameWidth));
         row->control->setBounds(dynamic_cast<juce::ToggleButton*>(row->control.get()) ? line.withWidth(9 * grid)
                                                                                       : line);

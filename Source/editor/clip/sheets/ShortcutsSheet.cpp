@@ -11,7 +11,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int rowHeight = 3 * grid;
+constexpr int shortcutRowHeight = 3 * grid;
 constexpr int keyWidth = 25 * grid;
 } // namespace
 
@@ -44,7 +44,7 @@ public:
                     rows.push_back(
                         {action.keys.front().getTextDescription(), tr(action.name) + ": " + tr(action.help)});
         }
-        setSize(600, static_cast<int>(rows.size()) * rowHeight);
+        setSize(600, static_cast<int>(rows.size()) * shortcutRowHeight);
         setTitle("Keys and mouse");
         juce::StringArray lines;
         for (const auto& [key, text] : rows)
@@ -58,7 +58,7 @@ public:
         auto area = getLocalBounds();
         for (const auto& [key, text] : rows)
         {
-            auto row = area.removeFromTop(rowHeight);
+            auto row = area.removeFromTop(shortcutRowHeight);
             if (text.isEmpty())
             {
                 g.setColour(p.accent);
