@@ -225,7 +225,7 @@ TEST_CASE("Protection keeps the block contract", "[actuator][protection]")
         {protectionParams(l5, 0_s), protectionParams(worn, 0_s), protectionParams(lra, 0_s), {}}, 1.0);
 }
 
-TEST_CASE("No worst-case signal takes an actuator beyond its limits", "[actuator][protection]")
+TEST_CASE("No worst-case signal takes an actuator beyond its limits", "[actuator][protection][slow]")
 {
     auto all = actuators();
     all.push_back({"L5 as worn", onWristband(all.front().profile)});

@@ -103,7 +103,7 @@ test::Strain worstOfAdversary(const Profile& profile, double fs)
 
 } // namespace
 
-TEST_CASE("No signal takes a shipped actuator beyond its travel, held still or worn", "[actuator][protection]")
+TEST_CASE("No signal takes a shipped actuator beyond its travel, held still or worn", "[actuator][protection][slow]")
 {
     int reached = 0;
     for (auto& [name, profile] : shippedWithTravel())

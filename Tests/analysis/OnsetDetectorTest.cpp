@@ -46,7 +46,7 @@ TEST_CASE("A steady tone is one event at most", "[analysis][onsets]")
             }
 }
 
-TEST_CASE("The edges of a low saw wave are no events", "[analysis][onsets]")
+TEST_CASE("The edges of a low saw wave are no events", "[analysis][onsets][slow]")
 {
     const double fs = 44100.0;
     for (const double f : {20.0, 25.0, 33.0, 40.0, 50.0, 60.0, 80.0})

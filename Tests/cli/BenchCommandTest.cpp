@@ -56,7 +56,7 @@ std::vector<std::string> linesOf(const std::filesystem::path& path)
 }
 } // namespace
 
-TEST_CASE("pacini bench measures everything on a folder and writes tables, charts and a page", "[cli][bench]")
+TEST_CASE("pacini bench measures everything on a folder and writes tables, charts and a page", "[cli][bench][slow]")
 {
     const TempFolder folder;
     writeSound(folder / "tone.wav");
@@ -160,7 +160,7 @@ TEST_CASE("pacini bench body shows which integrators break at stiff joints, and 
 }
 
 TEST_CASE("pacini bench filters and oscillators show which forms lose digits, once for any number of sounds",
-          "[cli][bench]")
+          "[cli][bench][slow]")
 {
     const TempFolder folder;
     writeSound(folder / "tone.wav");

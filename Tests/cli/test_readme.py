@@ -29,7 +29,7 @@ ELSEWHERE = {
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
     "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
-    "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS hosts"),
+    "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS \"hosts;slow\""),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
     "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),
     "python3 Resources/docs/make_editor_pictures.py": ("Resources/docs/make_editor_pictures.py", "__main__"),

@@ -245,7 +245,7 @@ TEST_CASE("A table keeps all curves of a clip exactly", "[formats]")
     }
 }
 
-TEST_CASE("Every format writes every clip, the same bytes each time, and reads what it wrote", "[formats]")
+TEST_CASE("Every format writes every clip, the same bytes each time, and reads what it wrote", "[formats][slow]")
 {
     for (const ForeignFormat* format :
          {&hjifFormat(), &androidJsonFormat(), &androidXmlFormat(), &androidKotlinFormat(), &androidJavaFormat(),
