@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 namespace pacini
@@ -17,18 +16,6 @@ namespace pacini
     std::vector<double> w(n);
     for (std::size_t i = 0; i < n; ++i)
         w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
-    return w;
-}
-
-/// Symmetric Hann window without its zero end points, scaled to sum 1: a smoothing kernel of n taps.
-[[nodiscard]] inline std::vector<double> hannKernel(std::size_t n)
-{
-    std::vector<double> w(n);
-    for (std::size_t i = 0; i < n; ++i)
-        w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i + 1) / static_cast<double>(n + 1));
-    const double sum = std::accumulate(w.begin(), w.end(), 0.0);
-    for (double& v : w)
-        v /= sum;
     return w;
 }
 

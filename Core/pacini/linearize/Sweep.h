@@ -160,12 +160,4 @@ private:
     return x;
 }
 
-/// One plain sweep of amplitude 1, without pauses, or what is wrong with `params` (see validate).
-[[nodiscard]] inline Result<std::vector<float>> makeSweep(const SweepParams& params)
-{
-    if (auto valid = validate(params); !valid)
-        return valid.error();
-    return sampleSweep(measuringSweep(params), params.sampleRate);
-}
-
 } // namespace pacini
