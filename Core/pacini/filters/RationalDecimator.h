@@ -84,7 +84,7 @@ private:
         const double fs = static_cast<double>(inRate);
         const double width = (params.stopFrequency - params.passFrequency) / fs;
         const double cutoff = 0.5 * (params.stopFrequency + params.passFrequency) / fs; // cycles per input sample
-        const int length = static_cast<int>(std::ceil((params.attenuation - 7.95) / (14.36 * width))) + 1;
+        const auto length = static_cast<int>(kaiserTaps(params.attenuation, width));
         design((length + 7) / 8 * 8, cutoff, kaiserBeta(params.attenuation));
     }
 
