@@ -5,6 +5,7 @@
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ struct CoilHeatParams
 {
     double fullDrivePower = 1.0; ///< W while the drive stands at 1
     double maxPower = 1.0;       ///< W that the coil bears for ever
-    double thermalTime = 1.0;    ///< s, time constant of its heating, 0.01 to 10000
+    Seconds thermalTime{1.0};    ///< time constant of its heating, 0.01 to 10000 s
     bool operator==(const CoilHeatParams&) const = default;
 };
 
@@ -39,7 +40,7 @@ public:
         constexpr double averagingTime = 0.05; // s, twice one after the other
         full = clampTo(params.fullDrivePower, 1e-12, 1e12);
         limit = clampTo(params.maxPower, 1e-12, 1e12) * (1.0 - 1e-9); // and rounding
-        heating = -std::expm1(-1.0 / (clampTo(params.thermalTime, 0.01, 1e4) * fs));
+        heating = -std::expm1(-1.0 / (clampTo(params.thermalTime.value, 0.01, 1e4) * fs));
         temperature.design(heating);
         averaging = -std::expm1(-1.0 / (averagingTime * fs));
         average1.design(averaging);

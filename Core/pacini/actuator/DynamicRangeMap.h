@@ -14,9 +14,9 @@ namespace pacini
 /// Levels are clamped to 1 to 200 dB, the peak to 1e-6 to 1e6.
 struct DynamicRangeParams
 {
-    double actuatorRange = 60.0; ///< dB between full drive and the weakest drive that is felt
-    double clipRange = 60.0;     ///< dB between the clip's peak and its floor, below which nothing needs to be felt
-    double clipPeak = 1.0;       ///< the clip's largest amplitude, 1 = full drive
+    Decibels actuatorRange{60.0}; ///< between full drive and the weakest drive that is felt
+    Decibels clipRange{60.0};     ///< between the clip's peak and its floor, below which nothing needs to be felt
+    double clipPeak = 1.0;        ///< the clip's largest amplitude, 1 = full drive
     bool operator==(const DynamicRangeParams&) const = default;
 };
 
@@ -36,8 +36,8 @@ public:
     explicit DynamicRangeMap(const DynamicRangeParams& params) noexcept
     {
         const double peakLevel = Decibels::fromGain(clampTo(params.clipPeak, 1e-6, 1e6)).value;
-        const double thresholdLevel = -clampTo(params.actuatorRange, 1.0, 200.0);
-        const double range = clampTo(params.clipRange, 1.0, 200.0);
+        const double thresholdLevel = -clampTo(params.actuatorRange.value, 1.0, 200.0);
+        const double range = clampTo(params.clipRange.value, 1.0, 200.0);
         unchanged = peakLevel - range >= thresholdLevel;
         peak = Decibels(peakLevel).gain();
         floor = Decibels(peakLevel - range).gain();

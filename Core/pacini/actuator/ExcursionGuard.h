@@ -11,6 +11,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,7 @@ namespace pacini
 /// then, and the mass resonates higher against it.
 struct ExcursionParams
 {
-    double frequency = 67.0;         ///< Hz, 1 to 20000
+    Hertz frequency{67.0};           ///< 1 to 20000 Hz
     double q = 1.0;                  ///< 0.01 to 1000
     double excursion = 1e-3;         ///< m at a drive of 1 far below resonance, 1e-9 to 10 (with overdrive)
     double maxExcursion = 1e-3;      ///< m from rest, 1e-7 to 0.1
@@ -64,7 +65,7 @@ struct ExcursionCoefficients
 /// so many times the travel that r would fall below 95 % of it are not admitted.
 [[nodiscard]] inline ExcursionCoefficients designExcursionGuard(const ExcursionParams& params, double fs) noexcept
 {
-    const double frequency = clampTo(params.frequency, 1.0, 20000.0);
+    const double frequency = clampTo(params.frequency.value, 1.0, 20000.0);
     const double q = clampTo(params.q, 0.01, 1000.0);
     const double excursion = clampTo(params.excursion, 1e-9, 10.0);
     const double travel = clampTo(params.maxExcursion, 1e-7, 0.1);

@@ -49,7 +49,7 @@ public:
     void setParams(const Params& params) noexcept
     {
         spins = params.technology == Technology::erm;
-        motor.setParams({params.body.resonance.frequency, params.response});
+        motor.setParams({Hertz(params.body.resonance.frequency), params.response});
         BodyModelParams driven = params.body;
         driven.driven = spins ? BodyForce::device : BodyForce::coil;
         body.setParams(driven);

@@ -8,6 +8,7 @@
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ struct MotorDriveParams
     double overdrive = 1.0;      ///< the largest voltage, 1 to 10
     double startVoltage = 0.25;  ///< the least that gets a standing motor to turn; small motors need 0.2 to 0.4
     double stallVoltage = 0.125; ///< below this a turning motor stops
-    double kickTime = 0.020;     ///< s of start voltage when the spin-up time is not known
+    Seconds kickTime{0.020};     ///< of start voltage when the spin-up time is not known
     bool braking = true;         ///< whether the voltage may be reversed to stop sooner
     std::optional<CoilHeatParams> heat{}; ///< at the largest voltage; none: no limit
     bool operator==(const MotorDriveParams&) const = default;
@@ -85,7 +86,7 @@ public:
         start = clampTo(params.startVoltage, 0.0, 1.0);
         stall = clampTo(params.stallVoltage, 0.0, start);
         kickFrames =
-            params.speedTimes.rise > 0.0 ? 0 : static_cast<std::size_t>(clampTo(params.kickTime, 0.0, 1.0) * fs);
+            params.speedTimes.rise > 0.0 ? 0 : static_cast<std::size_t>(clampTo(params.kickTime.value, 0.0, 1.0) * fs);
     }
     void reset() noexcept
     {

@@ -67,7 +67,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const ActuatorDrive& drive = profile.drive;
     if (!drive.maxExcursion || !drive.excursion)
         return std::nullopt;
-    return ExcursionParams{profile.resonance.frequency, profile.resonance.q, drive.overdrive * *drive.excursion,
+    return ExcursionParams{Hertz(profile.resonance.frequency), profile.resonance.q, drive.overdrive * *drive.excursion,
                            *drive.maxExcursion, wornChain(profile)};
 }
 
@@ -82,7 +82,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const double most = drive.overdrive * *drive.maxVoltageRms;
     const double squares = profile.technology == Technology::erm ? 1.0 : 2.0;
     return CoilHeatParams{squares * most * most / *drive.impedance, *drive.maxPower,
-                          drive.thermalTime.value_or(defaultThermalTime)};
+                          Seconds(drive.thermalTime.value_or(defaultThermalTime))};
 }
 
 [[nodiscard]] inline ProtectionNeeds protectionNeeds(const Profile& profile) noexcept

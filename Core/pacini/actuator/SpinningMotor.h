@@ -5,6 +5,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 
 #include <cmath>
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace pacini
 
 struct SpinningMotorParams
 {
-    double frequency = 180.0; ///< Hz, turns per second at a drive of 1
+    Hertz frequency{180.0}; ///< turns per second at a drive of 1
     ActuatorResponse response;
     bool operator==(const SpinningMotorParams&) const = default;
 };
@@ -43,7 +44,7 @@ public:
     void setParams(const Params& params) noexcept
     {
         current = params;
-        turnsPerFrame = clampTo(params.frequency, 0.1, 1e5) / fs;
+        turnsPerFrame = clampTo(params.frequency.value, 0.1, 1e5) / fs;
         const auto share = [this](double time, double constants)
         {
             return -std::expm1(-constants / (clampTo(time, 0.0, 100.0) * fs));

@@ -5,6 +5,7 @@
 #include <pacini/analysis/AnalyticTrack.h>
 #include <pacini/analysis/BandFades.h>
 #include <pacini/foundation/SplitRealFft.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cassert>
@@ -28,8 +29,8 @@ struct BandAnalysisParams
 {
     std::vector<BandEdges> bands;  ///< adjoining, frequencies rise
     double overlap = 0.5;          ///< see BandFades
-    double envelopeWindow = 0.010; ///< s, Hann window of the total envelope
-    double bandWindow = 0.040;     ///< s, Hann window of band envelopes and pitches
+    Seconds envelopeWindow{0.010}; ///< Hann window of the total envelope
+    Seconds bandWindow{0.040};     ///< Hann window of band envelopes and pitches
     bool onlyPeak = false;         ///< find nothing but BandAnalysisResult::peak
     bool operator==(const BandAnalysisParams&) const = default;
 };
@@ -93,7 +94,7 @@ public:
     explicit BandAnalysis(const BandAnalysisParams& params)
         : settings(params),
           fades(params.bands, params.overlap),
-          wide(envelopeRate, params.envelopeWindow, BandAnalysisResult::envelopeStep)
+          wide(envelopeRate, params.envelopeWindow.value, BandAnalysisResult::envelopeStep)
     {
         assert(!params.bands.empty());
         for (std::size_t k = 0; k < bandCount(); ++k)
@@ -103,7 +104,7 @@ public:
             int rate = 250;
             while (rate < envelopeRate && width > 0.8 * rate)
                 rate *= 2;
-            tracks.emplace_back(rate, settings.bandWindow, BandAnalysisResult::bandStep);
+            tracks.emplace_back(rate, settings.bandWindow.value, BandAnalysisResult::bandStep);
         }
         reset(1);
     }

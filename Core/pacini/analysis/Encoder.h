@@ -170,7 +170,7 @@ private:
             return;
         for (Onset& onset : onsets)
             onset.time -= start;
-        holdDownBetween(onsets, 0.045, BandAnalysisResult::envelopeStep, found.envelope);
+        holdDownBetween(onsets, trainGapSeconds, BandAnalysisResult::envelopeStep, found.envelope);
         fitter.add(clip, found, gainFor(peak), start);
     }
 
@@ -199,6 +199,11 @@ private:
     }
 
     static constexpr double silence = 1e-6; // -120 dB: dither and rounding noise
+
+    /// Events closer than this form a train, whose envelope is held down between them. Found by trial, without a
+    /// source: with events treated so, the 30 sounds of the corpus reached HTS 80.0 at 191 B/s, without events 79.8 at
+    /// 184 B/s.
+    static constexpr double trainGapSeconds = 0.045;
 
     /// A multiple of three frames of the bands.
     static constexpr double sectionSeconds = 600.0;

@@ -57,7 +57,7 @@ struct RecordedChannels
 {
     const int rate = reducedRate(fs, pass, margin);
     RecordedChannels reduced{static_cast<double>(rate), {}};
-    RationalDecimator decimator(fs, rate, {pass, static_cast<double>(rate) - pass, 90.0});
+    RationalDecimator decimator(fs, rate, {Hertz(pass), Hertz(static_cast<double>(rate) - pass), 90_dB});
     for (std::size_t c = 0; c < recording.size(); ++c)
     {
         double sum = 0.0;

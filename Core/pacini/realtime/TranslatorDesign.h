@@ -33,7 +33,7 @@ struct TranslatorSetup
 {
     std::optional<Profile> profile; ///< valid; none: the drive signal as it is
     BandLayoutParams bands;         ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
-    double maxBoost = 6.0;          ///< dB by which the drive may be raised to flatten a resonance, 0 to 40
+    Decibels maxBoost{6.0};         ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
     bool operator==(const TranslatorSetup&) const = default;
 };
 
@@ -123,8 +123,8 @@ inline void adoptRange(TranslatorDesign& design, const Profile& profile, const s
         design.motorBurst = std::max(0.012, profile.response.riseTime);
         design.voices = 1;
     }
-    constexpr double felt = 35.0; // dB that a sound's loudest part stands above what is just felt beside it
-    design.levels = DynamicRangeMap({profile.range.dynamicRange, felt, 1.0});
+    constexpr Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
+    design.levels = DynamicRangeMap({Decibels(profile.range.dynamicRange), felt, 1.0});
 }
 
 /// The equaliser as far as it is felt, and the flattening.
@@ -240,7 +240,7 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
         detail::choosePulses(design, profile.transient);
         if (known)
         {
-            const auto flattening = flatteningOf(profile, Decibels(setup.maxBoost));
+            const auto flattening = flatteningOf(profile, setup.maxBoost);
             detail::adoptRange(design, profile, flattening);
             detail::adoptFilter(design, profile, flattening);
         }

@@ -14,9 +14,9 @@
 namespace pacini
 {
 
-/// Adds points to `kept` (ascending, with the first and last point), always at the largest deviation of the whole curve,
-/// until `count` points are kept or no deviation is above `maxError`; the lower index first on ties. deviation(dense, i,
-/// j) is the largest between two points: the vertical one where nothing else is asked for.
+/// Adds points to `kept` (ascending, with the first and last point), always at the largest deviation of the whole
+/// curve, until `count` points are kept or no deviation is above `maxError`; the lower index first on ties.
+/// deviation(dense, i, j) is the largest between two points: the vertical one where nothing else is asked for.
 template <typename Largest = decltype(&maxDeviation)>
 [[nodiscard]] KeptPoints splitWorst(std::span<const Breakpoint> dense, KeptPoints kept, std::size_t count,
                                     double maxError, const Largest& deviation = &maxDeviation)

@@ -122,7 +122,7 @@ inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& c
 /// Flattens the actuator's resonance where that helps, and notes it.
 inline void flatten(RenderPlan& plan, const AdaptationParams& params)
 {
-    plan.flattening = flatteningOf(*plan.profile, Decibels(params.maxBoost));
+    plan.flattening = flatteningOf(*plan.profile, params.maxBoost);
     if (plan.flattening)
         plan.adaptations.push_back(
             {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +
