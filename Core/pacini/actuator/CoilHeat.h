@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps the heat in an actuator's coil below what it bears.
+// Thermal limiter: keeps the heat in an actuator's coil below what it bears.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/RunningMean.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// Powers in W, clamped to 1e-12 to 1e12.
+/// Thermal parameters of a coil. Powers in W, clamped to 1e-12 to 1e12.
 struct CoilHeatParams
 {
     double fullDrivePower = 1.0; ///< W while the drive stands at 1
@@ -24,8 +24,8 @@ struct CoilHeatParams
     bool operator==(const CoilHeatParams&) const = default;
 };
 
-/// The coil as one thermal mass: its temperature, given as the constant power that would hold it there, follows the
-/// power as a one-pole filter and starts cold. It may never exceed maxPower.
+/// Thermal limiter. The coil as one thermal mass: its temperature, given as the constant power that would hold it
+/// there, follows the power as a one-pole filter and starts cold. It may never exceed maxPower.
 ///
 /// Two parts act. The wanted power, averaged over about 0.1 s so that a gain does not follow the waveform, is compared
 /// with an allowance that falls with the temperature, from five times the aimed-at power when cold (bursts pass) to

@@ -1,6 +1,7 @@
 #pragma once
 
-// The range of a clip's amplitudes, pressed into what an actuator can show above the threshold of feeling.
+// Static compression curve: presses the range of a clip's amplitudes into what an actuator can show above the threshold
+// of feeling.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>
@@ -11,7 +12,7 @@
 namespace pacini
 {
 
-/// Levels are clamped to 1 to 200 dB, the peak to 1e-6 to 1e6.
+/// Parameters of the compression curve. Levels are clamped to 1 to 200 dB, the peak to 1e-6 to 1e6.
 struct DynamicRangeParams
 {
     Decibels actuatorRange{60.0}; ///< between full drive and the weakest drive that is felt
@@ -20,7 +21,8 @@ struct DynamicRangeParams
     bool operator==(const DynamicRangeParams&) const = default;
 };
 
-/// Maps amplitudes, 1 = full drive. If the clip's floor is felt anyway the map is the identity. Otherwise
+/// Compression curve. Maps amplitudes, 1 = full drive. If the clip's floor is felt anyway the map is the identity.
+/// Otherwise
 ///
 /// - from floor to peak it is a straight line in dB that raises the floor to the threshold and keeps the peak,
 /// - above the peak it is the identity (of a clip that is below the threshold as a whole: the threshold, until that is

@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps the moving mass of an actuator within its travel, whatever the drive.
+// Excursion limiter: keeps the moving mass of an actuator within its travel, whatever the drive.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/FrameGroup.h>
@@ -23,9 +23,9 @@
 namespace pacini
 {
 
-/// The moving mass as a second-order resonator, its base held still, and the travel that it has. Clamped to the ranges
-/// of a valid profile. Where it is known what the base is, the mass is guarded as it is worn, too: the base gives way
-/// then, and the mass resonates higher against it.
+/// Parameters of the excursion limiter: the moving mass as a second-order resonator, its base held still, and the
+/// travel that it has. Clamped to the ranges of a valid profile. Where it is known what the base is, the mass is
+/// guarded as it is worn, too: the base gives way then, and the mass resonates higher against it.
 struct ExcursionParams
 {
     Hertz frequency{67.0};           ///< 1 to 20000 Hz
@@ -47,6 +47,7 @@ struct ExcursionParams
     return params.excursion / std::tanh(0.5 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
 }
 
+/// Precomputed steps and limits of the guarded mass.
 struct ExcursionCoefficients
 {
     static constexpr std::size_t maxSubsteps = 64;
@@ -91,14 +92,14 @@ struct ExcursionCoefficients
     return guard;
 }
 
-/// Admits of every wanted drive as much as keeps the energy of the modelled mass within its limit to the end of the
-/// sample, and of the mass as it is worn (see WornGuard) the like. Both bear any smaller drive of the same sign, so
-/// that one does not undo the other. A drive of 0 never raises the energy, so that there always is an admissible drive
-/// and the limit holds for ever, for any input; a limiter that only turns down a gain has no such proof, since a
-/// resonator that is already moving goes on when the drive falls. At resonance the largest drive that keeps the energy
-/// is proportional to the velocity, so that even a sinusoid held by the guard alone stays nearly a sinusoid. (A safety
-/// filter on an invariant set: A. Ames et al., "Control barrier functions: theory and applications", ECC 2019, here for
-/// the exact discrete model.)
+/// Excursion limiter (safety filter). Admits of every wanted drive as much as keeps the energy of the modelled mass
+/// within its limit to the end of the sample, and of the mass as it is worn (see WornGuard) the like. Both bear any
+/// smaller drive of the same sign, so that one does not undo the other. A drive of 0 never raises the energy, so that
+/// there always is an admissible drive and the limit holds for ever, for any input; a limiter that only turns down a
+/// gain has no such proof, since a resonator that is already moving goes on when the drive falls. At resonance the
+/// largest drive that keeps the energy is proportional to the velocity, so that even a sinusoid held by the guard alone
+/// stays nearly a sinusoid. (A safety filter on an invariant set: A. Ames et al., "Control barrier functions: theory
+/// and applications", ECC 2019, here for the exact discrete model.)
 class ExcursionGuard
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a profile's actuator makes felt.
+// Model of a profile's actuator on the body: drive signal -> acceleration that is felt.
 
 #include <pacini/actuator/BodyModel.h>
 #include <pacini/actuator/SpinningMotor.h>
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Parameters of the felt acceleration: the mover and the body.
 struct FeltModelParams
 {
     Technology technology = Technology::vca;

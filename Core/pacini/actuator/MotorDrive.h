@@ -1,6 +1,6 @@
 #pragma once
 
-// The voltage of a motor with an eccentric mass, from the strength that is wanted.
+// Drive of a motor with an eccentric mass (ERM): its voltage, from the strength that is wanted.
 
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/FirstOrderInverse.h>
@@ -19,7 +19,8 @@
 namespace pacini
 {
 
-/// Voltages are in units of the rated one, which turns the motor at its rated speed.
+/// Parameters of a motor and its drive. Voltages are in units of the rated one, which turns the motor at its rated
+/// speed.
 struct MotorDriveParams
 {
     FirstOrderTimes speedTimes;  ///< time constants of the speed
@@ -49,8 +50,9 @@ struct MotorDriveParams
     return params;
 }
 
-/// Wanted strength (0 to 1, an envelope; 1 is the strength at rated voltage) to voltage. The force of an eccentric mass
-/// is m r w^2 and its speed w follows the voltage, so the wanted speed is the square root of the strength:
+/// Motor drive. Wanted strength (0 to 1, an envelope; 1 is the strength at rated voltage) to voltage. The force of an
+/// eccentric mass is m r w^2 and its speed w follows the voltage, so the wanted speed is the square root of the
+/// strength:
 ///
 /// - it is reached by overdrive and left by braking (see FirstOrderInverse, applied to the speed),
 /// - a standing motor gets at least the start voltage until its modelled speed is the wanted one (friction at rest is

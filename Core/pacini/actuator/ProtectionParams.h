@@ -1,6 +1,6 @@
 #pragma once
 
-// Which limits of an actuator have to be guarded.
+// Parameters of the protection: which limits of an actuator have to be guarded.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/CoilHeat.h>
@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// Limits of an actuator that are guarded, and how.
 struct ProtectionParams
 {
     std::optional<ExcursionParams> excursion; ///< none: no limit

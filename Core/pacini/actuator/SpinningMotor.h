@@ -1,6 +1,6 @@
 #pragma once
 
-// A motor with an eccentric mass: what force it makes of a drive signal.
+// Model of a motor with an eccentric mass (ERM): drive signal -> force.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Speed and response of a motor.
 struct SpinningMotorParams
 {
     Hertz frequency{180.0}; ///< turns per second at a drive of 1

@@ -1,6 +1,6 @@
 #pragma once
 
-// The offline analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
+// Offline band analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
 
 #include <pacini/analysis/AnalyticTrack.h>
 #include <pacini/analysis/BandFades.h>
@@ -25,6 +25,7 @@ namespace pacini
 /// The rate at which every sound is analysed offline, Hz: twice what lies above the top of touch (1-1.8 kHz).
 inline constexpr int analysisRate = 4000;
 
+/// Parameters of the band analysis.
 struct BandAnalysisParams
 {
     std::vector<BandEdges> bands;  ///< adjoining, frequencies rise

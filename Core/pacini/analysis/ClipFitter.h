@@ -1,6 +1,6 @@
 #pragma once
 
-// Dense analysis -> the curves of a clip, section after section.
+// Curve fitting for clips: dense analysis -> the curves of a clip, section after section.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/CurveFitter.h>

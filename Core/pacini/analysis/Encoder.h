@@ -1,6 +1,6 @@
 #pragma once
 
-// Samples -> Clip: Pacini's own translation, "a2vt".
+// Audio-to-haptic encoder: samples -> Clip by Pacini's own translation, "a2vt".
 
 #include <pacini/analysis/AnalysisInput.h>
 #include <pacini/analysis/BandAnalysis.h>
@@ -24,6 +24,7 @@
 namespace pacini
 {
 
+/// Parameters of the encoder.
 struct EncoderParams
 {
     int bands = 12;                ///< 1 to 32
@@ -79,10 +80,11 @@ struct EncoderParams
     return record;
 }
 
-/// Encodes one sound after another; keeps its transforms and filters between them. Use: start, push any number of
-/// times, finish. Which points are worth their price depends on the loudest moment, which may be the last: unless that
-/// is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands. Curves are fitted in sections of
-/// ten minutes, so that with it nothing is kept but the clip. One thread at a time, never the audio thread.
+/// Streaming encoder. Encodes one sound after another; keeps its transforms and filters between them. Use: start, push
+/// any number of times, finish. Which points are worth their price depends on the loudest moment, which may be the
+/// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands. Curves are fitted
+/// in sections of ten minutes, so that with it nothing is kept but the clip. One thread at a time, never the audio
+/// thread.
 class Encoder
 {
 public:

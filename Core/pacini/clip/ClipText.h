@@ -1,6 +1,7 @@
 #pragma once
 
-// The words of a clip (its name, its source, the parameters of its encoder) as text that packs well.
+// Text model of packed clips: the words of a clip (its name, its source, the parameters of its encoder) as text that
+// packs well.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedText.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Raises the rate of a band-limited signal by a whole factor.
+// Polyphase interpolator: raises the rate of a band-limited signal by a whole factor.
 
 #include <pacini/foundation/Windows.h>
 

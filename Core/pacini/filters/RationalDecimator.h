@@ -1,6 +1,6 @@
 #pragma once
 
-// Streaming conversion of a sound of any rate to a fixed lower rate, for analysis.
+// Streaming sample-rate conversion to a fixed lower rate, for analysis.
 
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Units.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Window functions.
+// Window functions, and the windowed sinc that rate changers are designed with.
 
 #include <cmath>
 #include <cstddef>

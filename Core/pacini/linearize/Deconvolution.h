@@ -1,6 +1,6 @@
 #pragma once
 
-// From what was played and what was recorded to the impulse response.
+// Deconvolution: from what was played and what was recorded to the impulse response.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/Result.h>

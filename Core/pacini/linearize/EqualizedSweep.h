@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// A measuring signal through an equalizer.
 struct EqualizedSweep
 {
     std::vector<float> signal;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The responses of each harmonic order, apart from each other.
+// Harmonic separation of a deconvolved sweep: the responses of each order, apart from each other.
 
 #include <pacini/foundation/SplitRealFft.h>
 #include <pacini/linearize/Deconvolution.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A recording made ready for analysis: calibrated, free of its mean, at no higher a rate than is needed.
+// Preprocessing of a recording: calibrated, free of its mean, at no higher a rate than is needed.
 
 #include <pacini/filters/RationalDecimator.h>
 
@@ -13,6 +13,7 @@
 namespace pacini
 {
 
+/// Channels of a recording at a reduced rate.
 struct RecordedChannels
 {
     double rate = 0.0; ///< Hz

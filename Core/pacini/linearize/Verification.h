@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether a response is flat.
+// Flatness check of a response, to verify an equalizer.
 
 #include <pacini/actuator/ProfileMeasurement.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Parameters of the flatness check.
 struct LinearityParams
 {
     double lowFrequency = 0.0;  ///< Hz, start of the range to judge; 0: from the first point

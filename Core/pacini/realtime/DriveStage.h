@@ -1,6 +1,6 @@
 #pragma once
 
-// From what is to be felt to the drive of the actuator, at the inner rate.
+// Output stage of the translator: from what is to be felt to the drive of the actuator, at the inner rate.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/MotorDrive.h>
@@ -16,8 +16,9 @@
 namespace pacini
 {
 
-/// Levels pressed into the actuator's range, intensity, equaliser and flattening, limiter; or, for a motor, its
-/// strength and the voltage that reaches it. Where the actuator has limits the protection behind replaces the limiter.
+/// Output stage: levels pressed into the actuator's range, intensity, equaliser and flattening, limiter; or, for a
+/// motor, its strength and the voltage that reaches it. Where the actuator has limits the protection behind replaces
+/// the limiter.
 class DriveStage
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the translator needs to know of an actuator, made before the audio thread gets it.
+// Set-up of the translator for one actuator, designed before the audio thread gets it.
 
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/EqualizerPruning.h>
@@ -28,7 +28,7 @@
 namespace pacini
 {
 
-/// What is decided once for a set-up of the translator.
+/// Configuration: what is decided once for a set-up of the translator.
 struct TranslatorSetup
 {
     std::optional<Profile> profile; ///< valid; none: the drive signal as it is
@@ -39,7 +39,7 @@ struct TranslatorSetup
 
 inline constexpr std::size_t maxTranslatorBands = 12;
 
-/// Something that the translator does without.
+/// Report of culling: something that the translator does without.
 struct TranslatorSaving
 {
     std::string what;   ///< such as `bands[2].carrier`
@@ -47,6 +47,7 @@ struct TranslatorSaving
     bool operator==(const TranslatorSaving&) const = default;
 };
 
+/// Everything that the translator does without.
 using TranslatorPlan = std::vector<TranslatorSaving>;
 
 /// One source band of the translator.
@@ -57,7 +58,7 @@ struct TranslatorBand
     bool shown = true;   ///< the actuator can play the band's own signal
 };
 
-/// Immutable; made off the audio thread by designTranslator().
+/// Coefficients and choices of the translator. Immutable; made off the audio thread by designTranslator().
 struct TranslatorDesign
 {
     BandLayout layout;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lowers the rate of a sound by a whole factor, without waiting for whole groups of frames.
+// Low-latency decimator by a whole factor, which does not wait for whole groups of frames.
 
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Windows.h>

@@ -17,7 +17,8 @@
 namespace pacini
 {
 
-/// Made for the profile of a plan. Where there is none full drive is the one limit that is known.
+/// Output chain of one actuator. Made for the profile of a plan. Where there is none full drive is the one limit that
+/// is known.
 class ActuatorOutput
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as an actuator can show it.
+// Adaptation of a clip to an actuator: what it can show of it.
 
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/FrequencyMap.h>
@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// What is left to the adaptation to do; by default all of it.
+/// Parameters of the adaptation: what is left to the adaptation to do; by default all of it.
 struct AdaptationParams
 {
     bool frequencies = true;  ///< move what is outside the actuator's range into it

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scene -> RenderPlan.
+// Scene compiler: Scene -> RenderPlan.
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/ClipAdaptation.h>
@@ -25,6 +25,7 @@
 namespace pacini
 {
 
+/// Parameters of the scene compiler.
 struct CompileParams
 {
     double tolerance = -60.0;    ///< dB below the scene's energy that may be lost by leaving things out

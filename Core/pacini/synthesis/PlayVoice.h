@@ -66,8 +66,8 @@ struct MixTarget
     std::int64_t now = 0;
 };
 
-/// Made without a decoder: prepare() and release() bound the memory of long scenes. Every call gets the play that the
-/// voice was made for.
+/// Voice of one play. Made without a decoder: prepare() and release() bound the memory of long scenes. Every call gets
+/// the play that the voice was made for.
 class PlayVoice
 {
 public:

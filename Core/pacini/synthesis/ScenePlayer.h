@@ -1,6 +1,6 @@
 #pragma once
 
-// RenderPlan -> drive signals.
+// Scene player: RenderPlan -> drive signals.
 
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Clamp.h>
@@ -23,6 +23,7 @@
 namespace pacini
 {
 
+/// Parameters of the scene player.
 struct ScenePlayerParams
 {
     double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a scene at any other rate has no frames
@@ -31,7 +32,7 @@ struct ScenePlayerParams
     Seconds lookAhead{0.001}; ///< of that, 0 to 1 ms; taken out of the output
 };
 
-/// What the decoder of a play was made to play.
+/// Report of a play: what the decoder of a play was made to play.
 struct DecodedPlay
 {
     std::size_t play = 0;  ///< index into the scene's plays
@@ -40,9 +41,9 @@ struct DecodedPlay
     DecoderReport decoder;
 };
 
-/// Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend on how it is
-/// cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have ended, from a
-/// thread that may wait; the constructor makes all of them, so that live use need not call it.
+/// Scene player. Plays a plan on its actuators: only plays that are sounding cost anything. The output does not depend
+/// on how it is cut into blocks. Decoders take memory: build() makes those that start soon and frees those that have
+/// ended, from a thread that may wait; the constructor makes all of them, so that live use need not call it.
 class ScenePlayer
 {
 public:

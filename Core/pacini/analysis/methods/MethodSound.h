@@ -1,6 +1,6 @@
 #pragma once
 
-// A sound made ready for a translation method.
+// Preprocessing that the translation methods share: a sound limited to a range and normalised.
 
 #include <pacini/analysis/ActiveTime.h>
 #include <pacini/analysis/BandLimit.h>
@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// A sound after preprocessing.
 struct MethodSound
 {
     std::vector<float> samples; ///< within the method's range, the largest magnitude is 1; silence stays silence
