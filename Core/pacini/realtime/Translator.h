@@ -69,7 +69,6 @@ public:
         setup = wanted;
         sendDesign();
     }
-    [[nodiscard]] const TranslatorSetup& currentSetup() const noexcept { return setup; }
 
     /// What is left out with the newest set-up and `params`, and why. [message]
     [[nodiscard]] TranslatorPlan plan(const Params& wanted) const
