@@ -40,7 +40,7 @@ struct MotorDriveParams
     return {response.riseTime / -std::log(1.0 - std::sqrt(0.9)), response.fallTime / -std::log(std::sqrt(0.1))};
 }
 
-/// Of a valid profile.
+/// The motor drive parameters of a valid profile.
 [[nodiscard]] inline MotorDriveParams motorDriveParams(const Profile& profile) noexcept
 {
     MotorDriveParams params;

@@ -104,7 +104,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     return needs;
 }
 
-/// What the protection of a valid profile needs to know; limits that cannot be reached are left out.
+/// The protection parameters of a valid profile; limits that cannot be reached are left out.
 [[nodiscard]] inline ProtectionParams protectionParams(const Profile& profile, Seconds lookAhead) noexcept
 {
     const ProtectionNeeds needs = protectionNeeds(profile);

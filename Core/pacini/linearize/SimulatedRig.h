@@ -77,7 +77,7 @@ namespace detail
 }
 } // namespace detail
 
-/// What the rig records of `drive`, both at params.sampleRate: one channel for each axis.
+/// Simulated recording: what the rig records of `drive`, both at params.sampleRate: one channel for each axis.
 [[nodiscard]] inline std::vector<std::vector<float>> recordOnRig(std::span<const float> drive, const RigParams& params)
 {
     std::vector<float> amplified(drive.size());

@@ -96,7 +96,7 @@ inline constexpr double highestInnerRate = 12000.0; // Hz
 
 namespace detail
 {
-/// The pulses of events, where the profile says what they are.
+/// Takes the pulses of events from the profile where it says what they are.
 inline void choosePulses(TranslatorDesign& design, const ActuatorTransient& transient) noexcept
 {
     if (transient.shape != TransientShape::adaptive)
@@ -168,7 +168,7 @@ inline void planSavings(TranslatorDesign& design, const std::optional<Profile>& 
         design.plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
 }
 
-/// What of the range the inner rate can carry; few voices play where they are felt.
+/// Limits the range to what the inner rate can carry; few voices play where they are felt.
 inline void limitRange(TranslatorDesign& design, bool anyWaveform) noexcept
 {
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
@@ -177,7 +177,7 @@ inline void limitRange(TranslatorDesign& design, bool anyWaveform) noexcept
         design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
 }
 
-/// Each band as carrier or by its own signal, and the way of those signals.
+/// Decides for each band between a carrier and its own signal, and designs the direct path.
 inline void designBands(TranslatorDesign& design, bool anyWaveform)
 {
     design.meter.design(design.layout, design.innerRate);
@@ -209,7 +209,7 @@ inline void designBands(TranslatorDesign& design, bool anyWaveform)
     design.direct.design(low, border, high, design.innerRate);
 }
 
-/// Where sounds too high for the skin are felt. Bands that are moved into a narrower range are felt already.
+/// Decides where sounds too high for the skin are felt. Bands that are moved into a narrower range are felt already.
 inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
 {
     const bool showsAll = std::all_of(design.bands.begin(), design.bands.end(),
@@ -255,7 +255,7 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
     return design;
 }
 
-/// What a set of parameters leaves out beside that. [message]
+/// The design's savings, and what a set of parameters leaves out beside them. [message]
 [[nodiscard]] inline TranslatorPlan translatorPlan(const TranslatorDesign& design, const TranslatorParams& params)
 {
     TranslatorPlan plan = design.plan;
