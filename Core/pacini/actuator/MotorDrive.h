@@ -58,8 +58,7 @@ struct MotorDriveParams
 /// - a standing motor gets at least the start voltage until its modelled speed is the wanted one (friction at rest is
 ///   higher than in motion), or for the kick time,
 /// - a strength that the motor cannot hold is raised to the weakest it can, stallVoltage^2; below a quarter of that it
-/// is
-///   0: there is nothing between,
+///   is 0: there is nothing between,
 /// - the voltage stays below what a coil that may not get hotter bears (see CoilHeat). A bound on a voltage distorts
 ///   nothing, so that no gain has to go before it, and the modelled speed knows of it: a motor that was held back is
 ///   not braked for a speed that it never had.
