@@ -7,7 +7,7 @@
 #include "io/AudioReader.h"
 #include "io/ClipJson.h"
 
-#include <pacini/clip/ClipSize.h>
+#include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <variant>
 
@@ -24,6 +25,13 @@ namespace pacini::cli
 namespace
 {
 using Json = nlohmann::ordered_json;
+
+/// The bits that a clip takes as the thesis counts (Weber 2020, Eq. 4.11): `bits` for each time and each value of all
+/// breakpoints, and of the time and amplitude of all transients.
+std::size_t thesisBits(const Clip& clip, int bits) noexcept
+{
+    return (breakpointCount(clip) + clip.transients.size()) * 2 * static_cast<std::size_t>(bits);
+}
 
 Json describe(const Clip& clip, const std::string& format)
 {

@@ -300,7 +300,7 @@ Exit RenderCommand::run(Console& console)
     settings.compile.adaptation.mapping = chosen<FrequencyMapping>(
         mapping,
         {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}});
-    settings.compile.adaptation.maxBoost = maxBoost;
+    settings.compile.adaptation.maxBoost = Decibels(maxBoost);
     settings.protect = !noProtection;
     settings.transposition = transpose;
     settings.stretch = stretch;

@@ -59,7 +59,7 @@ private:
     bool everything = false;
     bool noAdaptation = false;
     std::string mapping = "profile";
-    double maxBoost = AdaptationParams{}.maxBoost; // dB
+    double maxBoost = AdaptationParams{}.maxBoost.value; // dB
     bool noProtection = false;
     bool force = false;
     OverwriteOptions overwriting;

@@ -69,7 +69,7 @@ private:
 TimeRange reachOf(const Profile& profile)
 {
     TimeRange reach{profile.range.lowFrequency, profile.range.highFrequency};
-    if (const auto flattening = flatteningOf(profile, Decibels(AdaptationParams{}.maxBoost)))
+    if (const auto flattening = flatteningOf(profile, AdaptationParams{}.maxBoost))
     {
         const double ratio = std::exp2(flattening->octaves);
         reach = {std::max(reach.from / ratio, 1.0), std::min(reach.to * ratio, 20000.0)};

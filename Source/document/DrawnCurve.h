@@ -6,11 +6,13 @@
 #include "document/view/ValueAxis.h"
 
 #include <pacini/clip/edits/PointEdits.h>
+#include <pacini/simplify/DouglasPeucker.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,31 +51,6 @@ private:
     double lastX = 0.0, lastY = 0.0;
 };
 
-namespace detail
-{
-inline void keepFarthest(const Curve& dense, const ValueAxis& axis, double tolerance, std::size_t first,
-                         std::size_t last, std::vector<bool>& kept)
-{
-    std::size_t worst = first;
-    double distance = tolerance;
-    for (std::size_t i = first + 1; i < last; ++i)
-    {
-        const double x = (dense[i].time - dense[first].time) / (dense[last].time - dense[first].time);
-        const double line = dense[first].value + x * (dense[last].value - dense[first].value);
-        if (const double away = std::abs(axis.yOf(dense[i].value) - axis.yOf(line)); away > distance)
-        {
-            distance = away;
-            worst = i;
-        }
-    }
-    if (worst == first)
-        return;
-    kept[worst] = true;
-    keepFarthest(dense, axis, tolerance, first, worst, kept);
-    keepFarthest(dense, axis, tolerance, worst, last, kept);
-}
-} // namespace detail
-
 /// Few of a curve's points (ascending times), so that on the screen no other is more than `tolerance` pixels above or
 /// below the new curve: Douglas and Peucker, "Algorithms for the reduction of the number of points required to
 /// represent a digitized line" (1973), with distances straight up, as curves are functions of time.
@@ -81,14 +58,20 @@ inline void keepFarthest(const Curve& dense, const ValueAxis& axis, double toler
 {
     if (dense.size() < 3)
         return dense;
-    std::vector<bool> kept(dense.size(), false);
-    kept.front() = kept.back() = true;
-    detail::keepFarthest(dense, axis, tolerance, 0, dense.size() - 1, kept);
-    Curve few;
-    for (std::size_t i = 0; i < dense.size(); ++i)
-        if (kept[i])
-            few.push_back(dense[i]);
-    return few;
+    const auto pixels = [&axis](std::span<const Breakpoint> curve, std::size_t first, std::size_t last)
+    {
+        const Breakpoint &a = curve[first], &b = curve[last];
+        Deviation largest{0.0, first};
+        for (std::size_t i = first + 1; i < last; ++i)
+        {
+            const double x = (curve[i].time - a.time) / (b.time - a.time);
+            const double away = std::abs(axis.yOf(curve[i].value) - axis.yOf(a.value + x * (b.value - a.value)));
+            if (away > largest.value)
+                largest = {away, i};
+        }
+        return largest;
+    };
+    return curveOf(dense, splitWorst(dense, {0, dense.size() - 1}, dense.size(), tolerance, pixels));
 }
 
 /// A stroke as points within a pixel of it. x = 0, y = 0 is the upper left corner of the lane; what is above or below

@@ -103,7 +103,8 @@ TEST_CASE("Motor drive keeps the block contract", "[actuator]")
     options.delay = test::MeasuredDelay::firstFrame;
     test::checkBlockContract<MotorDrive>(motorDriveParams(profile), options);
     test::checkBlockContract<MotorDrive>({}, options);
-    test::checkModulation<MotorDrive>({motorDriveParams(profile), {}, {{0.0, 0.1}, 1.0, 2.0, 3.0, -1.0, false}}, 1.5);
+    test::checkModulation<MotorDrive>(
+        {motorDriveParams(profile), {}, {{0.0, 0.1}, 1.0, 2.0, 3.0, Seconds(-1.0), false}}, 1.5);
     test::checkSilenceIsCheap<MotorDrive>(motorDriveParams(profile));
 }
 

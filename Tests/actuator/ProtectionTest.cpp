@@ -573,16 +573,16 @@ TEST_CASE("Limits that no drive can reach are left out", "[actuator][protection]
     CHECK(needs.excursion == Limit::guarded);
     CHECK(needs.heat == Limit::guarded);
     CHECK(needs.worstPower == Approx(0.25));
-    CHECK(protectionParams(profile, 0_s).heat->thermalTime == 1.0);
+    CHECK(protectionParams(profile, 0_s).heat->thermalTime == 1_s);
     profile.drive.thermalTime.reset();
-    CHECK(protectionParams(profile, 0_s).heat->thermalTime == defaultThermalTime);
+    CHECK(protectionParams(profile, 0_s).heat->thermalTime == Seconds(defaultThermalTime));
 
     // The worst drive follows the velocity of the mass: what it reaches is the bound.
     for (const double q : {0.3, 0.5, 0.8, 3.97, 30.0})
     {
         CAPTURE(q);
         const double fs = 48000.0;
-        const ExcursionParams params{67.0, q, 1e-3, 1e-3};
+        const ExcursionParams params{67_Hz, q, 1e-3, 1e-3};
         test::SimulatedResonator mass(67.0, q, 1e-3, fs);
         for (int n = 0; n < 96000; ++n)
             mass.hold(mass.velocity() < 0.0 ? -1.0 : 1.0);
@@ -604,7 +604,7 @@ TEST_CASE("Limits are judged at the largest drive, overdrive included", "[actuat
     using Limit = ProtectionNeeds::Limit;
     // 2 % above what the rated drive can do at worst
     Profile profile =
-        withCoil(profileOf(175.0, 15.0, 100.0, 1e-4, 1.02 * worstExcursion({175.0, 15.0, 1e-4, 1.0})), 0.3);
+        withCoil(profileOf(175.0, 15.0, 100.0, 1e-4, 1.02 * worstExcursion({175_Hz, 15.0, 1e-4, 1.0})), 0.3);
     profile.drive.maxPower = 1.02 * 0.25;
     CHECK(protectionNeeds(profile).excursion == Limit::unharmed);
     CHECK(protectionNeeds(profile).heat == Limit::unharmed);
@@ -639,7 +639,7 @@ TEST_CASE("Bounds alone leave a direct voltage as it is and keep the heat of one
 {
     const double fs = 8000.0;
     ProtectionParams params;
-    params.heat = CoilHeatParams{1.0, 0.25, 0.1};
+    params.heat = CoilHeatParams{1.0, 0.25, 100_ms};
     auto protection = prepared(params, fs);
     params.boundsAlone = true;
     params.lookAhead = 0_s;

@@ -9,7 +9,7 @@ using namespace pacini::test;
 
 namespace
 {
-const SpinningMotorParams motor{180.0, {0.06, 0.1}};
+const SpinningMotorParams motor{180_Hz, {0.06, 0.1}};
 
 std::vector<float> run(const std::vector<float>& drive, double fs)
 {
@@ -23,7 +23,7 @@ std::vector<float> run(const std::vector<float>& drive, double fs)
 double strengthAt(const std::vector<float>& force, double seconds, double fs, double turns = 1.0)
 {
     const auto begin = static_cast<std::size_t>(seconds * fs);
-    const auto end = begin + static_cast<std::size_t>(turns * fs / motor.frequency);
+    const auto end = begin + static_cast<std::size_t>(turns * fs / motor.frequency.value);
     double largest = 0.0;
     for (std::size_t i = begin; i < end; ++i)
         largest = std::max(largest, std::abs(static_cast<double>(force[i])));
@@ -72,8 +72,8 @@ TEST_CASE("A motor hardly turns when the drive alternates, since the mean of the
 TEST_CASE("A motor keeps the contract of blocks", "[actuator][body][contract]")
 {
     checkBlockContract<SpinningMotor>(motor, {.bound = 200.0});
-    checkBlockContract<SpinningMotor>({180.0, {0.0, 0.0}}, {.bound = 200.0});
-    checkModulation<SpinningMotor>({motor, {1e9, {0.0, 0.0}}, {0.0, {1.0, 1e9}}}, 200.0);
+    checkBlockContract<SpinningMotor>({180_Hz, {0.0, 0.0}}, {.bound = 200.0});
+    checkModulation<SpinningMotor>({motor, {Hertz(1e9), {0.0, 0.0}}, {0_Hz, {1.0, 1e9}}}, 200.0);
     checkSilenceIsCheap<SpinningMotor>(motor);
     checkSilenceIsCheap<SpinningMotor>(motor, 480000);
 }

@@ -72,9 +72,12 @@ Edited editedClicks()
     Clip drawn = clip;
     e.drawnAt = clip.transients[2].time;
     const Curve stroke = {{e.drawnAt, 0.123}, {e.drawnAt + 0.2, 0.123}};
-    drawn.envelope = drawPoints(drawn.envelope, stroke, limitsOf(drawn, {LaneKind::envelope, 0})).curve;
+    drawn.envelope = replaceSection(drawn.envelope, {e.drawnAt, e.drawnAt + 0.2}, stroke);
     REQUIRE(e.document.setClip(e.id, "Draw", drawn));
-    REQUIRE(e.document.setClip(e.id, "Move event", moveTransients(drawn, {4}, {0.05, 0.5, 0.0})));
+    Clip moved = drawn;
+    moved.transients[4].time += 0.05;
+    moved.transients[4].amplitude *= 0.5;
+    REQUIRE(e.document.setClip(e.id, "Move event", moved));
     REQUIRE(e.document.setClip(e.id, "Remove event", deleteTransients(*e.document.clip(e.id)->clip, {1})));
     return e;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 using namespace pacini;
 
@@ -21,6 +22,12 @@ SweepParams plain(const nlohmann::json& c)
     params.fadeIn = params.fadeOut = 0.0;
     return params;
 }
+
+/// One sweep of amplitude 1, without pauses.
+std::vector<float> plainSweep(const SweepParams& params)
+{
+    return sampleSweep(measuringSweep(params), params.sampleRate);
+}
 } // namespace
 
 TEST_CASE("A sweep without fades is the one of the reference", "[linearize]")
@@ -29,7 +36,7 @@ TEST_CASE("A sweep without fades is the one of the reference", "[linearize]")
     const double tolerance = ess["tol"];
     for (const auto& c : ess["cases"])
     {
-        const auto x = makeSweep(plain(c)).value();
+        const auto x = plainSweep(plain(c));
         REQUIRE(x.size() == c["n"].get<std::size_t>());
         const auto compare = [&](const nlohmann::json& values, std::size_t first)
         {
@@ -70,9 +77,9 @@ TEST_CASE("A sweep fades in and out and keeps its level between", "[linearize]")
     params.duration = 2.0;
     params.fadeIn = 0.5;
     params.fadeOut = 0.1;
-    const auto faded = makeSweep(params).value();
+    const auto faded = plainSweep(params);
     params.fadeIn = params.fadeOut = 0.0;
-    const auto full = makeSweep(params).value();
+    const auto full = plainSweep(params);
     CHECK(std::abs(faded.back()) < 1e-4f);
     CHECK(faded[12000] == Approx(0.5 * static_cast<double>(full[12000])).margin(1e-6)); // half way in
     for (std::size_t n = 24000; n < 91200; ++n)
@@ -98,7 +105,7 @@ TEST_CASE("A measurement plays every repeat of every level between markers, with
     params.repeats = 2;
     const auto schedule = makeSweepSchedule(params);
     const auto signal = makeSweepSignal(params).value();
-    const auto sweep = makeSweep(params).value();
+    const auto sweep = plainSweep(params);
     REQUIRE(schedule.sweeps.size() == 4);
     REQUIRE(signal.size() == schedule.frames);
     CHECK(schedule.frames == 48000 * (7 + 4 + 1)); // seven pauses, four sweeps, two markers of half a second
@@ -133,7 +140,6 @@ TEST_CASE("Wrong sweep parameters are named", "[linearize]")
         SweepParams params;
         change(params);
         const auto result = makeSweepSignal(params);
-        REQUIRE_FALSE(makeSweep(params).ok());
         REQUIRE_FALSE(result.ok());
         return result.error().where;
     };

@@ -254,7 +254,7 @@ Strain strainOfScene(const LimitCase& limitCase, Random& random)
     compile.adapt = random.uniform() < 0.6;
     compile.leaveOut = random.uniform() < 0.5;
     const std::array boosts{0.0, 6.0, 20.0, 40.0};
-    compile.adaptation.maxBoost = boosts[random.next() % boosts.size()];
+    compile.adaptation.maxBoost = Decibels(boosts[random.next() % boosts.size()]);
     auto plan = compilePlan(scene, &limitCase.profile, compile);
     if (!plan)
         return {};
@@ -291,7 +291,7 @@ Strain strainOfLive(const LimitCase& limitCase, Random& random)
     TranslatorSetup setup;
     setup.profile = limitCase.profile;
     setup.bands.bands = 1 + random.next() % 6;
-    setup.maxBoost = random.uniform() < 0.5 ? 6.0 : 40.0 * random.uniform();
+    setup.maxBoost = Decibels(random.uniform() < 0.5 ? 6.0 : 40.0 * random.uniform());
     Translator translator;
     translator.setSetup(setup);
     translator.prepare({limitCase.fs, 256});

@@ -94,7 +94,7 @@ TEST_CASE("A new set-up does not forget that the actuator moves and is warm", "[
     profile.drive.maxVoltageRms = 2.0;
     profile.drive.maxPower = 0.2;
     profile.drive.thermalTime = 1.0;
-    setup.maxBoost = 0.0;
+    setup.maxBoost = 0_dB;
     Translator translator;
     translator.setSetup(setup);
     translator.prepare({fs, 100});

@@ -93,7 +93,7 @@ TEST_CASE("an actuator of one voice gets one tone within its range", "[realtime]
     const double fs = 8000.0;
     TranslatorSetup setup;
     setup.profile = narrowLra();
-    setup.maxBoost = 0.0;
+    setup.maxBoost = 0_dB;
     TranslatorParams params;
     params.transients.muted = true;
     for (double f : {50.0, 90.0, 300.0, 700.0})
@@ -191,7 +191,7 @@ TEST_CASE("another actuator comes without a click, and the latency stays", "[rea
     std::vector<float> out(in.size());
     TranslatorSetup lra;
     lra.profile = narrowLra();
-    lra.maxBoost = 0.0;
+    lra.maxBoost = 0_dB;
     for (std::size_t i = 0; i < in.size(); i += 64)
     {
         if (i / 64 % 200 == 100)

@@ -80,7 +80,7 @@ inline Result<Clip> anyEdit(Random& random, const Clip& clip)
     {
         return anyNumber(random, -1.0, clip.duration + 1.0);
     };
-    switch (random.next() % 24)
+    switch (random.next() % 20)
     {
     case 0:
         return with(addPoint(curve, {time(), anyNumber(random, -1.0, high)}, limits).curve);
@@ -91,58 +91,40 @@ inline Result<Clip> anyEdit(Random& random, const Clip& clip)
             movePoints(curve, chosen, {time() - 0.5, anyNumber(random, -1.0, 1.0), anyNumber(random, 0.0, 2.0)}, limits)
                 .curve);
     case 3:
-        return with(scalePoints(curve, chosen,
-                                {time(), anyNumber(random, -2.0, 2.0), anyNumber(random, 0.0, high),
-                                 anyNumber(random, -2.0, 2.0)},
-                                limits)
-                        .curve);
-    case 4:
-        return with(bendPoints(curve, chosen, anyNumber(random, -high, high), limits).curve);
-    case 5:
-    {
-        Curve stroke;
-        for (std::uint64_t n = random.next() % 12; n > 0; --n)
-            stroke.push_back({time(), anyNumber(random, 0.0, high)});
-        return with(drawPoints(curve, stroke, limits).curve);
-    }
-    case 6:
         return amplify(clip, anyScope(random, clip), anyNumber(random, -30.0, 30.0));
-    case 7:
+    case 4:
         return fade(clip, anyScope(random, clip), random.next() % 2 == 0 ? FadeDirection::in : FadeDirection::out,
                     static_cast<FadeShape>(random.next() % 3));
-    case 8:
+    case 5:
         return invert(clip, anyScope(random, clip));
-    case 9:
+    case 6:
         return transpose(clip, anyNumber(random, -24.0, 24.0));
-    case 10:
+    case 7:
         return quantiseTimes(clip, anyScope(random, clip),
                              {anyNumber(random, 0.01, 1.0), time(), anyNumber(random, 0.0, 1.0)});
-    case 11:
+    case 8:
         return humanise(
             clip, anyScope(random, clip),
             {anyNumber(random, 0.0, 0.2), anyNumber(random, 0.0, 6.0), anyNumber(random, 0.0, 2.0), random.next()});
-    case 12:
+    case 9:
         return addTransient(clip, {time(), anyNumber(random, -0.5, 2.0), anyNumber(random, -0.5, 1.5)});
-    case 13:
-        return moveTransients(clip, anyIndices(random, clip.transients.size()),
-                              {time() - 0.5, anyNumber(random, 0.0, 2.0), anyNumber(random, -1.0, 1.0)});
-    case 14:
+    case 10:
         return deleteTransients(clip, anyIndices(random, clip.transients.size()));
-    case 15:
+    case 11:
         return thinTransients(clip, {time(), time()}, anyNumber(random, 0.0, 1.0));
-    case 16:
+    case 12:
         return trimClip(clip, {time(), time()});
-    case 17:
+    case 13:
         return cutClip(clip, {time(), time()});
-    case 18:
+    case 14:
         return insertClip(clip, time(), randomFullClip(random.next() % 50, 5));
-    case 19:
+    case 15:
         return clip.duration < 300.0 ? repeatClip(clip, static_cast<int>(random.next() % 4)) : Result<Clip>(clip);
-    case 20:
+    case 16:
         return reverseClip(clip);
-    case 21:
+    case 17:
         return stretchClip(clip, random.uniform(0.5, 2.0));
-    case 22:
+    case 18:
         return audibleClip(clip, {{random.next() % 4}, {random.next() % 4}, false, true});
     default:
         return pasteFragment(clip, copyFragment(clip, anyScope(random, clip)), time());

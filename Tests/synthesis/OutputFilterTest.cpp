@@ -47,7 +47,7 @@ double rise(const Profile& profile, double frequency, double maxBoost)
     clip.bands = {{frequency / 1.1, frequency, frequency * 1.1, 0, {{0.0, 0.1}, {end, 0.1}}, {{0.0, frequency}}}};
     const auto level = [&](double boost)
     {
-        params.adaptation.maxBoost = boost;
+        params.adaptation.maxBoost = Decibels(boost);
         const auto y = test::drive(clip, profile, params, playing);
         const auto last = static_cast<std::size_t>(std::lround(20.0 / frequency * fs));
         return std::abs(test::spectrumAt(std::span<const float>(y).last(last), frequency, fs));

@@ -1,6 +1,6 @@
 #pragma once
 
-// The mechanics of actuator, device and skin: which response they have.
+// Mechanical model of actuator, device and skin as a chain of masses, springs and dampers, with its frequency response.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
@@ -20,7 +20,7 @@ struct BodyBand
     static constexpr double highest = 1000.0; ///< Hz
 };
 
-/// What is observed.
+/// Output of the body model: what is observed.
 enum class BodyPoint
 {
     movingMass, ///< acceleration, m/s^2
@@ -29,7 +29,7 @@ enum class BodyPoint
     excursion   ///< of the moving mass from rest against the device, m
 };
 
-/// What of the chain is kept.
+/// Model order: what of the chain is kept.
 enum class BodyShape
 {
     elastic, ///< everything
@@ -37,7 +37,7 @@ enum class BodyShape
     skinless ///< the device moves freely, and the skin with it
 };
 
-/// Where the force acts.
+/// Input of the body model: where the force acts.
 enum class BodyForce
 {
     coil,  ///< between moving mass and device

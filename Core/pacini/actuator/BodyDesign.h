@@ -1,6 +1,6 @@
 #pragma once
 
-// From a chain of masses to a filter: sections of two modes each, and five taps.
+// Filter design for the body model: a chain of masses becomes sections of two modes each, and five taps.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/PoleGroups.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs what designBodyModel made.
+// State of a body-model filter: runs what designBodyModel() made.
 
 #include <pacini/actuator/BodyDesign.h>
 #include <pacini/foundation/DspBlock.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The body by the usual integrators, to compare with.
+// Numerical integration of the body model (Euler, Runge-Kutta, trapezoidal), to compare its filter with.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/foundation/DspBlock.h>
@@ -19,6 +19,7 @@
 namespace pacini
 {
 
+/// Method of numerical integration.
 enum class BodyIntegrator
 {
     semiImplicitEuler, ///< velocities first, then positions with the new velocities (L. Euler; symplectic)
@@ -27,7 +28,7 @@ enum class BodyIntegrator
     matrixExponential  ///< exact for a force that is linear between frames, by scaling and squaring
 };
 
-/// Positions and velocities of moving mass, device and skin: x' = a x + b u.
+/// State-space form of the body model. Positions and velocities of moving mass, device and skin: x' = a x + b u.
 struct BodyStateSpace
 {
     using Matrix = Eigen::Matrix<double, 6, 6>;

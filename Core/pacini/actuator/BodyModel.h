@@ -1,6 +1,6 @@
 #pragma once
 
-// What a body makes of a drive signal: the streaming filter.
+// Body model as a streaming filter: drive signal -> motion of the skin.
 
 #include <pacini/actuator/BodyFilter.h>
 #include <pacini/actuator/BodyPlan.h>

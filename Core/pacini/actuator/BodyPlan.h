@@ -1,6 +1,6 @@
 #pragma once
 
-// What of a body need not be computed.
+// Model reduction of a body: leaves out what makes no difference that is felt, and says how large the error is.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/PoleGroups.h>
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// One part that was left out.
+/// Report of a reduction: one part that was left out.
 struct BodyOmission
 {
     std::string_view part;       ///< "joint" (device and skin move as one) or "skin" (and the joint to it)

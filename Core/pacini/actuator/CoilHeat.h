@@ -1,10 +1,11 @@
 #pragma once
 
-// Keeps the heat in an actuator's coil below what it bears.
+// Thermal limiter: keeps the heat in an actuator's coil below what it bears.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +15,17 @@
 namespace pacini
 {
 
-/// Powers in W, clamped to 1e-12 to 1e12.
+/// Thermal parameters of a coil. Powers in W, clamped to 1e-12 to 1e12.
 struct CoilHeatParams
 {
     double fullDrivePower = 1.0; ///< W while the drive stands at 1
     double maxPower = 1.0;       ///< W that the coil bears for ever
-    double thermalTime = 1.0;    ///< s, time constant of its heating, 0.01 to 10000
+    Seconds thermalTime{1.0};    ///< time constant of its heating, 0.01 to 10000 s
     bool operator==(const CoilHeatParams&) const = default;
 };
 
-/// The coil as one thermal mass: its temperature, given as the constant power that would hold it there, follows the
-/// power as a one-pole filter and starts cold. It may never exceed maxPower.
+/// Thermal limiter. The coil as one thermal mass: its temperature, given as the constant power that would hold it
+/// there, follows the power as a one-pole filter and starts cold. It may never exceed maxPower.
 ///
 /// Two parts act. The wanted power, averaged over about 0.1 s so that a gain does not follow the waveform, is compared
 /// with an allowance that falls with the temperature, from five times the aimed-at power when cold (bursts pass) to
@@ -39,7 +40,7 @@ public:
         constexpr double averagingTime = 0.05; // s, twice one after the other
         full = clampTo(params.fullDrivePower, 1e-12, 1e12);
         limit = clampTo(params.maxPower, 1e-12, 1e12) * (1.0 - 1e-9); // and rounding
-        heating = -std::expm1(-1.0 / (clampTo(params.thermalTime, 0.01, 1e4) * fs));
+        heating = -std::expm1(-1.0 / (clampTo(params.thermalTime.value, 0.01, 1e4) * fs));
         temperature.design(heating);
         averaging = -std::expm1(-1.0 / (averagingTime * fs));
         average1.design(averaging);

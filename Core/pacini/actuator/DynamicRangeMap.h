@@ -1,6 +1,7 @@
 #pragma once
 
-// The range of a clip's amplitudes, pressed into what an actuator can show above the threshold of feeling.
+// Static compression curve: presses the range of a clip's amplitudes into what an actuator can show above the threshold
+// of feeling.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>
@@ -11,16 +12,17 @@
 namespace pacini
 {
 
-/// Levels are clamped to 1 to 200 dB, the peak to 1e-6 to 1e6.
+/// Parameters of the compression curve. Levels are clamped to 1 to 200 dB, the peak to 1e-6 to 1e6.
 struct DynamicRangeParams
 {
-    double actuatorRange = 60.0; ///< dB between full drive and the weakest drive that is felt
-    double clipRange = 60.0;     ///< dB between the clip's peak and its floor, below which nothing needs to be felt
-    double clipPeak = 1.0;       ///< the clip's largest amplitude, 1 = full drive
+    Decibels actuatorRange{60.0}; ///< between full drive and the weakest drive that is felt
+    Decibels clipRange{60.0};     ///< between the clip's peak and its floor, below which nothing needs to be felt
+    double clipPeak = 1.0;        ///< the clip's largest amplitude, 1 = full drive
     bool operator==(const DynamicRangeParams&) const = default;
 };
 
-/// Maps amplitudes, 1 = full drive. If the clip's floor is felt anyway the map is the identity. Otherwise
+/// Compression curve. Maps amplitudes, 1 = full drive. If the clip's floor is felt anyway the map is the identity.
+/// Otherwise
 ///
 /// - from floor to peak it is a straight line in dB that raises the floor to the threshold and keeps the peak,
 /// - above the peak it is the identity (of a clip that is below the threshold as a whole: the threshold, until that is
@@ -36,8 +38,8 @@ public:
     explicit DynamicRangeMap(const DynamicRangeParams& params) noexcept
     {
         const double peakLevel = Decibels::fromGain(clampTo(params.clipPeak, 1e-6, 1e6)).value;
-        const double thresholdLevel = -clampTo(params.actuatorRange, 1.0, 200.0);
-        const double range = clampTo(params.clipRange, 1.0, 200.0);
+        const double thresholdLevel = -clampTo(params.actuatorRange.value, 1.0, 200.0);
+        const double range = clampTo(params.clipRange.value, 1.0, 200.0);
         unchanged = peakLevel - range >= thresholdLevel;
         peak = Decibels(peakLevel).gain();
         floor = Decibels(peakLevel - range).gain();

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sections that flatten an actuator, as data and as a filter.
+// Equalizer of an actuator: the sections that flatten its response, as data and as a filter.
 
 #include <pacini/filters/BiquadCascade.h>
 #include <pacini/filters/Butterworth.h>

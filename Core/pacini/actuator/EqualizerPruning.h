@@ -1,6 +1,6 @@
 #pragma once
 
-// Which sections of an equaliser do nothing that is felt.
+// Pruning of equalizer sections: leaves out those that change nothing that is felt.
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/foundation/FixedVector.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// A section that was left out.
+/// Report of pruning: a section that was left out.
 struct DroppedSection
 {
     std::size_t index = 0;  ///< in the equaliser as it was
@@ -23,6 +23,7 @@ struct DroppedSection
     bool operator==(const DroppedSection&) const = default;
 };
 
+/// Result of pruning.
 struct PrunedEqualizer
 {
     EqualizerSections kept;

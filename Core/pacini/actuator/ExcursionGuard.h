@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps the moving mass of an actuator within its travel, whatever the drive.
+// Excursion limiter: keeps the moving mass of an actuator within its travel, whatever the drive.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/FrameGroup.h>
@@ -11,6 +11,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,12 @@
 namespace pacini
 {
 
-/// The moving mass as a second-order resonator, its base held still, and the travel that it has. Clamped to the ranges
-/// of a valid profile. Where it is known what the base is, the mass is guarded as it is worn, too: the base gives way
-/// then, and the mass resonates higher against it.
+/// Parameters of the excursion limiter: the moving mass as a second-order resonator, its base held still, and the
+/// travel that it has. Clamped to the ranges of a valid profile. Where it is known what the base is, the mass is
+/// guarded as it is worn, too: the base gives way then, and the mass resonates higher against it.
 struct ExcursionParams
 {
-    double frequency = 67.0;         ///< Hz, 1 to 20000
+    Hertz frequency{67.0};           ///< 1 to 20000 Hz
     double q = 1.0;                  ///< 0.01 to 1000
     double excursion = 1e-3;         ///< m at a drive of 1 far below resonance, 1e-9 to 10 (with overdrive)
     double maxExcursion = 1e-3;      ///< m from rest, 1e-7 to 0.1
@@ -46,6 +47,7 @@ struct ExcursionParams
     return params.excursion / std::tanh(0.5 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
 }
 
+/// Precomputed steps and limits of the guarded mass.
 struct ExcursionCoefficients
 {
     static constexpr std::size_t maxSubsteps = 64;
@@ -64,7 +66,7 @@ struct ExcursionCoefficients
 /// so many times the travel that r would fall below 95 % of it are not admitted.
 [[nodiscard]] inline ExcursionCoefficients designExcursionGuard(const ExcursionParams& params, double fs) noexcept
 {
-    const double frequency = clampTo(params.frequency, 1.0, 20000.0);
+    const double frequency = clampTo(params.frequency.value, 1.0, 20000.0);
     const double q = clampTo(params.q, 0.01, 1000.0);
     const double excursion = clampTo(params.excursion, 1e-9, 10.0);
     const double travel = clampTo(params.maxExcursion, 1e-7, 0.1);
@@ -90,14 +92,14 @@ struct ExcursionCoefficients
     return guard;
 }
 
-/// Admits of every wanted drive as much as keeps the energy of the modelled mass within its limit to the end of the
-/// sample, and of the mass as it is worn (see WornGuard) the like. Both bear any smaller drive of the same sign, so
-/// that one does not undo the other. A drive of 0 never raises the energy, so that there always is an admissible drive
-/// and the limit holds for ever, for any input; a limiter that only turns down a gain has no such proof, since a
-/// resonator that is already moving goes on when the drive falls. At resonance the largest drive that keeps the energy
-/// is proportional to the velocity, so that even a sinusoid held by the guard alone stays nearly a sinusoid. (A safety
-/// filter on an invariant set: A. Ames et al., "Control barrier functions: theory and applications", ECC 2019, here for
-/// the exact discrete model.)
+/// Excursion limiter (safety filter). Admits of every wanted drive as much as keeps the energy of the modelled mass
+/// within its limit to the end of the sample, and of the mass as it is worn (see WornGuard) the like. Both bear any
+/// smaller drive of the same sign, so that one does not undo the other. A drive of 0 never raises the energy, so that
+/// there always is an admissible drive and the limit holds for ever, for any input; a limiter that only turns down a
+/// gain has no such proof, since a resonator that is already moving goes on when the drive falls. At resonance the
+/// largest drive that keeps the energy is proportional to the velocity, so that even a sinusoid held by the guard alone
+/// stays nearly a sinusoid. (A safety filter on an invariant set: A. Ames et al., "Control barrier functions: theory
+/// and applications", ECC 2019, here for the exact discrete model.)
 class ExcursionGuard
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a profile's actuator makes felt.
+// Model of a profile's actuator on the body: drive signal -> acceleration that is felt.
 
 #include <pacini/actuator/BodyModel.h>
 #include <pacini/actuator/SpinningMotor.h>
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Parameters of the felt acceleration: the mover and the body.
 struct FeltModelParams
 {
     Technology technology = Technology::vca;
@@ -49,7 +50,7 @@ public:
     void setParams(const Params& params) noexcept
     {
         spins = params.technology == Technology::erm;
-        motor.setParams({params.body.resonance.frequency, params.response});
+        motor.setParams({Hertz(params.body.resonance.frequency), params.response});
         BodyModelParams driven = params.body;
         driven.driven = spins ? BodyForce::device : BodyForce::coil;
         body.setParams(driven);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The drive that makes something slow follow a curve.
+// Inverse of a first-order lag: the drive that makes something slow follow a curve.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>

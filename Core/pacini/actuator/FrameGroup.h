@@ -1,6 +1,7 @@
 #pragma once
 
-// The grid on which recursions may take several frames in one step.
+// Block recursion: the grid on which recursions may take several frames in one step, because waiting for every frame is
+// slow.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Frequencies that an actuator cannot show, moved to some that it can.
+// Frequency mapping: moves frequencies that an actuator cannot show to some that it can.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
@@ -10,8 +10,9 @@
 namespace pacini
 {
 
-/// Maps any frequency in Hz into [low, high]. Negative ones and NaN count as the lowest. In all modes the map is a pure
-/// function, real-time safe, and leaves what is in the range already as it is, except for `rescale`:
+/// Frequency mapping curve. Maps any frequency in Hz into [low, high]. Negative ones and NaN count as the lowest. In
+/// all modes the map is a pure function, real-time safe, and leaves what is in the range already as it is, except for
+/// `rescale`:
 ///
 /// - clamp: the nearest end. Continuous and never falling.
 /// - rescale: 30 to 1000 Hz onto the range, linear in octaves, the ends beyond that. Continuous and never falling;

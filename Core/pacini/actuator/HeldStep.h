@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a mass on its spring moves under a drive that is held from sample to sample.
+// Resonator under zero-order hold: how far a mass on its spring moves under a drive that is held from sample to sample.
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps a drive signal within full scale where no actuator is known.
+// Look-ahead limiter: keeps a drive signal within full scale where no actuator is known.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/Protection.h>
@@ -17,6 +17,7 @@
 namespace pacini
 {
 
+/// Parameters of the limiter.
 struct LevelLimiterParams
 {
     Hertz lowFrequency{20.0}; ///< the lowest tone to be played, 1 to 20000 Hz: the gain does not follow its waveform

@@ -1,6 +1,6 @@
 #pragma once
 
-// The gain of a limiter: knee, hold, release, look-ahead.
+// Gain computer of a limiter: knee, hold, release, look-ahead.
 
 #include <pacini/actuator/SlidingMaximum.h>
 #include <pacini/foundation/Clamp.h>
@@ -43,11 +43,11 @@ struct HardKnee
     static constexpr double startSquared = 1.0; ///< up to it the gain is 1
 };
 
-/// The gain that brings a level down to its limit. It answers the highest level within the time of `hold` (half a
-/// period of the lowest tone: the gain does not follow the waveform), which it then lets go by 40 dB/s. With a
-/// look-ahead of n frames the gain is the mean of its newest n + 1 values, so that it arrives gradually at the frame
-/// that needs it, n frames after the level was told; hold must not be shorter than the look-ahead. Without look-ahead
-/// the gain acts at once.
+/// Gain computer. The gain that brings a level down to its limit. It answers the highest level within the time of
+/// `hold` (half a period of the lowest tone: the gain does not follow the waveform), which it then lets go by 40 dB/s.
+/// With a look-ahead of n frames the gain is the mean of its newest n + 1 values, so that it arrives gradually at the
+/// frame that needs it, n frames after the level was told; hold must not be shorter than the look-ahead. Without
+/// look-ahead the gain acts at once.
 ///
 /// Nothing here is decided by comparing peaks, so the gain is a continuous function of the levels: what changes no
 /// level by more than d (parts of the limit) changes no frame behind the gain by more than its own change and d.

@@ -1,6 +1,6 @@
 #pragma once
 
-// The voltage of a motor with an eccentric mass, from the strength that is wanted.
+// Drive of a motor with an eccentric mass (ERM): its voltage, from the strength that is wanted.
 
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/FirstOrderInverse.h>
@@ -8,6 +8,7 @@
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,15 @@
 namespace pacini
 {
 
-/// Voltages are in units of the rated one, which turns the motor at its rated speed.
+/// Parameters of a motor and its drive. Voltages are in units of the rated one, which turns the motor at its rated
+/// speed.
 struct MotorDriveParams
 {
     FirstOrderTimes speedTimes;  ///< time constants of the speed
     double overdrive = 1.0;      ///< the largest voltage, 1 to 10
     double startVoltage = 0.25;  ///< the least that gets a standing motor to turn; small motors need 0.2 to 0.4
     double stallVoltage = 0.125; ///< below this a turning motor stops
-    double kickTime = 0.020;     ///< s of start voltage when the spin-up time is not known
+    Seconds kickTime{0.020};     ///< of start voltage when the spin-up time is not known
     bool braking = true;         ///< whether the voltage may be reversed to stop sooner
     std::optional<CoilHeatParams> heat{}; ///< at the largest voltage; none: no limit
     bool operator==(const MotorDriveParams&) const = default;
@@ -38,7 +40,7 @@ struct MotorDriveParams
     return {response.riseTime / -std::log(1.0 - std::sqrt(0.9)), response.fallTime / -std::log(std::sqrt(0.1))};
 }
 
-/// Of a valid profile.
+/// The motor drive parameters of a valid profile.
 [[nodiscard]] inline MotorDriveParams motorDriveParams(const Profile& profile) noexcept
 {
     MotorDriveParams params;
@@ -48,15 +50,15 @@ struct MotorDriveParams
     return params;
 }
 
-/// Wanted strength (0 to 1, an envelope; 1 is the strength at rated voltage) to voltage. The force of an eccentric mass
-/// is m r w^2 and its speed w follows the voltage, so the wanted speed is the square root of the strength:
+/// Motor drive. Wanted strength (0 to 1, an envelope; 1 is the strength at rated voltage) to voltage. The force of an
+/// eccentric mass is m r w^2 and its speed w follows the voltage, so the wanted speed is the square root of the
+/// strength:
 ///
 /// - it is reached by overdrive and left by braking (see FirstOrderInverse, applied to the speed),
 /// - a standing motor gets at least the start voltage until its modelled speed is the wanted one (friction at rest is
 ///   higher than in motion), or for the kick time,
 /// - a strength that the motor cannot hold is raised to the weakest it can, stallVoltage^2; below a quarter of that it
-/// is
-///   0: there is nothing between,
+///   is 0: there is nothing between,
 /// - the voltage stays below what a coil that may not get hotter bears (see CoilHeat). A bound on a voltage distorts
 ///   nothing, so that no gain has to go before it, and the modelled speed knows of it: a motor that was held back is
 ///   not braked for a speed that it never had.
@@ -85,7 +87,7 @@ public:
         start = clampTo(params.startVoltage, 0.0, 1.0);
         stall = clampTo(params.stallVoltage, 0.0, start);
         kickFrames =
-            params.speedTimes.rise > 0.0 ? 0 : static_cast<std::size_t>(clampTo(params.kickTime, 0.0, 1.0) * fs);
+            params.speedTimes.rise > 0.0 ? 0 : static_cast<std::size_t>(clampTo(params.kickTime.value, 0.0, 1.0) * fs);
     }
     void reset() noexcept
     {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A mass that follows the drive, frame by frame or by groups of frames.
+// State of a moving mass that follows the drive, frame by frame or by groups of frames.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>
@@ -49,7 +49,7 @@ struct GroupStep
     return group;
 }
 
-/// The state of the mass after every drive so far; see FrameGroup.
+/// State of the resonator. The state of the mass after every drive so far; see FrameGroup.
 class MovingMass
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What flattens an actuator: its measured equaliser, or the inverse of its resonance.
+// Output filter that flattens an actuator: its measured equalizer, or the inverse of its resonance.
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/PolePairInverse.h>
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// Trades strength at the resonance for the frequencies around it.
+/// Resonance correction. Trades strength at the resonance for the frequencies around it.
 struct Flattening
 {
     Resonance actuator;   ///< as it is worn
@@ -149,6 +149,7 @@ inline double highestGain(const BiquadCoefficients& c, const Flattening& flatten
 }
 } // namespace detail
 
+/// An equalizer and a resonance correction, each where there is one.
 struct OutputFilterParams
 {
     EqualizerSections equalizer;

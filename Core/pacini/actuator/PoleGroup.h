@@ -1,6 +1,6 @@
 #pragma once
 
-// Poles that belong together, and functions of all of them at once, without trouble where they coincide.
+// Pairs of poles, and functions of both at once that stay exact where they coincide.
 
 #include <cassert>
 #include <cmath>

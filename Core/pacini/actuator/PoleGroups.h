@@ -1,6 +1,6 @@
 #pragma once
 
-// The roots of the characteristic polynomial of a passive mechanical system.
+// Root finder for the characteristic polynomial of a passive mechanical system.
 
 #include <pacini/actuator/PoleGroup.h>
 #include <pacini/actuator/RealPolynomial.h>

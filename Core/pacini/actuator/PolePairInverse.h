@@ -1,6 +1,6 @@
 #pragma once
 
-// The filter that takes an actuator's resonance away.
+// Inverse filter of a resonance: takes an actuator's pair of poles away.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/PoleGroups.h>

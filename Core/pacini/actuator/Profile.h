@@ -1,6 +1,6 @@
 #pragma once
 
-// What is known of an actuator.
+// Actuator profile: technology, limits, response and equalizer of an actuator, as far as they are known.
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/actuator/ProfileMeasurement.h>
@@ -14,6 +14,7 @@
 namespace pacini
 {
 
+/// Technology of an actuator.
 enum class Technology
 {
     erm,   ///< eccentric rotating mass: its frequency rises with its strength
@@ -24,7 +25,7 @@ enum class Technology
     pcm    ///< no actuator known: the drive signal as it is
 };
 
-/// The mass on its spring, with its base held still.
+/// Resonance of an actuator: the mass on its spring, with its base held still.
 struct Resonance
 {
     double frequency = 67.0; ///< Hz
@@ -32,7 +33,7 @@ struct Resonance
     bool operator==(const Resonance&) const = default;
 };
 
-/// What the actuator can show.
+/// Range of frequencies and levels: what the actuator can show.
 struct ActuatorRange
 {
     double lowFrequency = 20.0;    ///< Hz
@@ -41,7 +42,7 @@ struct ActuatorRange
     bool operator==(const ActuatorRange&) const = default;
 };
 
-/// How fast it follows a burst at its resonance driven at full drive.
+/// Rise and fall times: how fast it follows a burst at its resonance driven at full drive.
 struct ActuatorResponse
 {
     double riseTime = 0.0; ///< s from rest to 90 % of the final strength
@@ -65,8 +66,9 @@ struct ActuatorDrive
     bool operator==(const ActuatorDrive&) const = default;
 };
 
-/// The way of the force from the moving mass through the device into the skin (Weber 2020, Fig. 3.2). The moving mass
-/// hangs in the device on a spring and damper that follow from the resonance; the joint links device and skin.
+/// Mechanical parameters of actuator, device and skin: the way of the force from the moving mass through the device
+/// into the skin (Weber 2020, Fig. 3.2). The moving mass hangs in the device on a spring and damper that follow from
+/// the resonance; the joint links device and skin.
 struct BodyParams
 {
     double force = 1.0;            ///< N on the moving mass at a drive of 1
@@ -80,6 +82,7 @@ struct BodyParams
     bool operator==(const BodyParams&) const = default;
 };
 
+/// Waveform of events.
 enum class TransientShape
 {
     adaptive, ///< what the clip's events ask for
@@ -87,7 +90,7 @@ enum class TransientShape
     sine      ///< fixed sine cycles
 };
 
-/// How events are played.
+/// Pulse of an event: how events are played.
 struct ActuatorTransient
 {
     TransientShape shape = TransientShape::adaptive;
@@ -96,7 +99,7 @@ struct ActuatorTransient
     bool operator==(const ActuatorTransient&) const = default;
 };
 
-/// What happens to frequencies that the actuator cannot show.
+/// Frequency mapping mode: what happens to frequencies that the actuator cannot show.
 enum class FrequencyMapping
 {
     clamp,   ///< to the nearest end of the range

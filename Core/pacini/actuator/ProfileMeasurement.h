@@ -1,6 +1,6 @@
 #pragma once
 
-// What was measured of an actuator, and how flat its equaliser makes it.
+// Measurement record of a profile: what was measured of an actuator, and how flat its equalizer makes it.
 
 #include <pacini/foundation/Result.h>
 

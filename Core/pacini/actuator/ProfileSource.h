@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the numbers of a profile come from.
+// Provenance: where the numbers of a profile come from.
 
 #include <pacini/foundation/Result.h>
 

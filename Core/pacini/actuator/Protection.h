@@ -1,6 +1,6 @@
 #pragma once
 
-// The last stage before the converter: no drive leaves it that the actuator does not bear.
+// Protection limiter, the last stage before the converter: no drive leaves it that the actuator does not bear.
 
 #include <pacini/actuator/CoilHeat.h>
 #include <pacini/actuator/ExcursionGuard.h>

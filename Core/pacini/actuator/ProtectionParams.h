@@ -1,6 +1,6 @@
 #pragma once
 
-// Which limits of an actuator have to be guarded.
+// Parameters of the protection: which limits of an actuator have to be guarded.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/CoilHeat.h>
@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// Limits of an actuator that are guarded, and how.
 struct ProtectionParams
 {
     std::optional<ExcursionParams> excursion; ///< none: no limit
@@ -67,7 +68,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const ActuatorDrive& drive = profile.drive;
     if (!drive.maxExcursion || !drive.excursion)
         return std::nullopt;
-    return ExcursionParams{profile.resonance.frequency, profile.resonance.q, drive.overdrive * *drive.excursion,
+    return ExcursionParams{Hertz(profile.resonance.frequency), profile.resonance.q, drive.overdrive * *drive.excursion,
                            *drive.maxExcursion, wornChain(profile)};
 }
 
@@ -82,7 +83,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     const double most = drive.overdrive * *drive.maxVoltageRms;
     const double squares = profile.technology == Technology::erm ? 1.0 : 2.0;
     return CoilHeatParams{squares * most * most / *drive.impedance, *drive.maxPower,
-                          drive.thermalTime.value_or(defaultThermalTime)};
+                          Seconds(drive.thermalTime.value_or(defaultThermalTime))};
 }
 
 [[nodiscard]] inline ProtectionNeeds protectionNeeds(const Profile& profile) noexcept
@@ -103,7 +104,7 @@ inline constexpr double defaultThermalTime = 1.0; // s
     return needs;
 }
 
-/// What the protection of a valid profile needs to know; limits that cannot be reached are left out.
+/// The protection parameters of a valid profile; limits that cannot be reached are left out.
 [[nodiscard]] inline ProtectionParams protectionParams(const Profile& profile, Seconds lookAhead) noexcept
 {
     const ProtectionNeeds needs = protectionNeeds(profile);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A first-order low-pass, frame by frame or by groups of frames.
+// One-pole low-pass (exponential average), frame by frame or by groups of frames.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/foundation/DspBlock.h>
@@ -11,8 +11,8 @@
 namespace pacini
 {
 
-/// mean += leak * (x - mean) for every x. The mean at the start of a group (see FrameGroup) and the part that the
-/// group's frames add are kept apart.
+/// One-pole low-pass: mean += leak * (x - mean) for every x. The mean at the start of a group (see FrameGroup) and the
+/// part that the group's frames add are kept apart.
 class RunningMean
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// The largest of the newest values.
+// Sliding-window maximum: the largest of the newest values.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,10 +1,11 @@
 #pragma once
 
-// A motor with an eccentric mass: what force it makes of a drive signal.
+// Model of a motor with an eccentric mass (ERM): drive signal -> force.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 
 #include <cmath>
 #include <cstddef>
@@ -14,9 +15,10 @@
 namespace pacini
 {
 
+/// Speed and response of a motor.
 struct SpinningMotorParams
 {
-    double frequency = 180.0; ///< Hz, turns per second at a drive of 1
+    Hertz frequency{180.0}; ///< turns per second at a drive of 1
     ActuatorResponse response;
     bool operator==(const SpinningMotorParams&) const = default;
 };
@@ -43,7 +45,7 @@ public:
     void setParams(const Params& params) noexcept
     {
         current = params;
-        turnsPerFrame = clampTo(params.frequency, 0.1, 1e5) / fs;
+        turnsPerFrame = clampTo(params.frequency.value, 0.1, 1e5) / fs;
         const auto share = [this](double time, double constants)
         {
             return -std::expm1(-constants / (clampTo(time, 0.0, 100.0) * fs));

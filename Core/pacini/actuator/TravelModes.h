@@ -1,6 +1,6 @@
 #pragma once
 
-// The travel of a moving mass as it is worn, as a sum of modes.
+// Modal decomposition of the travel of a moving mass as it is worn.
 
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/HeldStep.h>
@@ -17,7 +17,7 @@
 namespace pacini
 {
 
-/// One share x of the travel, in metres at a drive u:
+/// One mode of the travel. One share x of the travel, in metres at a drive u:
 ///
 ///     x' = w v + toX u,  v' = -w x - (w / q) v + toV u,   or of a single real pole   x' = -w x + toX u.
 ///

@@ -1,6 +1,6 @@
 #pragma once
 
-// People differ: other skins under the same device.
+// Variation between wearers: people differ, and so do the skins under the same device.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Random.h>

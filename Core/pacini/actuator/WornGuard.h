@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps the moving mass of an actuator within its travel as it is worn, whatever the drive.
+// Excursion limiter for an actuator as it is worn: keeps the moving mass within its travel, whatever the drive.
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>
@@ -19,6 +19,7 @@
 namespace pacini
 {
 
+/// Precomputed modes and limits of the worn mass.
 struct WornCoefficients
 {
     static constexpr std::size_t maxSubsteps = 32;
@@ -98,9 +99,9 @@ struct WornCoefficients
     return guard;
 }
 
-/// Admits of every wanted drive as much as keeps the sum of the modes' amplitudes within its limit to the end of the
-/// sample. A drive of 0 never raises it, as with the one mode of a mass on a base held still (see ExcursionGuard).
-/// Where nothing else is said, the same holds as there.
+/// Excursion limiter (safety filter) on the modes. Admits of every wanted drive as much as keeps the sum of the modes'
+/// amplitudes within its limit to the end of the sample. A drive of 0 never raises it, as with the one mode of a mass
+/// on a base held still (see ExcursionGuard). Where nothing else is said, the same holds as there.
 class WornGuard
 {
 public:

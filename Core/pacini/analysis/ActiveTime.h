@@ -1,6 +1,6 @@
 #pragma once
 
-// How long a sound sounds: breakpoints per second are counted on this time only.
+// Active duration of a sound: breakpoints per second are counted on this time only.
 
 #include <pacini/analysis/DecayTime.h>
 #include <pacini/analysis/Normalise.h>
@@ -22,6 +22,7 @@ enum class ActiveTimeReading
     samples, ///< samples above it: literal, but every zero crossing counts as silence
 };
 
+/// Threshold and block length of the active time.
 struct ActiveTimeParams
 {
     Decibels threshold{-75.0}; ///< re 1, exceeded

@@ -1,6 +1,6 @@
 #pragma once
 
-// Interleaved samples of any rate -> one signal per channel at the rate of the offline analysis.
+// Input stage of the offline analysis: interleaved samples of any rate -> one signal per channel at its rate.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/filters/RationalDecimator.h>

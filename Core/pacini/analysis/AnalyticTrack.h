@@ -1,6 +1,6 @@
 #pragma once
 
-// An analytic signal at a low rate, put together from overlapping blocks and read as smoothed frames.
+// Overlap-add of an analytic signal at a low rate, read as smoothed frames.
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,11 @@
 #pragma once
 
-// The offline analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
+// Offline band analysis: a sound at 4 kHz becomes envelopes and pitches of bands, frame by frame.
 
 #include <pacini/analysis/AnalyticTrack.h>
 #include <pacini/analysis/BandFades.h>
 #include <pacini/foundation/SplitRealFft.h>
+#include <pacini/foundation/Units.h>
 
 #include <algorithm>
 #include <cassert>
@@ -24,12 +25,13 @@ namespace pacini
 /// The rate at which every sound is analysed offline, Hz: twice what lies above the top of touch (1-1.8 kHz).
 inline constexpr int analysisRate = 4000;
 
+/// Parameters of the band analysis.
 struct BandAnalysisParams
 {
     std::vector<BandEdges> bands;  ///< adjoining, frequencies rise
     double overlap = 0.5;          ///< see BandFades
-    double envelopeWindow = 0.010; ///< s, Hann window of the total envelope
-    double bandWindow = 0.040;     ///< s, Hann window of band envelopes and pitches
+    Seconds envelopeWindow{0.010}; ///< Hann window of the total envelope
+    Seconds bandWindow{0.040};     ///< Hann window of band envelopes and pitches
     bool onlyPeak = false;         ///< find nothing but BandAnalysisResult::peak
     bool operator==(const BandAnalysisParams&) const = default;
 };
@@ -93,7 +95,7 @@ public:
     explicit BandAnalysis(const BandAnalysisParams& params)
         : settings(params),
           fades(params.bands, params.overlap),
-          wide(envelopeRate, params.envelopeWindow, BandAnalysisResult::envelopeStep)
+          wide(envelopeRate, params.envelopeWindow.value, BandAnalysisResult::envelopeStep)
     {
         assert(!params.bands.empty());
         for (std::size_t k = 0; k < bandCount(); ++k)
@@ -103,7 +105,7 @@ public:
             int rate = 250;
             while (rate < envelopeRate && width > 0.8 * rate)
                 rate *= 2;
-            tracks.emplace_back(rate, settings.bandWindow, BandAnalysisResult::bandStep);
+            tracks.emplace_back(rate, settings.bandWindow.value, BandAnalysisResult::bandStep);
         }
         reset(1);
     }

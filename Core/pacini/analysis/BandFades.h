@@ -1,6 +1,6 @@
 #pragma once
 
-// How neighbouring bands fade into each other.
+// Cross-fades between neighbouring bands of the analysis.
 
 #include <pacini/clip/BandTiling.h>
 

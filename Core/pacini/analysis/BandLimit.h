@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps what skin can feel, and a little more that helps the analysis.
+// Band-pass for the range of touch: keeps what skin can feel, and a little more that helps the analysis.
 
 #include <pacini/filters/BiquadCascade.h>
 #include <pacini/filters/Butterworth.h>
@@ -9,7 +9,8 @@
 namespace pacini
 {
 
-/// The thesis's range (Weber 2020, section 4.3). A low limit of 0 Hz or below leaves out the high-pass, a high limit of
+/// Corner frequencies of the band limit. The thesis's range (Weber 2020, section 4.3). A low limit of 0 Hz or below
+/// leaves out the high-pass, a high limit of
 /// 0.49 of the sample rate or above the low-pass.
 struct BandLimitParams
 {

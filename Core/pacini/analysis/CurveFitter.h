@@ -1,6 +1,6 @@
 #pragma once
 
-// Dense tracks of the analysis -> breakpoints, at a price per point.
+// Curve fitting at a price per point: dense tracks of the analysis -> breakpoints.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/simplify/Lagrangian.h>

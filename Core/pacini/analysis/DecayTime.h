@@ -1,6 +1,6 @@
 #pragma once
 
-// Times as numbers of frames and as poles of a one-pole smoother.
+// Time constants: times as numbers of frames and as poles of a one-pole smoother.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>

@@ -24,7 +24,7 @@ enum class RisingSlope
     derivative, ///< |x| above the sample before: literal, but follows every half wave
 };
 
-/// Times are clamped to 0 s (immediate) to 1 h.
+/// Parameters of the envelope follower. Times are clamped to 0 s (immediate) to 1 h.
 struct EnvelopeFollowerParams
 {
     Seconds attack{0.001};
@@ -38,6 +38,7 @@ struct EnvelopeFollowerParams
     bool operator==(const EnvelopeFollowerParams&) const = default;
 };
 
+/// Smoothing coefficients of the envelope follower.
 struct EnvelopeFollowerCoefficients
 {
     double attack = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Onsets of a sound -> transients of a clip.
+// Conversion of the onsets of a sound to the transients of a clip.
 
 #include <pacini/analysis/Onset.h>
 #include <pacini/clip/Clip.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Several channels -> one, for methods that need the whole sound at once.
+// Mono downmix: several channels -> one, for methods that need the whole sound at once.
 
 #include <algorithm>
 #include <cassert>

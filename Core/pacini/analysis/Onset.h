@@ -1,13 +1,13 @@
 #pragma once
 
-// An event of a sound, and what counts as one.
+// Onset: an event of a sound, and the parameters that say what counts as one.
 
 #include <pacini/foundation/Units.h>
 
 namespace pacini
 {
 
-/// The start of something.
+/// Onset: the start of something.
 struct Onset
 {
     double time = 0.0;         ///< s, start of the attack
@@ -18,7 +18,8 @@ struct Onset
     bool operator==(const Onset&) const = default;
 };
 
-/// What counts as an event. The defaults were set on mixtures of single drum hits with known times.
+/// Parameters of onset detection. What counts as an event. The defaults were set on mixtures of single drum hits with
+/// known times.
 struct OnsetParams
 {
     /// Above 1 more and weaker onsets are found (and more false ones), below 1 fewer; clamped to 0.25-4.

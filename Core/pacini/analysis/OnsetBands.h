@@ -1,6 +1,6 @@
 #pragma once
 
-// One channel -> the powers of OnsetFrames.
+// Band powers for onset detection: one channel -> the powers of OnsetFrames.
 
 #include <pacini/analysis/OnsetDecimator.h>
 #include <pacini/analysis/OnsetFrame.h>

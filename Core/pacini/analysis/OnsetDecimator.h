@@ -1,6 +1,6 @@
 #pragma once
 
-// Brings one channel of any sample rate down to the rates that OnsetBands measures at.
+// Decimation for onset detection: brings one channel of any sample rate down to the rates that OnsetBands measures at.
 
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/OnsetSums.h>

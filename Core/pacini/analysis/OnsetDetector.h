@@ -1,6 +1,6 @@
 #pragma once
 
-// Finds the events of a sound: where something starts.
+// Onset detector: finds the events of a sound, where something starts.
 
 #include <pacini/analysis/Onset.h>
 #include <pacini/analysis/OnsetFeatures.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Samples of any rate and channel count -> OnsetFrames.
+// Feature extraction for onset detection: samples of any rate and channel count -> OnsetFrames.
 
 #include <pacini/analysis/OnsetBands.h>
 #include <pacini/analysis/OnsetFrame.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// One moment of sound as onset detection sees it.
+// Features of one moment of sound for onset detection: its short-time powers.
 
 #include <array>
 #include <cstddef>

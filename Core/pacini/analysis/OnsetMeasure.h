@@ -1,6 +1,6 @@
 #pragma once
 
-// What an event is like: when its attack starts, how strong and how sharp it is.
+// Attributes of an onset: when its attack starts, how strong and how sharp it is.
 
 #include <pacini/analysis/Onset.h>
 #include <pacini/analysis/OnsetFrame.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Splits the low part of one channel into octaves.
+// Octave filter bank for onset detection: splits the low part of one channel.
 
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/SlidingBuffer.h>

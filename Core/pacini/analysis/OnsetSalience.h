@@ -1,6 +1,6 @@
 #pragma once
 
-// How much every moment looks like the start of something.
+// Onset detection function: how much every moment looks like the start of something.
 
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/SlidingBuffer.h>

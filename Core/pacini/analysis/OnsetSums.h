@@ -1,6 +1,6 @@
 #pragma once
 
-// Sums of few terms: those of an OnsetFrame or a short filter.
+// Short sums and inner products, of the few terms that an OnsetFrame or a short filter has.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The power spectra of overlapping frames of a signal, for everything that is measured block by block.
+// Short-time power spectra of overlapping frames, for everything that is measured block by block.
 
 #include <pacini/analysis/DecayTime.h>
 #include <pacini/foundation/Clamp.h>

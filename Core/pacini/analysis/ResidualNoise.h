@@ -1,6 +1,6 @@
 #pragma once
 
-// What the sinusoids of a clip leave out of a sound, as the level of noise in a few bands.
+// Residual noise analysis: what the sinusoids of a clip leave out of a sound, as the level of noise in a few bands.
 
 #include <pacini/analysis/PowerSpectra.h>
 #include <pacini/clip/Clip.h>
@@ -17,6 +17,7 @@
 namespace pacini
 {
 
+/// Parameters of the residual noise analysis.
 struct ResidualNoiseParams
 {
     BandLayoutParams layout;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of an endless sequence that is still needed.
+// Sliding buffer: the part of an endless sequence that is still needed.
 
 #include <cassert>
 #include <cstddef>

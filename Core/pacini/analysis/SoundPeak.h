@@ -1,6 +1,6 @@
 #pragma once
 
-// What has to be known of a sound before its curves can be fitted piece by piece.
+// Peak finder of the first pass: what has to be known of a sound before its curves can be fitted piece by piece.
 
 #include <pacini/analysis/AnalysisInput.h>
 #include <pacini/analysis/BandAnalysis.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the energy of a sound lies: the centre of gravity of its power spectrum, frame by frame.
+// Spectral centroid: the centre of gravity of the power spectrum, frame by frame.
 
 #include <pacini/analysis/PowerSpectra.h>
 #include <pacini/clip/Curve.h>
@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Parameters of the spectral centroid.
 struct SpectralCentroidParams
 {
     FrameParams frames;

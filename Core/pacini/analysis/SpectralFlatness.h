@@ -1,6 +1,6 @@
 #pragma once
 
-// How noise-like a sound is.
+// Spectral flatness: how noise-like a sound is.
 
 #include <pacini/analysis/PowerSpectra.h>
 #include <pacini/clip/Curve.h>
@@ -31,6 +31,7 @@ namespace pacini
     return std::exp(logarithms / count) / (sum / count);
 }
 
+/// Parameters of the spectral flatness.
 struct SpectralFlatnessParams
 {
     FrameParams frames;

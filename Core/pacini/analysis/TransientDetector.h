@@ -19,8 +19,8 @@
 namespace pacini
 {
 
-/// The defaults give 2.3 transients per second on 30 peak-normalised recordings (the thesis assumes 2; its own settings
-/// are lost).
+/// Parameters of the transient detector. The defaults give 2.3 transients per second on 30 peak-normalised recordings
+/// (the thesis assumes 2; its own settings are lost).
 struct TransientDetectorParams
 {
     TransientScoreParams score;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How much a sound rises at once: the distance between a fast and a slow envelope.
+// Transient score: how much a sound rises at once, as the distance between a fast and a slow envelope.
 
 #include <pacini/analysis/DecayTime.h>
 #include <pacini/analysis/EnvelopeFollower.h>
@@ -16,14 +16,15 @@
 namespace pacini
 {
 
+/// Reading of the score's formula.
 enum class TransientScoreReading
 {
     absolute, ///< |fast - slow|: the thesis's; depends on the level of the sound
     relative, ///< (fast - slow) / (slow + floor)
 };
 
-/// Two envelope followers that differ in their attack only. Times are clamped like those of EnvelopeFollowerParams, the
-/// floor to 1e-9 and above.
+/// Parameters of the transient score. Two envelope followers that differ in their attack only. Times are clamped like
+/// those of EnvelopeFollowerParams, the floor to 1e-9 and above.
 struct TransientScoreParams
 {
     TransientScoreReading reading = TransientScoreReading::absolute;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Whole numbers as adaptive binary decisions.
+// Adaptive Exp-Golomb code: whole numbers as adaptive binary decisions.
 
 #include <pacini/clip/RangeCoder.h>
 

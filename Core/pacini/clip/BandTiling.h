@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the bands of a clip lie.
+// Band tiling: edges and centres of the bands of a clip, which adjoin each other.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/BandSpacing.h>

@@ -74,6 +74,7 @@ struct EncoderParameter
     bool operator==(const EncoderParameter&) const = default;
 };
 
+/// A haptic clip.
 struct Clip
 {
     std::string name;

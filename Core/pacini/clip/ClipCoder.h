@@ -1,6 +1,6 @@
 #pragma once
 
-// The contents of a packed clip, written and read by one description.
+// Codec of packed clips: their contents, written and read by one description.
 
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/BandTiling.h>
@@ -24,7 +24,7 @@
 namespace pacini
 {
 
-/// The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
+/// Parameters of packing. The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
 struct PackParams
 {
     int bits = 12;                       ///< 4 to 16

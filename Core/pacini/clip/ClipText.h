@@ -1,6 +1,7 @@
 #pragma once
 
-// The words of a clip (its name, its source, the parameters of its encoder) as text that packs well.
+// Text model of packed clips: the words of a clip (its name, its source, the parameters of its encoder) as text that
+// packs well.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedText.h>
@@ -70,7 +71,7 @@ inline std::string fileStem(const std::string& file)
     return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
 }
 
-/// One line for each parameter: a letter for its type, the name, '=', the value.
+/// Parameters as text, one line for each: a letter for its type, the name, '=', the value.
 inline std::string parameterText(const std::vector<EncoderParameter>& parameters)
 {
     std::string text;

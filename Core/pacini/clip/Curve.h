@@ -72,8 +72,6 @@ public:
         return a.value + (b.value - a.value) * ((time - a.time) / (b.time - a.time));
     }
 
-    void rewind() noexcept { next = 0; }
-
 private:
     std::span<const Breakpoint> curve;
     std::size_t next = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves on the grids of time and value, in whole numbers.
+// Quantised curves: breakpoints on the grids of time and value, in whole numbers.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,6 +19,7 @@ struct GridPoint
     bool operator==(const GridPoint&) const = default;
 };
 
+/// Quantised breakpoints in non-decreasing time.
 using GridCurve = std::vector<GridPoint>;
 
 /// The largest step that divides all ticks of a curve, at least 1.

@@ -1,6 +1,6 @@
 #pragma once
 
-// How the curves of a clip become bits.
+// Predictive entropy coding of the curves of a clip.
 
 #include <pacini/clip/AdaptiveNumber.h>
 #include <pacini/clip/GridCurve.h>
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// What is already known when a curve is coded and hints at it; either may be missing.
+/// Coding context of a curve: what is already known when a curve is coded and hints at it; either may be missing.
 struct CurveHints
 {
     const GridCurve* neighbour = nullptr; ///< the same kind of curve of the band below

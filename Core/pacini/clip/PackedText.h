@@ -1,6 +1,6 @@
 #pragma once
 
-// Names and parameters in a few bytes.
+// Compression of short texts: names and parameters in a few bytes.
 
 #include <pacini/clip/RangeCoder.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The grids that clips are stored on.
+// Quantisers of time, level and pitch: the grids that clips are stored on.
 
 #include <algorithm>
 #include <cmath>

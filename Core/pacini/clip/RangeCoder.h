@@ -1,6 +1,6 @@
 #pragma once
 
-// Adaptive binary arithmetic coding.
+// Adaptive binary range coder.
 
 #include <cstddef>
 #include <cstdint>
@@ -133,6 +133,7 @@ private:
     std::uint64_t pending = 0;
 };
 
+/// Arithmetic decoder of what RangeWriter wrote.
 class RangeReader
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// One piece of a signal between 30 and 1000 Hz, as spectrum and as samples.
+// Zero-phase band-pass of one piece of a signal: 30 to 1000 Hz, as spectrum and as samples.
 
 #include <pacini/evaluate/AnalyticBand.h>
 #include <pacini/evaluate/Segmentation.h>

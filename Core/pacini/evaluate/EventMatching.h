@@ -1,6 +1,6 @@
 #pragma once
 
-// How well detected events agree with annotated ones.
+// F-measure of event detection: how well detected events agree with annotated ones.
 
 #include <algorithm>
 #include <cmath>

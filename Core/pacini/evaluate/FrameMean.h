@@ -1,6 +1,6 @@
 #pragma once
 
-// Mean values of smooth curves over frames, from few samples.
+// Frame means of smooth curves by quadrature, from few samples.
 
 #include <pacini/foundation/DotProduct.h>
 

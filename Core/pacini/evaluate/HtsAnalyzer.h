@@ -1,6 +1,6 @@
 #pragma once
 
-// Computes the features of the haptic translation similarity.
+// Feature extraction for the haptic translation similarity.
 
 #include <pacini/evaluate/FeltSpectrum.h>
 #include <pacini/evaluate/HtsFeatures.h>

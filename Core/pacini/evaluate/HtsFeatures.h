@@ -1,6 +1,6 @@
 #pragma once
 
-// What the haptic translation similarity needs to know of one signal.
+// Features for the haptic translation similarity: what it needs to know of one signal.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The judge: neutral measures of how much of a sound a haptic signal keeps.
+// Neutral signal measures ("the judge"): how much of a sound a haptic signal keeps.
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/JudgeAnalyzer.h>

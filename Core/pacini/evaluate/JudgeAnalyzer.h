@@ -1,6 +1,6 @@
 #pragma once
 
-// Computes the features of the judge measures.
+// Feature extraction for the judge measures.
 
 #include <pacini/evaluate/AnalyticBand.h>
 #include <pacini/evaluate/BandLimitedSegment.h>

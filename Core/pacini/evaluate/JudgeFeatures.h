@@ -1,6 +1,6 @@
 #pragma once
 
-// What the judge measures need to know of one signal.
+// Features for the judge measures: what they need to know of one signal.
 
 #include <array>
 #include <cstddef>

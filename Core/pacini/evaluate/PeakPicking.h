@@ -1,6 +1,6 @@
 #pragma once
 
-// Local maxima of a sampled curve.
+// Peak picking: local maxima of a sampled curve.
 
 #include <algorithm>
 #include <cstddef>

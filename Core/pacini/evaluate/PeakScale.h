@@ -1,6 +1,6 @@
 #pragma once
 
-// Brings signals of any level into the middle of the number range.
+// Scaling by a power of two: brings signals of any level into the middle of the number range.
 
 #include <algorithm>
 #include <cmath>

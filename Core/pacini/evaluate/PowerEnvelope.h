@@ -28,6 +28,7 @@ namespace pacini
     return HannKernel(static_cast<double>(taps / 2 + 1));
 }
 
+/// A power envelope and its events.
 struct PowerEnvelope
 {
     std::vector<float> envelope; ///< linear amplitude, one value per 5 ms, smoothed by 20 ms Hann

@@ -1,6 +1,6 @@
 #pragma once
 
-// Events as steep rises of envelopes.
+// Rise detector: events as steep rises of envelopes.
 
 #include <pacini/evaluate/PeakPicking.h>
 #include <pacini/foundation/Units.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A series of second-order sections for whole signals.
+// Cascade of second-order sections for whole signals.
 
 #include <pacini/filters/Biquad.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Cuts a signal of any length into pieces for spectral filters (overlap-save), so that memory and transform sizes stay
-// bounded.
+// Overlap-save segmentation: cuts a signal of any length into pieces for spectral filters, so that memory and transform
+// sizes stay bounded.
 
 #include <pacini/foundation/Fft.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a source sound is prepared before a haptic signal is compared with it.
+// Preprocessing of a source sound before a haptic signal is compared with it.
 
 #include <pacini/evaluate/SectionCascade.h>
 #include <pacini/filters/Butterworth.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the bands of a filter bank lie.
+// Band layout of a filter bank: centre and crossover frequencies.
 
 #include <pacini/foundation/BandSpacing.h>
 #include <pacini/foundation/Clamp.h>
@@ -16,7 +16,8 @@ namespace pacini
 
 inline constexpr std::size_t maxBands = 32;
 
-/// What stands at the two ends of the range. The thesis (Weber 2020, section 4.3.1) can be read in all three ways.
+/// Band layout mode: what stands at the two ends of the range. The thesis (Weber 2020, section 4.3.1) can be read in
+/// all three ways.
 enum class BandLayoutKind
 {
     centresAtEnds, ///< the first and last centre; crossovers in the middle between centres
@@ -24,7 +25,8 @@ enum class BandLayoutKind
     tiled,         ///< the outer edges of bands of equal width
 };
 
-/// Bands are clamped to 1-32, frequencies to 1 Hz and above, `high` to 0.1 % above `low` and more.
+/// Parameters of a band layout. Bands are clamped to 1-32, frequencies to 1 Hz and above, `high` to 0.1 % above `low`
+/// and more.
 struct BandLayoutParams
 {
     std::size_t bands = 6;

@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Type of a second-order section.
 enum class BiquadType
 {
     lowpass,
@@ -24,7 +25,8 @@ enum class BiquadType
     highShelf,
 };
 
-/// Frequencies are clamped to 1e-7 to 0.4999 of the sample rate, q to 1e-6 to 1e5, gains to +-120 dB.
+/// Parameters of a second-order section. Frequencies are clamped to 1e-7 to 0.4999 of the sample rate, q to 1e-6 to
+/// 1e5, gains to +-120 dB.
 struct BiquadParams
 {
     BiquadType type = BiquadType::lowpass;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sections one after the other, without allocation.
+// Cascade of second-order sections, without allocation.
 
 #include <pacini/filters/StateVariable.h>
 #include <pacini/foundation/DspBlock.h>
@@ -83,6 +83,7 @@ private:
     std::array<StateVariableState, maxBiquadSections> states{};
 };
 
+/// Parameters of sections in series.
 using BiquadCascadeParams = FixedVector<BiquadParams, maxBiquadSections>;
 
 /// One cookbook section (see designStateVariable) for each element.

@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Low-pass or high-pass.
 enum class ButterworthType
 {
     lowpass,
@@ -24,7 +25,8 @@ enum class ButterworthType
 
 inline constexpr int maxButterworthOrder = 16;
 
-/// Order 1 to 16 (clamped; a band-pass has twice as many poles). Frequencies are the -3 dB points, clamped to 1e-7 to
+/// Parameters of a Butterworth filter. Order 1 to 16 (clamped; a band-pass has twice as many poles). Frequencies are
+/// the -3 dB points, clamped to 1e-7 to
 /// 0.4999 of the sample rate; highFrequency counts for the band-pass only and is kept 0.01 % above `frequency`.
 struct ButterworthParams
 {

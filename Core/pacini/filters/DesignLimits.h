@@ -1,7 +1,7 @@
 #pragma once
 
-// The range in which filters are designed. Every design function clamps to it, so that no parameter can make a filter
-// unstable; NaN counts as the lower limit.
+// Limits of filter design: the range in which filters are designed. Every design function clamps to it, so that no
+// parameter can make a filter unstable; NaN counts as the lower limit.
 
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>

@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// The loops of the crossovers, from low to high; empty for a single band.
+/// Coefficients of the filter bank: the loops of the crossovers, from low to high; empty for a single band.
 struct FilterBankCoefficients
 {
     FixedVector<StateVariableLoop, maxBands - 1> crossovers;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Raises the rate of a band-limited signal by a whole factor.
+// Polyphase interpolator: raises the rate of a band-limited signal by a whole factor.
 
 #include <pacini/foundation/Windows.h>
 
@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -83,25 +82,18 @@ private:
         constexpr double attenuation = 80.0;
         const double transition =
             1.0 - 2.0 * pass; // from the pass band's end to the first image, cycles per input frame
-        tapsPerPhase = static_cast<std::size_t>(std::ceil((attenuation - 7.95) / (14.36 * transition))) + 1;
+        tapsPerPhase = kaiserTaps(attenuation, transition);
         tapsPerPhase += tapsPerPhase % 2;
         const KaiserWindow window(kaiserBeta(attenuation));
         const double half = 0.5 * static_cast<double>(tapsPerPhase);
         coefficients.assign(tapsPerPhase * stride, 0.0f);
         for (std::size_t p = 0; p < ratio; ++p)
         {
-            double sum = 0.0;
-            std::vector<double> row(tapsPerPhase);
+            // Input i steps back from the newest, seen from an output p / factor steps after the middle one.
+            const auto row = windowedSinc(tapsPerPhase, 0.5, static_cast<double>(p) / static_cast<double>(ratio), half,
+                                          window, half);
             for (std::size_t i = 0; i < tapsPerPhase; ++i)
-            {
-                // Input i steps back from the newest, seen from an output p / factor steps after the middle one.
-                const double t = static_cast<double>(p) / static_cast<double>(ratio) + static_cast<double>(i) - half;
-                const double x = std::numbers::pi * t;
-                row[i] = (std::abs(x) < 1e-12 ? 1.0 : std::sin(x) / x) * window.at(t / half);
-                sum += row[i];
-            }
-            for (std::size_t i = 0; i < tapsPerPhase; ++i)
-                coefficients[i * stride + p] = static_cast<float>(row[i] / sum);
+                coefficients[i * stride + p] = static_cast<float>(row[i]);
         }
     }
 

@@ -1,8 +1,9 @@
 #pragma once
 
-// Streaming conversion of a sound of any rate to a fixed lower rate, for analysis.
+// Streaming sample-rate conversion to a fixed lower rate, for analysis.
 
 #include <pacini/foundation/DotProduct.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/foundation/Windows.h>
 
 #include <algorithm>
@@ -23,9 +24,9 @@ namespace pacini
 /// Pass band, stop band and attenuation of a RationalDecimator.
 struct RationalDecimatorParams
 {
-    double passFrequency = 1700.0; ///< Hz, -0.1 dB or better below it
-    double stopFrequency = 2600.0; ///< Hz, attenuated above it
-    double attenuation = 60.0;     ///< dB
+    Hertz passFrequency{1700.0}; ///< -0.1 dB or better below it
+    Hertz stopFrequency{2600.0}; ///< attenuated above it
+    Decibels attenuation{60.0};
     bool operator==(const RationalDecimatorParams&) const = default;
 };
 
@@ -82,10 +83,11 @@ private:
     void designFor(const RationalDecimatorParams& params)
     {
         const double fs = static_cast<double>(inRate);
-        const double width = (params.stopFrequency - params.passFrequency) / fs;
-        const double cutoff = 0.5 * (params.stopFrequency + params.passFrequency) / fs; // cycles per input sample
-        const int length = static_cast<int>(std::ceil((params.attenuation - 7.95) / (14.36 * width))) + 1;
-        design((length + 7) / 8 * 8, cutoff, kaiserBeta(params.attenuation));
+        const double width = (params.stopFrequency.value - params.passFrequency.value) / fs;
+        const double cutoff =
+            0.5 * (params.stopFrequency.value + params.passFrequency.value) / fs; // cycles per input sample
+        const auto length = static_cast<int>(kaiserTaps(params.attenuation.value, width));
+        design((length + 7) / 8 * 8, cutoff, kaiserBeta(params.attenuation.value));
     }
 
     /// One row of `length` taps for every phase; row p is centred p / phases samples after the middle tap.

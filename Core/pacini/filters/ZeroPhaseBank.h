@@ -20,12 +20,14 @@
 namespace pacini
 {
 
+/// Implementation of the zero-phase filters.
 enum class ZeroPhaseMethod
 {
     raisedCosine,    ///< flat at its own centre, nothing at its neighbours': the sharpest bands without ringing
     forwardBackward, ///< the recursive tree run in both directions: the shape of the causal bank, without its phase
 };
 
+/// Parameters of a zero-phase filter bank.
 struct ZeroPhaseBankParams
 {
     BandLayoutParams layout;

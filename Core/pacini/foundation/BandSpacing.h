@@ -1,12 +1,13 @@
 #pragma once
 
-// The scale on which bands are spaced.
+// Band spacing: the scale on which bands are spaced.
 
 #include <cmath>
 
 namespace pacini
 {
 
+/// Logarithmic or linear spacing of bands.
 enum class BandSpacing
 {
     logarithmic, ///< equal ratios

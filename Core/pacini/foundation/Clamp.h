@@ -1,5 +1,7 @@
 #pragma once
 
+// Clamping that is safe against NaN, for parameters of designs.
+
 namespace pacini
 {
 

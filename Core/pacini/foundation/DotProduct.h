@@ -1,6 +1,6 @@
 #pragma once
 
-// The inner product that FIR filters and correlations are made of.
+// Dot product: what FIR filters and correlations are made of.
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The contract that every streaming block keeps (checked in Tests/support/BlockContract.h).
+// The DspBlock concept: the contract that every streaming block keeps (checked in Tests/support/BlockContract.h).
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,8 @@ inline constexpr float sample = 1e12f;          ///< magnitude of sound: 1 is fu
     return fs >= limits::lowestRate && fs <= limits::highestRate;
 }
 
-/// What a block is prepared for. Rates outside 2-768 kHz and empty blocks are the caller's error.
+/// Sample rate and block size: what a block is prepared for. Rates outside 2-768 kHz and empty blocks are the caller's
+/// error.
 struct ProcessSpec
 {
     double sampleRate = 48000.0;      ///< Hz

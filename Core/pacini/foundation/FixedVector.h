@@ -1,6 +1,6 @@
 #pragma once
 
-// A list with room for a fixed number of elements inside itself, for code that must not allocate.
+// Vector of fixed capacity: a list with room for its elements inside itself, for code that must not allocate.
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Normally distributed random numbers that are the same on every machine with the same mathematical library.
+// Gaussian random numbers that are the same on every machine with the same mathematical library.
 
 #include <pacini/foundation/Random.h>
 
@@ -11,7 +11,8 @@
 namespace pacini
 {
 
-/// Mean 0, standard deviation 1, by G. Box and M. Muller, "A note on the generation of random normal deviates", 1958.
+/// Normal distribution of mean 0, standard deviation 1, by G. Box and M. Muller, "A note on the generation of random
+/// normal deviates", 1958.
 class Gaussian
 {
 public:

@@ -1,14 +1,14 @@
 #pragma once
 
-// Arithmetic on several numbers at once.
+// SIMD lanes: arithmetic on several numbers at once, in plain loops.
 
 #include <cstddef>
 
 namespace pacini
 {
 
-/// Neighbouring numbers that go through the same arithmetic. Plain loops of known length, which compilers turn into
-/// single vector instructions when `count` numbers fit a register.
+/// SIMD vector: neighbouring numbers that go through the same arithmetic. Plain loops of known length, which compilers
+/// turn into single vector instructions when `count` numbers fit a register.
 template <typename Real, std::size_t count>
 struct Lanes
 {

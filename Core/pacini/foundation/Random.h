@@ -7,7 +7,7 @@
 namespace pacini
 {
 
-/// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
+/// Pseudorandom numbers by SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
 /// Chosen over <random> because the standard distributions differ between libraries.
 class Random
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Expected failures travel as values: Result<T> is either a T or an Error that says where and what.
+// Result<T>: expected failures travel as values, either a T or an Error that says where and what.
 
 #include <cassert>
 #include <string>

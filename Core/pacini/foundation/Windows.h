@@ -1,11 +1,10 @@
 #pragma once
 
-// Window functions.
+// Window functions, and the windowed sinc that rate changers are designed with.
 
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 namespace pacini
@@ -17,18 +16,6 @@ namespace pacini
     std::vector<double> w(n);
     for (std::size_t i = 0; i < n; ++i)
         w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
-    return w;
-}
-
-/// Symmetric Hann window without its zero end points, scaled to sum 1: a smoothing kernel of n taps.
-[[nodiscard]] inline std::vector<double> hannKernel(std::size_t n)
-{
-    std::vector<double> w(n);
-    for (std::size_t i = 0; i < n; ++i)
-        w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i + 1) / static_cast<double>(n + 1));
-    const double sum = std::accumulate(w.begin(), w.end(), 0.0);
-    for (double& v : w)
-        v /= sum;
     return w;
 }
 
@@ -87,5 +74,31 @@ public:
 private:
     std::vector<double> coefficients;
 };
+
+/// Taps of a filter with a Kaiser window that is `attenuation` dB down after a transition `width` wide, in cycles per
+/// sample (Kaiser 1974).
+[[nodiscard]] inline std::size_t kaiserTaps(double attenuation, double width)
+{
+    return static_cast<std::size_t>(std::ceil((attenuation - 7.95) / (14.36 * width))) + 1;
+}
+
+/// A low-pass of `taps` taps and unit gain at 0 Hz: a sinc cut off (-6 dB) at `cutoff` cycles per sample under a window
+/// that ends `half` samples from its centre. Tap i stands at offset + i - centre.
+[[nodiscard]] inline std::vector<double> windowedSinc(std::size_t taps, double cutoff, double offset, double centre,
+                                                      const KaiserWindow& window, double half)
+{
+    std::vector<double> row(taps);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < taps; ++i)
+    {
+        const double t = offset + static_cast<double>(i) - centre;
+        const double x = 2.0 * std::numbers::pi * cutoff * t;
+        row[i] = (std::abs(x) < 1e-12 ? 1.0 : std::sin(x) / x) * window.at(t / half);
+        sum += row[i];
+    }
+    for (double& tap : row)
+        tap /= sum;
+    return row;
+}
 
 } // namespace pacini

@@ -1,6 +1,6 @@
 #pragma once
 
-// Clocks that run apart, and frames that were lost.
+// Clock drift and lost frames between playback and recording, as a fit to measured delays.
 
 #include <pacini/linearize/DelayTrack.h>
 
@@ -22,7 +22,7 @@ struct DelayStep
     double seconds = 0.0; ///< by which everything later comes later; below 0 when frames are missing
 };
 
-/// delay = drift sinceThen + the sum of the steps before it
+/// Drift model: delay = drift sinceThen + the sum of the steps before it
 struct DelayFit
 {
     double drift = 0.0; ///< seconds of the recording more than one for each second of the playback
@@ -40,6 +40,7 @@ struct DelayFit
 
 namespace detail
 {
+/// Solution of the drift equations and the error that it leaves.
 struct DriftSolution
 {
     Eigen::VectorXd values; // drift, then the steps

@@ -1,6 +1,6 @@
 #pragma once
 
-// From what was played and what was recorded to the impulse response.
+// Deconvolution: from what was played and what was recorded to the impulse response.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/Result.h>
@@ -32,8 +32,9 @@ using HalfSpectrum = SplitArray<double>;
     return out;
 }
 
-/// What the inverse of a spectrum adds to |X|^2, relative to its largest value: at 1500 Hz of a sweep from 10 Hz on,
-/// where |X|^2 has fallen by 22 dB, it costs 0.0014 dB; beyond the sweep it keeps noise from being raised.
+/// Regularisation: what the inverse of a spectrum adds to |X|^2, relative to its largest value: at 1500 Hz of a sweep
+/// from 10 Hz on, where |X|^2 has fallen by 22 dB, it costs 0.0014 dB; beyond the sweep it keeps noise from being
+/// raised.
 inline constexpr double deconvolutionRegularisation = -60.0; // dB
 
 /// h = IFFT(Y X* / (|X|^2 + eps)) (M. Weber, "A Framework for Audio-Tactile Signal Translation", 2020, eq. 3.1). The

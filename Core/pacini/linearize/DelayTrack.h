@@ -1,6 +1,6 @@
 #pragma once
 
-// How the delay of a recording develops.
+// Delay estimation over time: how the delay of a recording develops from sweep to sweep.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitFft.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Noise and drop-outs of a measured curve.
+// Noise estimate and drop-out detection on a measured curve.
 
 #include <algorithm>
 #include <cmath>

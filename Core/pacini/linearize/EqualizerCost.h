@@ -1,6 +1,6 @@
 #pragma once
 
-// What an equalizer costs an actuator: power in the coil and travel of the mass.
+// Cost of an equalizer for its actuator: power in the coil and travel of the mass.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/linearize/EqualizerCurve.h>
@@ -20,6 +20,7 @@ enum class ReferenceSpectrum
     pink  ///< equal power per octave
 };
 
+/// Change of power and excursion by an equalizer.
 struct EqualizerCost
 {
     double powerChange = 0.0;        ///< dB, of the power in the coil for the reference spectrum in the profile's range

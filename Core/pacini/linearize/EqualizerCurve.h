@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels of equalizer sections over frequency, and how they change with the parameters.
+// Magnitude response of equalizer sections, and its derivatives by their parameters.
 
 #include <pacini/actuator/Equalizer.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The equalizer that flattens a measured response.
+// Equalizer fit: the sections that flatten a measured response.
 
 #include <pacini/linearize/EqualizerSearch.h>
 

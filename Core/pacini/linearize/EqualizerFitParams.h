@@ -1,6 +1,6 @@
 #pragma once
 
-// What an equalizer fit is asked for, and what it gives.
+// Parameters and result of an equalizer fit.
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -14,6 +14,7 @@
 namespace pacini
 {
 
+/// Parameters of an equalizer fit.
 struct EqualizerFitParams
 {
     double sampleRate =
@@ -33,6 +34,7 @@ struct EqualizerFitParams
     bool operator==(const EqualizerFitParams&) const = default;
 };
 
+/// Result of an equalizer fit.
 struct EqualizerFit
 {
     EqualizerSections sections; ///< the high-pass first, if there is one

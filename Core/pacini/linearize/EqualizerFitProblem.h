@@ -1,6 +1,6 @@
 #pragma once
 
-// A frequency response as what an equalizer is fitted to.
+// Least-squares problem of an equalizer fit: a frequency response as its points and weights.
 
 #include <pacini/linearize/Dropouts.h>
 #include <pacini/linearize/EqualizerCurve.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Moves equalizer sections to the nearest least-squares fit.
+// Levenberg-Marquardt refinement: moves equalizer sections to the nearest least-squares fit.
 
 #include <pacini/linearize/EqualizerFitProblem.h>
 

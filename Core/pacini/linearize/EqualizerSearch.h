@@ -1,6 +1,6 @@
 #pragma once
 
-// Finds how many sections an equalizer needs, and which.
+// Model selection for an equalizer: finds how many sections it needs, and which.
 
 #include <pacini/linearize/EqualizerRefinement.h>
 #include <pacini/linearize/EqualizerStart.h>

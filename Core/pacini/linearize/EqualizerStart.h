@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a further equalizer section may help.
+// Starting values for a further equalizer section: where it may help.
 
 #include <pacini/linearize/EqualizerFitProblem.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The magnitude that an equalizer should have at every frequency, for filters that are not made of sections.
+// Target magnitude of an equalizer at every frequency, for filters that are not made of sections.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/linearize/EqualizerFitProblem.h>

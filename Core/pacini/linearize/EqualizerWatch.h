@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the boost of an equalizer has to be watched beside the measured points.
+// Guard points of an equalizer fit: where its boost has to be watched beside the measured points.
 
 #include <pacini/linearize/EqualizerFitProblem.h>
 

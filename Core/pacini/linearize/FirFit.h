@@ -1,6 +1,6 @@
 #pragma once
 
-// An equalizer as a filter of finite impulse response.
+// FIR equalizer design, of linear or minimum phase.
 
 #include <pacini/linearize/EqualizerSearch.h>
 #include <pacini/linearize/EqualizerTarget.h>
@@ -16,12 +16,14 @@
 namespace pacini
 {
 
+/// Phase of a FIR equalizer.
 enum class FirPhase
 {
     linear, ///< delays everything by half its length
     minimum ///< delays as little as its magnitude allows
 };
 
+/// Result of a FIR design.
 struct FirFit
 {
     std::vector<double> taps;

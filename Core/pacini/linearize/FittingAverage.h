@@ -1,6 +1,6 @@
 #pragma once
 
-// One response out of many: several wearers, several ways to put a device on.
+// Robust average of responses over wearers and placements of a device: one response out of many.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Parameters of the robust average.
 struct FittingAverageParams
 {
     double lowFrequency = 30.0;    ///< Hz, from where levels and shapes are compared
@@ -32,6 +33,7 @@ struct FittingOutlier
     double shape = 0.0;    ///< dB, the median distance from the average once the levels agree
 };
 
+/// Result of the robust average.
 struct FittingAverage
 {
     FrequencyResponse response;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an actuator was measured to do at each frequency.
+// Frequency response of an actuator as it was measured.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The responses of each harmonic order, apart from each other.
+// Harmonic separation of a deconvolved sweep: the responses of each order, apart from each other.
 
 #include <pacini/foundation/SplitRealFft.h>
 #include <pacini/linearize/Deconvolution.h>
@@ -50,8 +50,8 @@ namespace pacini
     return inverse;
 }
 
-/// Where order `order` (2 or more) lies: its arrival before the linear one, three tenths of the way to the next order
-/// before it and seven tenths of that to the order after it, `reverberation` s at most.
+/// Lag window of harmonic order `order` (2 or more): its arrival before the linear one, three tenths of the way to the
+/// next order before it and seven tenths of that to the order after it, `reverberation` s at most.
 [[nodiscard]] inline LagWindow harmonicWindow(int order, double growthTime, double reverberation) noexcept
 {
     const double n = order;
@@ -61,7 +61,7 @@ namespace pacini
     return {arrival - before, arrival - 0.3 * before, arrival + 0.6 * after, arrival + after};
 }
 
-/// Where the linear response lies: the side before its arrival is kept too, see Deconvolver.
+/// Lag window of the linear response: the side before its arrival is kept too, see Deconvolver.
 [[nodiscard]] inline LagWindow linearWindow(double growthTime, double reverberation) noexcept
 {
     const double before = std::min(0.3 * growthTime * std::numbers::ln2, reverberation);

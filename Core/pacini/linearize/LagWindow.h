@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of an impulse response that belongs to one thing.
+// Lag window: cuts out the part of an impulse response that belongs to one thing.
 
 #include <algorithm>
 #include <cmath>

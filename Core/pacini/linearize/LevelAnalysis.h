@@ -1,6 +1,6 @@
 #pragma once
 
-// The responses of one level step.
+// Analysis of one level step: its averaged responses and distortion.
 
 #include <pacini/foundation/Units.h>
 #include <pacini/linearize/HarmonicResponses.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a measurement, its equalizer and its proof go into a profile, each with where it comes from.
+// Profile update from a measurement: its findings, its equalizer and its proof, each with where it comes from.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/linearize/EqualizerFit.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// What all recordings of an actuator together say of it.
+// Summary of a measurement: what all recordings of an actuator together say of it.
 
 #include <pacini/linearize/ResponseFeatures.h>
 
@@ -14,6 +14,7 @@
 namespace pacini
 {
 
+/// Summary of a measurement.
 struct MeasurementFindings
 {
     ResponseFeatures features;

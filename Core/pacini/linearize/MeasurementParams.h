@@ -1,6 +1,6 @@
 #pragma once
 
-// How a recording of sweeps is analysed.
+// Parameters of sweep analysis.
 
 #include <pacini/foundation/Result.h>
 
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Parameters of sweep analysis.
 struct MeasurementParams
 {
     std::vector<double> fullScale = {1.0}; ///< m/s^2 of a sample of 1: one for all channels, or one for each

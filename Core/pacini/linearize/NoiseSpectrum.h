@@ -1,6 +1,6 @@
 #pragma once
 
-// The noise of a recording while nothing is played.
+// Noise spectrum of a recording while nothing is played.
 
 #include <pacini/foundation/SplitRealFft.h>
 #include <pacini/foundation/Windows.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Plays the sweeps and records the sensors in one go.
+// Synchronous playback and recording: plays the sweeps and records the sensors in one go.
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
@@ -19,6 +19,7 @@
 namespace pacini
 {
 
+/// State of a run.
 enum class PlayAndRecordState
 {
     idle,

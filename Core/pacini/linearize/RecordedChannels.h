@@ -1,6 +1,6 @@
 #pragma once
 
-// A recording made ready for analysis: calibrated, free of its mean, at no higher a rate than is needed.
+// Preprocessing of a recording: calibrated, free of its mean, at no higher a rate than is needed.
 
 #include <pacini/filters/RationalDecimator.h>
 
@@ -13,6 +13,7 @@
 namespace pacini
 {
 
+/// Channels of a recording at a reduced rate.
 struct RecordedChannels
 {
     double rate = 0.0; ///< Hz
@@ -57,7 +58,7 @@ struct RecordedChannels
 {
     const int rate = reducedRate(fs, pass, margin);
     RecordedChannels reduced{static_cast<double>(rate), {}};
-    RationalDecimator decimator(fs, rate, {pass, static_cast<double>(rate) - pass, 90.0});
+    RationalDecimator decimator(fs, rate, {Hertz(pass), Hertz(static_cast<double>(rate) - pass), 90_dB});
     for (std::size_t c = 0; c < recording.size(); ++c)
     {
         double sum = 0.0;

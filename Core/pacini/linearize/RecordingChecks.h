@@ -1,6 +1,6 @@
 #pragma once
 
-// What can be seen in a recording before it is analysed.
+// Plausibility checks of a recording before it is analysed.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/SweepMeasurement.h>
@@ -56,7 +56,7 @@ namespace pacini
     return {};
 }
 
-/// Samples at a limit.
+/// Clipping: samples at a limit.
 struct Clipping
 {
     std::size_t samples = 0;

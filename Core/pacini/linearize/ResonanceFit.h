@@ -1,6 +1,6 @@
 #pragma once
 
-// Resonance frequency and Q of a measured response.
+// Resonance fit: frequency and Q of a measured response.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// g (f / f0)^slope / |1 - (f / f0)^2 + i f / (Q f0)|
+/// Resonance model g (f / f0)^slope / |1 - (f / f0)^2 + i f / (Q f0)|
 struct ResonanceModel
 {
     double frequency = 67.0; ///< f0, Hz

@@ -1,6 +1,6 @@
 #pragma once
 
-// What can be seen in responses that something is wrong with their recording.
+// Plausibility checks of responses: what shows in them that something is wrong with their recording.
 
 #include <pacini/linearize/LevelAnalysis.h>
 #include <pacini/linearize/RecordingChecks.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The few numbers of a response that a profile is made of.
+// Features of a response: resonance, plateau and range, the few numbers that a profile is made of.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Result.h>
@@ -19,6 +19,7 @@
 namespace pacini
 {
 
+/// Parameters of feature extraction.
 struct ResponseFeatureParams
 {
     double lowFrequency = 20.0;    ///< Hz, from where the resonance is looked for
@@ -38,6 +39,7 @@ struct FrequencyRange
     bool operator==(const FrequencyRange&) const = default;
 };
 
+/// Features of a response.
 struct ResponseFeatures
 {
     ResonanceModel resonance;

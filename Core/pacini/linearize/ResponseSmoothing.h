@@ -66,24 +66,6 @@ private:
     std::vector<double> integral;
 };
 
-/// `response` with its power averaged over `octaves` (0 to 10) around each point; its errors, and
-/// ErrorCode::invalidArgument at `octaves`.
-[[nodiscard]] inline Result<FrequencyResponse> smoothResponse(const FrequencyResponse& response, double octaves)
-{
-    if (auto valid = validate(response); !valid)
-        return valid.error();
-    if (!(octaves >= 0.0 && octaves <= 10.0))
-        return Error{ErrorCode::invalidArgument, "octaves", "must be 0 to 10"};
-    std::vector<double> power(response.size());
-    std::transform(response.level.begin(), response.level.end(), power.begin(),
-                   [](double level) { return std::pow(10.0, level / 10.0); });
-    const SmoothedPower smoothed(response.frequency, power);
-    FrequencyResponse out = response;
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out.level[i] = 10.0 * std::log10(smoothed.at(out.frequency[i], octaves));
-    return out;
-}
-
 /// `points` frequencies evenly in octaves from `low` to `high` Hz, both ends included.
 [[nodiscard]] inline std::vector<double> logSpaced(double low, double high, std::size_t points)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A measuring rig without one: actuator on a body, accelerometer, converters with clocks of their own.
+// Simulated measuring rig: actuator on a body, accelerometer, converters with clocks of their own.
 
 #include <pacini/actuator/BodyModel.h>
 #include <pacini/foundation/Gaussian.h>
@@ -20,7 +20,7 @@ namespace pacini
 
 inline constexpr double standardGravity = 9.80665; ///< m/s^2
 
-/// Like the thesis' L5 wristband with an ADXL325 on its case.
+/// Parameters of the simulated rig. Like the thesis' L5 wristband with an ADXL325 on its case.
 struct RigParams
 {
     std::optional<BodyParams> body = BodyParams{1.342, 0.012, 0.04, 40000.0, 5.0, 0.01, 800.0, 2.5}; // none: 1 m/s^2
@@ -77,7 +77,7 @@ namespace detail
 }
 } // namespace detail
 
-/// What the rig records of `drive`, both at params.sampleRate: one channel for each axis.
+/// Simulated recording: what the rig records of `drive`, both at params.sampleRate: one channel for each axis.
 [[nodiscard]] inline std::vector<std::vector<float>> recordOnRig(std::span<const float> drive, const RigParams& params)
 {
     std::vector<float> amplified(drive.size());

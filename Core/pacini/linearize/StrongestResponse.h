@@ -1,6 +1,6 @@
 #pragma once
 
-// One impulse response out of those of several axes, and its arrival.
+// Principal axis of a measurement: one impulse response out of those of several axes, and its arrival.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/SplitRealFft.h>

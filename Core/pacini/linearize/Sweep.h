@@ -31,10 +31,10 @@ struct SweepParams
     bool operator==(const SweepParams&) const = default;
 };
 
-/// x(t) = sin(2 pi f1 L (e^(t / L) - 1)), L = T / ln(f2 / f1), between two raised-cosine fades (A. Farina,
-/// "Simultaneous measurement of impulse response and distortion with a swept-sine technique", AES 108th convention,
-/// 2000, eq. 1). A function of continuous time rather than a list of samples, so that it can be had at any rate, at
-/// fractional delays and by any clock without a resampler's error.
+/// Exponential sine sweep x(t) = sin(2 pi f1 L (e^(t / L) - 1)), L = T / ln(f2 / f1), between two raised-cosine fades
+/// (A. Farina, "Simultaneous measurement of impulse response and distortion with a swept-sine technique", AES 108th
+/// convention, 2000, eq. 1). A function of continuous time rather than a list of samples, so that it can be had at any
+/// rate, at fractional delays and by any clock without a resampler's error.
 class ExponentialSweep
 {
 public:
@@ -158,14 +158,6 @@ private:
     for (std::size_t n = 0; n < x.size(); ++n)
         x[n] = static_cast<float>(gain * sweep.at(static_cast<double>(n) / fs));
     return x;
-}
-
-/// One plain sweep of amplitude 1, without pauses, or what is wrong with `params` (see validate).
-[[nodiscard]] inline Result<std::vector<float>> makeSweep(const SweepParams& params)
-{
-    if (auto valid = validate(params); !valid)
-        return valid.error();
-    return sampleSweep(measuringSweep(params), params.sampleRate);
 }
 
 } // namespace pacini

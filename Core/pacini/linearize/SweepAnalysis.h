@@ -1,6 +1,6 @@
 #pragma once
 
-// From a recording of sweeps to responses: the whole way.
+// Sweep analysis: the whole way from a recording of sweeps to responses.
 
 #include <pacini/linearize/LevelAnalysis.h>
 #include <pacini/linearize/RecordingChecks.h>

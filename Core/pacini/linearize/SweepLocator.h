@@ -1,6 +1,6 @@
 #pragma once
 
-// Where in a recording the sweeps are.
+// Sweep detection: where in a recording the sweeps are.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/linearize/Deconvolution.h>
@@ -31,8 +31,8 @@ namespace detail
 {
 inline constexpr double locatorStep = 0.001; // s
 
-/// The largest of any range of values in constant time: the maxima of all runs of 2^k cells (M. Bender, M.
-/// Farach-Colton, "The LCA problem revisited", 2000), of ten values each, to which ranges are widened.
+/// Range maximum query: the largest of any range of values in constant time: the maxima of all runs of 2^k cells (M.
+/// Bender, M. Farach-Colton, "The LCA problem revisited", 2000), of ten values each, to which ranges are widened.
 class RangeMaximum
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a recording of sweeps tells of an actuator.
+// Result of a sweep measurement: what a recording of sweeps tells of an actuator.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -27,6 +27,7 @@ enum class MeasurementDefect
     lowSnr,        ///< noise near the signal or above it
 };
 
+/// A defect, where it is, and how it reads.
 struct MeasurementWarning
 {
     MeasurementDefect code = MeasurementDefect::lowSnr;
@@ -53,7 +54,7 @@ struct LevelMeasurement
     std::vector<double> distortion; ///< % of the fundamental, over all harmonics recorded
 };
 
-/// h at lags from -origin on, along the direction in which the device moves most.
+/// Impulse response h at lags from -origin on, along the direction in which the device moves most.
 struct ImpulseResponse
 {
     double sampleRate = 0.0;     ///< Hz
@@ -61,6 +62,7 @@ struct ImpulseResponse
     std::vector<double> samples; ///< m/s^2 at a drive of 1, per sample
 };
 
+/// Result of a sweep measurement.
 struct SweepMeasurement
 {
     std::vector<LevelMeasurement> levels; ///< in the order of SweepParams::levels

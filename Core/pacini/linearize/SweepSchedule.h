@@ -1,6 +1,6 @@
 #pragma once
 
-// When which sweep of a measurement is played.
+// Schedule of a sweep measurement: when which sweep is played.
 
 #include <pacini/foundation/Units.h>
 #include <pacini/linearize/Sweep.h>
@@ -14,6 +14,7 @@
 namespace pacini
 {
 
+/// One sweep of the schedule.
 struct ScheduledSweep
 {
     std::size_t startFrame = 0;
@@ -23,7 +24,7 @@ struct ScheduledSweep
     bool operator==(const ScheduledSweep&) const = default;
 };
 
-/// pause, marker, pause, then each sweep and a pause, marker, pause.
+/// Order of a measurement: pause, marker, pause, then each sweep and a pause, marker, pause.
 struct SweepSchedule
 {
     std::vector<ScheduledSweep> sweeps;      ///< in the order of playing: all repeats of a level, then the next level

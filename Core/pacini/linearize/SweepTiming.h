@@ -1,6 +1,6 @@
 #pragma once
 
-// When each sweep arrived in a recording.
+// Arrival times of the sweeps in a recording.
 
 #include <pacini/linearize/ClockDrift.h>
 #include <pacini/linearize/DelayTrack.h>
@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Arrival times of all sweeps and the drift between the clocks.
 struct SweepTiming
 {
     double start = 0.0;           ///< s of the recording at which what is played at 0 s arrives

@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether a response is flat.
+// Flatness check of a response, to verify an equalizer.
 
 #include <pacini/actuator/ProfileMeasurement.h>
 #include <pacini/linearize/FrequencyResponse.h>
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Parameters of the flatness check.
 struct LinearityParams
 {
     double lowFrequency = 0.0;  ///< Hz, start of the range to judge; 0: from the first point
@@ -21,7 +22,7 @@ struct LinearityParams
     bool operator==(const LinearityParams&) const = default;
 };
 
-/// How flat a response is over a range. Means are taken over the logarithm of frequency by the trapezoid rule, so that
+/// Flatness of a response over a range. Means are taken over the logarithm of frequency by the trapezoid rule, so that
 /// the spacing of the points does not matter; each run of points beyond the tolerance is one outlier. Errors: those of
 /// validate(); invalidArgument at `tolerance` or `range`, the latter when fewer than 8 points lie in it.
 [[nodiscard]] inline Result<Linearity> judgeLinearity(const FrequencyResponse& response, const LinearityParams& params)

@@ -1,6 +1,6 @@
 #pragma once
 
-// An equalizer as a recursive filter of any order, found without iteration.
+// IIR equalizer design by the modified Yule-Walker equations: a recursive filter of any order, found without iteration.
 
 #include <pacini/linearize/EqualizerSearch.h>
 #include <pacini/linearize/EqualizerTarget.h>
@@ -17,8 +17,8 @@
 namespace pacini
 {
 
-/// numerator[0] + numerator[1] z^-1 + ... over 1 + denominator[1] z^-1 + ..., both with all roots inside of the unit
-/// circle: stable and of minimum phase.
+/// Recursive filter numerator[0] + numerator[1] z^-1 + ... over 1 + denominator[1] z^-1 + ..., both with all roots
+/// inside of the unit circle: stable and of minimum phase.
 struct YuleWalkerFit
 {
     std::vector<double> numerator, denominator;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How strong each band of a sound is, cheaply.
+// Band level meter: how strong each band of a sound is, cheaply.
 
 #include <pacini/filters/BandLayout.h>
 #include <pacini/filters/DesignLimits.h>
@@ -15,11 +15,11 @@
 namespace pacini
 {
 
-/// Powers of bands cut by constant-voltage crossovers of third order (R. H. Small, "Constant-voltage crossover network
-/// design", JAES 19 (1971)): with u = 1 / (s + 1) the low part is (1 + 3 s) u^3 = 3 u^2 - 2 u^3. Each edge is three
-/// one-poles by trapezoidal integration (V. Zavalishin, "The Art of VA Filter Design", 2012); all edges stand side by
-/// side in vector registers, so that twelve bands cost less than one of FilterBank. Slopes of 12 dB per octave are
-/// enough for the eye and for a motor, which has one strength only.
+/// Band level meter. Powers of bands cut by constant-voltage crossovers of third order (R. H. Small, "Constant-voltage
+/// crossover network design", JAES 19 (1971)): with u = 1 / (s + 1) the low part is (1 + 3 s) u^3 = 3 u^2 - 2 u^3. Each
+/// edge is three one-poles by trapezoidal integration (V. Zavalishin, "The Art of VA Filter Design", 2012); all edges
+/// stand side by side in vector registers, so that twelve bands cost less than one of FilterBank. Slopes of 12 dB per
+/// octave are enough for the eye and for a motor, which has one strength only.
 class BandMeter
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sounds too high for the skin, felt as a sinusoid where it feels best.
+// High-band voice: sounds too high for the skin, felt as a sinusoid where it feels best.
 
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/filters/StateVariable.h>
@@ -18,9 +18,9 @@
 namespace pacini
 {
 
-/// Skin hardly feels what lies above a few hundred hertz, but rivers, bells and tyres live there. The strength of what
-/// lies above `border`, less what lies below it and is felt anyway, becomes that of one sinusoid: a sound that is felt
-/// already keeps its own shape, one that is not becomes its envelope.
+/// High-band voice. Skin hardly feels what lies above a few hundred hertz, but rivers, bells and tyres live there. The
+/// strength of what lies above `border`, less what lies below it and is felt anyway, becomes that of one sinusoid: a
+/// sound that is felt already keeps its own shape, one that is not becomes its envelope.
 class BrightVoice
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// The last minutes of a sound, kept by the audio thread for whoever wants to encode them.
+// Capture buffer: the last minutes of a sound, kept by the audio thread for whoever wants to encode them.
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bands that are played as sinusoids, as many at a time as the actuator has voices.
+// Carrier synthesis of the translator: bands played as sinusoids, as many at a time as the actuator has voices.
 
 #include <pacini/realtime/CarrierVoice.h>
 #include <pacini/realtime/TranslatorDesign.h>
@@ -15,8 +15,8 @@
 namespace pacini
 {
 
-/// Turns bands into sinusoids at their pitch, transposed and moved into the actuator's range. Bands that nobody wants
-/// cost nothing.
+/// Carrier synthesis of all bands. Turns bands into sinusoids at their pitch, transposed and moved into the actuator's
+/// range. Bands that nobody wants cost nothing.
 ///
 /// - Neighbours of one pitch (within 15 %: a tone between two centres) become one sinusoid, the stronger one, of the
 ///   sum of both amplitudes, since the slopes of two bands meet in phase.

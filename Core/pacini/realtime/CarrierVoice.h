@@ -1,6 +1,6 @@
 #pragma once
 
-// One band of a sound as a sinusoid of its own strength and pitch.
+// Carrier of one band: a sinusoid of the band's own strength and pitch.
 
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/filters/StateVariable.h>
@@ -19,9 +19,10 @@
 namespace pacini
 {
 
-/// Listens to one band. The band is cut out by Linkwitz-Riley slopes of fourth order at its edges, as in FilterBank but
-/// without the all-passes of the other bands, which only a sum of bands needs and which would delay it. Of the band's
-/// samples x and their differences d, taken half-way between two frames, a tone of w radians per frame has
+/// Level and pitch tracker of one band. Listens to one band. The band is cut out by Linkwitz-Riley slopes of fourth
+/// order at its edges, as in FilterBank but without the all-passes of the other bands, which only a sum of bands needs
+/// and which would delay it. Of the band's samples x and their differences d, taken half-way between two frames, a tone
+/// of w radians per frame has
 ///
 ///     mean of ((x + x') / 2)^2 = A^2 cos^2(w / 2) / 2,   mean of d^2 = 4 A^2 sin^2(w / 2) / 2
 ///

@@ -1,6 +1,6 @@
 #pragma once
 
-// The grid on which the translator decides, and gains that move in straight lines from one decision to the next.
+// Control rate of the translator: the grid on which it decides, and gain ramps from one decision to the next.
 
 #include <cmath>
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace pacini
 
 inline constexpr std::size_t controlHop = 8; ///< inner frames, 0.7 to 1.3 ms
 
-/// A number that runs in straight lines between the points of the grid. Its value depends on the frame of the hop only,
-/// not on how the hop is cut into calls.
+/// Linear gain ramp: a number that runs in straight lines between the points of the grid. Its value depends on the
+/// frame of the hop only, not on how the hop is cut into calls.
 class HopRamp
 {
 public:

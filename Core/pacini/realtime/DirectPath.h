@@ -1,6 +1,6 @@
 #pragma once
 
-// The sound's own signal where the actuator can show it, with the levels of its roles.
+// Direct path: the sound's own signal where the actuator can show it, with the levels of its roles.
 
 #include <pacini/filters/DesignLimits.h>
 #include <pacini/filters/StateVariable.h>
@@ -18,9 +18,9 @@
 namespace pacini
 {
 
-/// A range between two Butterworth slopes of 12 dB per octave, and below and above one border two gains. Crossovers
-/// whose parts are added again would delay 100 Hz by up to 10 ms; here the parts are never separated: the border is a
-/// fourth-order Butterworth low- or high-shelf whose louder side stands at 1,
+/// Band-pass with role levels: a range between two Butterworth slopes of 12 dB per octave, and below and above one
+/// border two gains. Crossovers whose parts are added again would delay 100 Hz by up to 10 ms; here the parts are never
+/// separated: the border is a fourth-order Butterworth low- or high-shelf whose louder side stands at 1,
 ///
 ///     product over both pole pairs of (s^2 + k r s + r^2) / (s^2 + k s + 1), r^4 = gain below / gain above,
 ///

@@ -1,6 +1,6 @@
 #pragma once
 
-// From what is to be felt to the drive of the actuator, at the inner rate.
+// Output stage of the translator: from what is to be felt to the drive of the actuator, at the inner rate.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/MotorDrive.h>
@@ -16,12 +16,13 @@
 namespace pacini
 {
 
-/// Levels pressed into the actuator's range, intensity, equaliser and flattening, limiter; or, for a motor, its
-/// strength and the voltage that reaches it. Where the actuator has limits the protection behind replaces the limiter.
+/// Output stage: levels pressed into the actuator's range, intensity, equaliser and flattening, limiter; or, for a
+/// motor, its strength and the voltage that reaches it. Where the actuator has limits the protection behind replaces
+/// the limiter.
 class DriveStage
 {
 public:
-    DriveStage() { limiter.prepare(0, static_cast<std::size_t>(limiterHold * highestInnerRate)); }
+    DriveStage() { limiter.prepare(0, static_cast<std::size_t>(limiterHoldSeconds * highestInnerRate)); }
 
     /// Of a design, which stays where it is. Silence follows.
     void adopt(const TranslatorDesign& wanted) noexcept
@@ -33,7 +34,7 @@ public:
             motor.prepare({fs, controlHop});
             motor.setParams(*wanted.motor);
         }
-        limiter.design(0, static_cast<std::size_t>(limiterHold * fs), fs);
+        limiter.design(0, static_cast<std::size_t>(limiterHoldSeconds * fs), fs);
         strengthShare = hopShare(0.010, fs); // a motor follows no faster
         burstHops = static_cast<std::size_t>(wanted.motorBurst * fs / static_cast<double>(controlHop)) + 1;
         reset();
@@ -126,7 +127,7 @@ public:
     [[nodiscard]] double takeLimiterGain() noexcept { return std::exchange(smallestGain, 1.0); }
 
 private:
-    static constexpr double limiterHold = 0.010; // s
+    static constexpr double limiterHoldSeconds = 0.010;
 
     /// Twice smoothed: the drive of a motor sharpens every ripple.
     void aimStrength(double energy) noexcept

@@ -1,6 +1,6 @@
 #pragma once
 
-// A few pulses that may sound at once.
+// Pulse voices of the translator: a few pulses that may sound at once.
 
 #include <pacini/synthesis/TransientPulse.h>
 
@@ -13,7 +13,8 @@
 namespace pacini
 {
 
-/// Pulses that begin at once; one more than there is room for takes the place of the oldest, which is then almost over.
+/// Pulse voices. Pulses that begin at once; one more than there is room for takes the place of the oldest, which is
+/// then almost over.
 class EventPulses
 {
 public:

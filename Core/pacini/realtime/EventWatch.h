@@ -1,6 +1,6 @@
 #pragma once
 
-// Notices events while they happen.
+// Live onset detector: notices events while they happen.
 
 #include <pacini/analysis/TransientScore.h>
 #include <pacini/foundation/DspBlock.h>
@@ -13,18 +13,18 @@
 namespace pacini
 {
 
-/// An event at the moment at which its peak is known.
+/// Detected onset: an event at the moment at which its peak is known.
 struct HeardEvent
 {
     double amplitude = 0.0; ///< full-band peak
     double gap = 0.0;       ///< s since the event before
 };
 
-/// The relative score of TransientDetector, (fast - slow) / (slow + floor), on the peaks of the full band: bright
-/// events count that the range of touch hardly holds. TransientDetector itself names an event when nothing later can
-/// replace it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for `deadTime`, since
-/// skin takes two events within 8 to 10 ms for one. The release is short enough for 60 events a second, the hold
-/// outlasts the half waves of 50 Hz.
+/// Live onset detector. The relative score of TransientDetector, (fast - slow) / (slow + floor), on the peaks of the
+/// full band: bright events count that the range of touch hardly holds. TransientDetector itself names an event when
+/// nothing later can replace it, 10 ms late; this one waits for the peak for `peakWait` only and then stays silent for
+/// `deadTime`, since skin takes two events within 8 to 10 ms for one. The release is short enough for 60 events a
+/// second, the hold outlasts the half waves of 50 Hz.
 class EventWatch
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Big objects on their way to the audio thread and back.
+// Lock-free hand-over of big objects to the audio thread and back.
 
 #include <atomic>
 #include <memory>

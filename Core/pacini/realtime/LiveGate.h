@@ -1,6 +1,6 @@
 #pragma once
 
-// Silences what is not meant to be felt.
+// Noise gate: silences what is not meant to be felt.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,8 +8,9 @@
 namespace pacini
 {
 
-/// Opens at once when the level passes the threshold (the jump is as small as the threshold), stays open while the
-/// level is above half of it or was so during the release, and closes in a straight line over another release.
+/// Noise gate. Opens at once when the level passes the threshold (the jump is as small as the threshold), stays open
+/// while the level is above half of it or was so during the release, and closes in a straight line over another
+/// release.
 class LiveGate
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sound in, touch out: the live translator.
+// Live translator: sound in, touch out.
 
 #include <pacini/actuator/Protection.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
@@ -25,9 +25,9 @@
 namespace pacini
 {
 
-/// A block of mono audio in, a block of drive out, both at the host's rate. Analysis and synthesis run at an inner rate
-/// of 6 to 12 kHz (see TranslatorEngine); linear-phase filters lead there and back and are all of latencyFrames(): 1.3
-/// ms at 48 kHz, never more than 1.4 ms. The latency depends on the host's rate only.
+/// Live translator: a block of mono audio in, a block of drive out, both at the host's rate. Analysis and synthesis run
+/// at an inner rate of 6 to 12 kHz (see TranslatorEngine); linear-phase filters lead there and back and are all of
+/// latencyFrames(): 1.3 ms at 48 kHz, never more than 1.4 ms. The latency depends on the host's rate only.
 ///
 /// Where the actuator can show a band its own signal is played, scaled by its role: nothing that was in the sound is
 /// then lost, and nothing is smeared. What it cannot show is played by sinusoids that follow the band's strength and
@@ -69,7 +69,6 @@ public:
         setup = wanted;
         sendDesign();
     }
-    [[nodiscard]] const TranslatorSetup& currentSetup() const noexcept { return setup; }
 
     /// What is left out with the newest set-up and `params`, and why. [message]
     [[nodiscard]] TranslatorPlan plan(const Params& wanted) const

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the translator needs to know of an actuator, made before the audio thread gets it.
+// Set-up of the translator for one actuator, designed before the audio thread gets it.
 
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/EqualizerPruning.h>
@@ -28,18 +28,18 @@
 namespace pacini
 {
 
-/// What is decided once for a set-up of the translator.
+/// Configuration: what is decided once for a set-up of the translator.
 struct TranslatorSetup
 {
     std::optional<Profile> profile; ///< valid; none: the drive signal as it is
     BandLayoutParams bands;         ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
-    double maxBoost = 6.0;          ///< dB by which the drive may be raised to flatten a resonance, 0 to 40
+    Decibels maxBoost{6.0};         ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
     bool operator==(const TranslatorSetup&) const = default;
 };
 
 inline constexpr std::size_t maxTranslatorBands = 12;
 
-/// Something that the translator does without.
+/// Report of culling: something that the translator does without.
 struct TranslatorSaving
 {
     std::string what;   ///< such as `bands[2].carrier`
@@ -47,6 +47,7 @@ struct TranslatorSaving
     bool operator==(const TranslatorSaving&) const = default;
 };
 
+/// Everything that the translator does without.
 using TranslatorPlan = std::vector<TranslatorSaving>;
 
 /// One source band of the translator.
@@ -57,7 +58,7 @@ struct TranslatorBand
     bool shown = true;   ///< the actuator can play the band's own signal
 };
 
-/// Immutable; made off the audio thread by designTranslator().
+/// Coefficients and choices of the translator. Immutable; made off the audio thread by designTranslator().
 struct TranslatorDesign
 {
     BandLayout layout;
@@ -93,91 +94,94 @@ inline constexpr double highestInnerRate = 12000.0; // Hz
     return static_cast<std::size_t>(std::max(1.0, std::floor(clampTo(fs, 2000.0, 1e7) / 6000.0)));
 }
 
-/// The set of one actuator for a host rate of `fs` Hz. A valid profile without polyphony to spare (fewer voices than
-/// bands) gets carriers only; otherwise a band whose centre the actuator reaches, with the flattening (see
-/// flatteningOf), is played by its own signal. [message]
-[[nodiscard]] inline TranslatorDesign designTranslator(const TranslatorSetup& setup, double fs)
+namespace detail
 {
-    TranslatorDesign design;
-    TranslatorPlan& plan = design.plan;
-    design.innerRate = fs / static_cast<double>(translatorFactor(fs));
-    BandLayoutParams bands = setup.bands;
-    bands.bands = clampTo<std::size_t>(bands.bands, 1, maxTranslatorBands);
-    design.layout = designBandLayout(bands);
-    const bool known = setup.profile && setup.profile->technology != Technology::pcm;
-    if (setup.profile)
-    {
-        const Profile& profile = *setup.profile;
-        design.scale = 1.0 / profile.drive.overdrive;
-        design.feltRange = profile.range.dynamicRange;
-        if (profile.transient.shape != TransientShape::adaptive)
-            design.pulses = {profile.transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine,
-                             profile.transient.frequency, profile.transient.cycles};
-        if (known)
-        {
-            Profile reached = profile;
-            const auto flattening = flatteningOf(profile, Decibels(setup.maxBoost));
-            if (flattening)
-            {
-                const double ratio = std::exp2(flattening->octaves);
-                reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
-                reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
-            }
-            design.frequencies = FrequencyMap(reached);
-            design.lowest = reached.range.lowFrequency;
-            design.highest = reached.range.highFrequency;
-            design.voices = static_cast<std::size_t>(std::max(profile.polyphony, 1));
-            if (profile.technology == Technology::erm)
-            {
-                design.motor = motorDriveParams(profile);
-                design.motorBurst = std::max(0.012, profile.response.riseTime);
-                design.voices = 1;
-            }
-            constexpr double felt = 35.0; // dB that a sound's loudest part stands above what is just felt beside it
-            design.levels = DynamicRangeMap({profile.range.dynamicRange, felt, 1.0});
+/// Takes the pulses of events from the profile where it says what they are.
+inline void choosePulses(TranslatorDesign& design, const ActuatorTransient& transient) noexcept
+{
+    if (transient.shape != TransientShape::adaptive)
+        design.pulses = {transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine,
+                         transient.frequency, transient.cycles};
+}
 
-            OutputFilterParams filter;
-            filter.flattening = flattening;
-            const auto pruned =
-                pruneEqualizer(profile.equalizer,
-                               {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
-                               design.innerRate);
-            filter.equalizer = pruned.kept;
-            if (!design.motor)
-                design.filter = designOutputFilter(filter, design.innerRate);
-            for (const DroppedSection& section : pruned.dropped)
-                plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
-            if (!flattening)
-                plan.push_back({"flattening", profile.technology == Technology::erm
-                                                  ? "a motor has no resonance that a filter could undo"
-                                                  : "the equaliser does it"});
-        }
-        ProtectionParams limits = protectionParams(profile, Seconds(0.0));
-        if (design.motor) // it turns: nothing swings, and the mean of its voltage must stay
-        {
-            limits.boundsAlone = true;
-            limits.excursion.reset();
-        }
-        if (limits.excursion || limits.heat)
-            design.protection = limits;
+/// The frequencies that the actuator reaches with the flattening, and how many of them at a time.
+inline void adoptRange(TranslatorDesign& design, const Profile& profile, const std::optional<Flattening>& flattening)
+{
+    Profile reached = profile;
+    if (flattening)
+    {
+        const double ratio = std::exp2(flattening->octaves);
+        reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
+        reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
     }
+    design.frequencies = FrequencyMap(reached);
+    design.lowest = design.pulses.lowest = reached.range.lowFrequency;
+    design.highest = design.pulses.highest = reached.range.highFrequency;
+    design.voices = static_cast<std::size_t>(std::max(profile.polyphony, 1));
+    if (profile.technology == Technology::erm)
+    {
+        design.motor = motorDriveParams(profile);
+        design.motorBurst = std::max(0.012, profile.response.riseTime);
+        design.voices = 1;
+    }
+    constexpr Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
+    design.levels = DynamicRangeMap({Decibels(profile.range.dynamicRange), felt, 1.0});
+}
+
+/// The equaliser as far as it is felt, and the flattening.
+inline void adoptFilter(TranslatorDesign& design, const Profile& profile, const std::optional<Flattening>& flattening)
+{
+    const auto pruned = pruneEqualizer(
+        profile.equalizer, {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
+        design.innerRate);
+    if (!design.motor)
+        design.filter = designOutputFilter({pruned.kept, flattening}, design.innerRate);
+    for (const DroppedSection& section : pruned.dropped)
+        design.plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
+    if (!flattening)
+        design.plan.push_back({"flattening", profile.technology == Technology::erm
+                                                 ? "a motor has no resonance that a filter could undo"
+                                                 : "the equaliser does it"});
+}
+
+/// The limits that have to be guarded behind the drive stage.
+inline void adoptProtection(TranslatorDesign& design, const Profile& profile)
+{
+    ProtectionParams limits = protectionParams(profile, Seconds(0.0));
+    if (design.motor) // it turns: nothing swings, and the mean of its voltage must stay
+    {
+        limits.boundsAlone = true;
+        limits.excursion.reset();
+    }
+    if (limits.excursion || limits.heat)
+        design.protection = limits;
+}
+
+inline void planSavings(TranslatorDesign& design, const std::optional<Profile>& profile, bool known)
+{
     if (!known)
-        plan.push_back({"adaptation", "no actuator is known"});
+        design.plan.push_back({"adaptation", "no actuator is known"});
     if (!design.protection)
-        plan.push_back({"protection", setup.profile ? protectionText(*setup.profile, design.motor.has_value())
-                                                    : "no actuator is known"});
+        design.plan.push_back(
+            {"protection", profile ? protectionText(*profile, design.motor.has_value()) : "no actuator is known"});
     if (known && design.levels.isIdentity())
-        plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
-    design.pulses.lowest = design.frequencies ? design.lowest : design.pulses.lowest;
-    design.pulses.highest = design.frequencies ? design.highest : design.pulses.highest;
+        design.plan.push_back({"dynamicRange", "the actuator shows all that is felt"});
+}
+
+/// Limits the range to what the inner rate can carry; few voices play where they are felt.
+inline void limitRange(TranslatorDesign& design, bool anyWaveform) noexcept
+{
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
     design.lowest = std::min(design.lowest, design.highest);
+    if (!anyWaveform)
+        design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
+}
 
+/// Decides for each band between a carrier and its own signal, and designs the direct path.
+inline void designBands(TranslatorDesign& design, bool anyWaveform)
+{
     design.meter.design(design.layout, design.innerRate);
     Hertz low(1.0), border(1.0), high(1.0);
-    const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
-    if (!anyWaveform) // few voices play where they are felt
-        design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
     for (std::size_t k = 0; k < design.layout.bands(); ++k)
     {
         TranslatorBand band{design.layout.lowerEdge(k), design.layout.centres[k], design.layout.upperEdge(k)};
@@ -193,27 +197,65 @@ inline constexpr double highestInnerRate = 12000.0; // Hz
         }
         design.bands.pushBack(band);
         design.listeners[k].design(band.low, band.high, design.innerRate);
+        const std::string name = "bands[" + std::to_string(k) + "].";
         if (band.shown)
-            plan.push_back({"bands[" + std::to_string(k) + "].carrier", "the actuator plays the band's own signal"});
+            design.plan.push_back({name + "carrier", "the actuator plays the band's own signal"});
         else
-            plan.push_back({"bands[" + std::to_string(k) + "].direct",
-                            anyWaveform ? "lies outside the actuator's range" : "the actuator has too few voices"});
+            design.plan.push_back({name + "direct", anyWaveform ? "lies outside the actuator's range"
+                                                                : "the actuator has too few voices"});
     }
-    // Bands that are moved into a narrower range are felt already.
+    design.wide.design(design.layout.lowerEdge(0), design.layout.upperEdge(design.layout.bands() - 1),
+                       design.innerRate);
+    design.direct.design(low, border, high, design.innerRate);
+}
+
+/// Decides where sounds too high for the skin are felt. Bands that are moved into a narrower range are felt already.
+inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
+{
     const bool showsAll = std::all_of(design.bands.begin(), design.bands.end(),
                                       [](const TranslatorBand& band)
                                       { return band.shown || band.high.value <= BrightVoice::border.value; });
     if (anyWaveform && showsAll)
         design.brightFrequency = clampTo(BrightVoice::frequency, design.lowest, design.highest);
     else
-        plan.push_back({"brightness", "high bands are moved into the actuator's range"});
-    design.wide.design(design.layout.lowerEdge(0), design.layout.upperEdge(design.layout.bands() - 1),
-                       design.innerRate);
-    design.direct.design(low, border, high, design.innerRate);
+        design.plan.push_back({"brightness", "high bands are moved into the actuator's range"});
+}
+} // namespace detail
+
+/// The set of one actuator for a host rate of `fs` Hz. A valid profile without polyphony to spare (fewer voices than
+/// bands) gets carriers only; otherwise a band whose centre the actuator reaches, with the flattening (see
+/// flatteningOf), is played by its own signal. [message]
+[[nodiscard]] inline TranslatorDesign designTranslator(const TranslatorSetup& setup, double fs)
+{
+    TranslatorDesign design;
+    design.innerRate = fs / static_cast<double>(translatorFactor(fs));
+    BandLayoutParams bands = setup.bands;
+    bands.bands = clampTo<std::size_t>(bands.bands, 1, maxTranslatorBands);
+    design.layout = designBandLayout(bands);
+    const bool known = setup.profile && setup.profile->technology != Technology::pcm;
+    if (setup.profile)
+    {
+        const Profile& profile = *setup.profile;
+        design.scale = 1.0 / profile.drive.overdrive;
+        design.feltRange = profile.range.dynamicRange;
+        detail::choosePulses(design, profile.transient);
+        if (known)
+        {
+            const auto flattening = flatteningOf(profile, setup.maxBoost);
+            detail::adoptRange(design, profile, flattening);
+            detail::adoptFilter(design, profile, flattening);
+        }
+        detail::adoptProtection(design, profile);
+    }
+    detail::planSavings(design, setup.profile, known);
+    const bool anyWaveform = design.voices >= design.layout.bands() && !design.motor;
+    detail::limitRange(design, anyWaveform);
+    detail::designBands(design, anyWaveform);
+    detail::designBrightness(design, anyWaveform);
     return design;
 }
 
-/// What a set of parameters leaves out beside that. [message]
+/// The design's savings, and what a set of parameters leaves out beside them. [message]
 [[nodiscard]] inline TranslatorPlan translatorPlan(const TranslatorDesign& design, const TranslatorParams& params)
 {
     TranslatorPlan plan = design.plan;

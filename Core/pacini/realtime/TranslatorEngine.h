@@ -1,6 +1,6 @@
 #pragma once
 
-// The translator at its inner rate: what is heard, and what is to be felt.
+// Translator engine at the inner rate: what is heard, and what is to be felt.
 
 #include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierSection.h>
@@ -21,8 +21,8 @@
 namespace pacini
 {
 
-/// Runs on frames of the inner rate, decides on a fixed grid (see ControlHop.h), so that its output does not depend on
-/// how it is called. Asleep, in silence, it does nothing.
+/// Translator engine. Runs on frames of the inner rate, decides on a fixed grid (see ControlHop.h), so that its output
+/// does not depend on how it is called. Asleep, in silence, it does nothing.
 class TranslatorEngine
 {
 public:

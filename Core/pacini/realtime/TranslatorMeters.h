@@ -1,6 +1,6 @@
 #pragma once
 
-// What the translator shows of itself.
+// Meters of the translator.
 
 #include <pacini/realtime/TranslatorDesign.h>
 
@@ -27,8 +27,8 @@ struct TranslatorMeterReading
     double overThreshold = 0.0;       ///< dB of the drive above what is just felt; negative: below
 };
 
-/// One writer, any number of readers, no locks: every number is an atomic of its own. Numbers of one reading may come
-/// from neighbouring blocks, which no eye sees.
+/// Meters of the translator. One writer, any number of readers, no locks: every number is an atomic of its own. Numbers
+/// of one reading may come from neighbouring blocks, which no eye sees.
 class TranslatorMeters
 {
 public:

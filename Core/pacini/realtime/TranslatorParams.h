@@ -1,6 +1,6 @@
 #pragma once
 
-// What can be turned while the translator runs.
+// Live parameters of the translator.
 
 #include <pacini/foundation/Clamp.h>
 
@@ -10,7 +10,7 @@
 namespace pacini
 {
 
-/// One part of what is felt.
+/// Live parameters of one role (rumble, texture, transients). One part of what is felt.
 struct RoleParams
 {
     double level = 0.0; ///< dB, -60 to 24
@@ -20,8 +20,8 @@ struct RoleParams
 
 inline constexpr double lowestBrightness = -60.0; ///< dB, which is off
 
-/// Values outside their ranges are clamped, those that are not finite ignored (see clamped()). Every change is
-/// smoothed: gains move within about 20 ms, pitches glide.
+/// Live parameters of the translator. Values outside their ranges are clamped, those that are not finite ignored (see
+/// clamped()). Every change is smoothed: gains move within about 20 ms, pitches glide.
 struct TranslatorParams
 {
     double inputGain = 0.0;     ///< dB, -60 to 48: what the analysis sees

@@ -1,6 +1,6 @@
 #pragma once
 
-// Parameters to begin with, as plain data.
+// Presets of the live parameters, as plain data.
 
 #include <pacini/realtime/TranslatorParams.h>
 
@@ -10,6 +10,7 @@
 namespace pacini
 {
 
+/// A named set of live parameters.
 struct TranslatorPreset
 {
     std::string_view name;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lowers the rate of a sound by a whole factor, without waiting for whole groups of frames.
+// Low-latency decimator by a whole factor, which does not wait for whole groups of frames.
 
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Windows.h>
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -107,23 +106,14 @@ private:
         constexpr double attenuation = 60.0;
         const double inner = fs / static_cast<double>(ratio);
         const double width = (inner - 2.0 * pass) / fs; // from the pass band's end to what folds onto it
-        auto taps = static_cast<std::size_t>(std::ceil((attenuation - 7.95) / (14.36 * width))) + 1;
+        std::size_t taps = kaiserTaps(attenuation, width);
         taps += 1 - taps % 2; // odd: a whole delay
         const double cutoff = 0.5 * inner / fs;
-        const KaiserWindow window(kaiserBeta(attenuation));
         const double middle = 0.5 * static_cast<double>(taps - 1);
-        std::vector<double> row(taps);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < taps; ++i)
-        {
-            const double t = static_cast<double>(i) - middle;
-            const double x = 2.0 * std::numbers::pi * cutoff * t;
-            row[i] = (std::abs(x) < 1e-12 ? 1.0 : std::sin(x) / x) * window.at(t / (middle + 1.0));
-            sum += row[i];
-        }
-        coefficients.resize(taps);
-        for (std::size_t i = 0; i < taps; ++i)
-            coefficients[i] = static_cast<float>(row[i] / sum);
+        coefficients.clear();
+        for (const double tap :
+             windowedSinc(taps, cutoff, 0.0, middle, KaiserWindow(kaiserBeta(attenuation)), middle + 1.0))
+            coefficients.push_back(static_cast<float>(tap));
     }
 
     std::size_t ratio;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Few points of a dense curve, some of which must be there.
+// Simplification with anchors: few points of a dense curve, some of which must be there.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/simplify/BudgetSpread.h>
@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// Budget and tolerance of a curve with anchors.
 struct AnchoredCurveParams
 {
     std::size_t count = 2;  ///< at most this many points, anchors among them; more only where the anchors are more

@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves that share one budget of points, and what an allocation of points to them costs.
+// Input of budget allocation: curves that share one budget of points, and what an allocation to them costs.
 
 #include <pacini/simplify/DenseSamples.h>
 #include <pacini/simplify/KeptPoints.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// One budget of breakpoints for several curves.
+// Budget allocation: one budget of breakpoints for several curves.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/simplify/BudgetCurve.h>
@@ -19,7 +19,8 @@
 namespace pacini
 {
 
-/// Who keeps what, and the price per point that decided it: a good first guess for a similar task.
+/// Result of budget allocation. Who keeps what, and the price per point that decided it: a good first guess for a
+/// similar task.
 struct BudgetShares
 {
     std::vector<KeptPoints> kept; ///< per curve

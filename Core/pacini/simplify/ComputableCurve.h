@@ -1,6 +1,6 @@
 #pragma once
 
-// A dense curve in units in which its squares can be computed.
+// Curve scaling: a dense curve in units in which its squares can be computed.
 
 #include <pacini/clip/Curve.h>
 

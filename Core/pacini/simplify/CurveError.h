@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a simplified curve is from the dense one.
+// Error measures of simplification: how far a simplified curve is from the dense one.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/simplify/HatBasis.h>

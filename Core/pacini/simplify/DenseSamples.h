@@ -32,8 +32,8 @@ struct DenseSamples
     [[nodiscard]] bool weighted() const noexcept { return !weights.empty(); }
 };
 
-/// What the squared-error simplifiers ask of a curve: DenseSamples, or samples that are worked out when they are asked
-/// for and so take no memory; the same number every time.
+/// Concept of a dense curve, what the squared-error simplifiers ask of it: DenseSamples, or samples that are worked out
+/// when they are asked for and so take no memory; the same number every time.
 template <typename S>
 concept Samples = requires(const S& samples, std::size_t i)
 {

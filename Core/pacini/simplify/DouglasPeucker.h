@@ -14,10 +14,12 @@
 namespace pacini
 {
 
-/// Adds points to `kept` (ascending, with the first and last point), always at the largest vertical deviation of the
-/// whole curve, until `count` points are kept or no deviation is above `maxError`; the lower index first on ties.
-[[nodiscard]] inline KeptPoints splitWorst(std::span<const Breakpoint> dense, KeptPoints kept, std::size_t count,
-                                           double maxError)
+/// Adds points to `kept` (ascending, with the first and last point), always at the largest deviation of the whole
+/// curve, until `count` points are kept or no deviation is above `maxError`; the lower index first on ties.
+/// deviation(dense, i, j) is the largest between two points: the vertical one where nothing else is asked for.
+template <typename Largest = decltype(&maxDeviation)>
+[[nodiscard]] KeptPoints splitWorst(std::span<const Breakpoint> dense, KeptPoints kept, std::size_t count,
+                                    double maxError, const Largest& deviation = &maxDeviation)
 {
     struct Segment
     {
@@ -31,7 +33,7 @@ namespace pacini
     std::vector<Segment> heap;
     const auto add = [&](std::size_t first, std::size_t last)
     {
-        const Deviation worst = maxDeviation(dense, first, last);
+        const Deviation worst = deviation(dense, first, last);
         if (worst.value > maxError)
         {
             heap.push_back({worst, first, last});

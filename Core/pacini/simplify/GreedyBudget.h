@@ -1,6 +1,7 @@
 #pragma once
 
-// Meets a budget of points exactly, from an allocation that is close to it: one point at a time.
+// Greedy budget correction: meets a budget of points exactly, from an allocation that is close to it, one point at a
+// time.
 
 #include <pacini/simplify/BudgetCurve.h>
 #include <pacini/simplify/GrowingSegment.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-// The squared error of a segment whose one end is fixed while the other moves on, in O(1) per step.
+// Incremental segment error: the squared error of a segment whose one end is fixed while the other moves on, in O(1)
+// per step.
 
 #include <pacini/simplify/DenseSamples.h>
 

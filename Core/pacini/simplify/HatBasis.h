@@ -1,6 +1,7 @@
 #pragma once
 
-// Where points in time lie between the vertices of a curve, with the two sides of a step told apart.
+// Hat functions (linear interpolation basis): where points in time lie between the vertices of a curve, with the two
+// sides of a step told apart.
 
 #include <pacini/clip/Curve.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a simplifier keeps: numbers of points of the dense curve.
+// Result of a simplifier: the indices of the points of the dense curve that it keeps.
 
 #include <pacini/clip/Curve.h>
 

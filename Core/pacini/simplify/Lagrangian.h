@@ -1,6 +1,6 @@
 #pragma once
 
-// The best choice of breakpoints when each one has a price: dynamic programming over the whole curve.
+// Optimal simplification at a price per point: dynamic programming over the whole curve.
 
 #include <pacini/simplify/DenseSamples.h>
 #include <pacini/simplify/GrowingSegment.h>
@@ -204,6 +204,7 @@ private:
     std::vector<std::uint32_t> from;
 };
 
+/// The segmenter for DenseSamples.
 using LagrangianSegmenter = LagrangianSegmenterOf<DenseSamples>;
 
 } // namespace pacini

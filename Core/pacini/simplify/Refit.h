@@ -1,6 +1,6 @@
 #pragma once
 
-// The best values for vertices whose times are already chosen.
+// Least-squares refit: the best values for vertices whose times are already chosen.
 
 #include <pacini/simplify/HatBasis.h>
 
@@ -15,6 +15,7 @@
 namespace pacini
 {
 
+/// Parameters of the refit.
 struct RefitParams
 {
     double lowest = -std::numeric_limits<double>::infinity();  ///< no value falls below this, e.g. 0 for amplitudes

@@ -1,6 +1,7 @@
 #pragma once
 
-// Squared errors of all segments that end at one sample, for a window of starts that slides along the curve.
+// Sliding segment errors: squared errors of all segments that end at one sample, for a window of starts that slides
+// along the curve.
 
 #include <pacini/simplify/DenseSamples.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Turns a dense curve into few breakpoints: one door to all methods.
+// Curve simplification, one door to all methods: turns a dense curve into few breakpoints.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Result.h>
@@ -24,6 +24,7 @@
 namespace pacini
 {
 
+/// Simplification method.
 enum class SimplifyMethod
 {
     visvalingam,    ///< removal by triangle area: the thesis' method
@@ -33,6 +34,7 @@ enum class SimplifyMethod
     lagrangian,     ///< least squared error, by dynamic programming: best curve for its points
 };
 
+/// Method, and the number of points or the error that bounds it.
 struct SimplifyParams
 {
     SimplifyMethod method = SimplifyMethod::lagrangian;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fewer points in the lanes of a clip, and what that costs.
+// Simplification of the lanes of a clip: fewer points, and what that costs.
 
 #include <pacini/clip/edits/Lane.h>
 #include <pacini/simplify/CurveError.h>
@@ -24,6 +24,7 @@ struct SimplifiedLane
     CurveError error;
 };
 
+/// A clip after simplification.
 struct SimplifiedClip
 {
     Clip clip;

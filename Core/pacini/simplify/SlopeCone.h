@@ -1,6 +1,6 @@
 #pragma once
 
-// The lines from one point that pass close to all points after it.
+// Slope cone of streaming simplification: the lines from one point that pass close to all points after it.
 
 #include <pacini/clip/Curve.h>
 

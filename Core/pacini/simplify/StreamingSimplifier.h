@@ -1,6 +1,6 @@
 #pragma once
 
-// Simplification of a curve while it is being made, with a bounded delay.
+// Streaming simplification of a curve while it is being made, with a bounded delay.
 
 #include <pacini/simplify/SwingFilter.h>
 #include <pacini/simplify/WindowedLagrangian.h>
@@ -21,6 +21,7 @@ enum class StreamingRule
     rate,      ///< a number of points per input point: best plan within the delay
 };
 
+/// Parameters of a streaming simplifier.
 struct StreamingParams
 {
     StreamingRule rule = StreamingRule::tolerance;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Simplification on the fly within a tolerance.
+// Swing filter: streaming simplification within a tolerance.
 
 #include <pacini/simplify/SlopeCone.h>
 

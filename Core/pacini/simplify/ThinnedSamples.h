@@ -1,6 +1,6 @@
 #pragma once
 
-// A first, cheap thinning of very dense curves, for the methods whose time grows with the samples per point.
+// Pre-thinning of very dense curves, for the methods whose time grows with the samples per point.
 
 #include <pacini/simplify/DenseSamples.h>
 #include <pacini/simplify/KeptPoints.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Simplification on the fly to a rate of points.
+// Streaming simplification to a rate of points.
 
 #include <pacini/simplify/DenseSamples.h>
 #include <pacini/simplify/KeptPoints.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sum of a clip's sinusoids as an analytic signal, at the decoder's inner rate.
+// Additive synthesis: the sum of a clip's sinusoids as an analytic signal, at the decoder's inner rate.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/PlayClock.h>
@@ -28,11 +28,11 @@ struct Carrier
     double phase = 0.0; ///< cycles at frame 0
 };
 
-/// Sums sinusoids a(n) exp(2 pi i phi(n)), phi(n + 1) = phi(n) + f(n), where a and f are linear between breakpoints
-/// (Weber 2020, Eq. 4.13 with accumulated phase). Between two breakpoints the phase is a quadratic, so samples follow
-/// from two complex products each (a chirp recursion) instead of sine and cosine; it is restarted from the exact phase
-/// every 256 frames, which keeps the error below 1e-12, and the phase itself is carried in cycles modulo 1, so that
-/// 24 hours lose nothing. Four neighbouring samples run side by side to fill vector registers.
+/// Oscillator bank. Sums sinusoids a(n) exp(2 pi i phi(n)), phi(n + 1) = phi(n) + f(n), where a and f are linear
+/// between breakpoints (Weber 2020, Eq. 4.13 with accumulated phase). Between two breakpoints the phase is a quadratic,
+/// so samples follow from two complex products each (a chirp recursion) instead of sine and cosine; it is restarted
+/// from the exact phase every 256 frames, which keeps the error below 1e-12, and the phase itself is carried in cycles
+/// modulo 1, so that 24 hours lose nothing. Four neighbouring samples run side by side to fill vector registers.
 class CarrierBank
 {
 public:

@@ -1,12 +1,13 @@
 #pragma once
 
-// A clip as an actuator can show it.
+// Adaptation of a clip to an actuator: what it can show of it.
 
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/FrequencyMap.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/VoiceMerge.h>
 
 #include <algorithm>
@@ -20,13 +21,13 @@
 namespace pacini
 {
 
-/// What is left to the adaptation to do; by default all of it.
+/// Parameters of the adaptation: what is left to the adaptation to do; by default all of it.
 struct AdaptationParams
 {
     bool frequencies = true;  ///< move what is outside the actuator's range into it
     bool voices = true;       ///< as many sinusoids as the actuator has voices
     bool dynamicRange = true; ///< raise what would not be felt
-    double maxBoost = 6.0;    ///< dB by which the drive may be raised to flatten a resonance, 0 to 40; 0 leaves it
+    Decibels maxBoost{6.0};   ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB; 0 leaves it
     std::optional<FrequencyMapping> mapping; ///< instead of the profile's
     bool operator==(const AdaptationParams&) const = default;
 };
@@ -182,9 +183,9 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
     if (params.dynamicRange)
     {
-        constexpr double felt = 35.0; // dB that a sound's loudest part stands above what is just felt beside it
+        constexpr Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
         DynamicRangeParams range;
-        range.actuatorRange = profile.range.dynamicRange;
+        range.actuatorRange = Decibels(profile.range.dynamicRange);
         range.clipRange = felt;
         range.clipPeak = std::max(detail::peakOf(adapted), 1e-6);
         const DynamicRangeMap map(range);
@@ -192,7 +193,7 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
         {
             detail::mapLevels(adapted, map);
             result.changes.push_back("levels are pressed into " +
-                                     std::to_string(static_cast<int>(std::lround(range.actuatorRange))) + " dB");
+                                     std::to_string(static_cast<int>(std::lround(range.actuatorRange.value))) + " dB");
         }
     }
 
@@ -200,7 +201,7 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
     {
         Profile reached = profile;
         reached.frequencyMapping = params.mapping.value_or(profile.frequencyMapping);
-        if (const auto flattening = flatteningOf(profile, Decibels(params.maxBoost)))
+        if (const auto flattening = flatteningOf(profile, params.maxBoost))
         {
             const double ratio = std::exp2(flattening->octaves);
             reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);

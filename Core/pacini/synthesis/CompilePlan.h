@@ -1,6 +1,6 @@
 #pragma once
 
-// Scene -> RenderPlan.
+// Scene compiler: Scene -> RenderPlan.
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/ClipAdaptation.h>
@@ -25,6 +25,7 @@
 namespace pacini
 {
 
+/// Parameters of the scene compiler.
 struct CompileParams
 {
     double tolerance = -60.0;    ///< dB below the scene's energy that may be lost by leaving things out
@@ -122,7 +123,7 @@ inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& c
 /// Flattens the actuator's resonance where that helps, and notes it.
 inline void flatten(RenderPlan& plan, const AdaptationParams& params)
 {
-    plan.flattening = flatteningOf(*plan.profile, Decibels(params.maxBoost));
+    plan.flattening = flatteningOf(*plan.profile, params.maxBoost);
     if (plan.flattening)
         plan.adaptations.push_back(
             {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +

@@ -1,6 +1,6 @@
 #pragma once
 
-// A curve read over frames, one straight piece after the other.
+// Piecewise-linear curve reader: a curve over frames, one straight piece after the other.
 
 #include <pacini/clip/Curve.h>
 

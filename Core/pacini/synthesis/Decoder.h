@@ -1,6 +1,6 @@
 #pragma once
 
-// Clip -> samples.
+// Clip decoder: Clip -> samples.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
@@ -29,11 +29,11 @@
 namespace pacini
 {
 
-/// Plays one clip. Construction allocates and copies what it needs; process() and reset() are real-time safe, and the
-/// output does not depend on how it is cut into blocks. Sinusoids are summed at an inner rate of 4-8 kHz (they end at
-/// 1-2 kHz), levelled to the envelope, raised to the output rate by a polyphase filter whose delay is taken out, and
-/// the pulses of the transients are added at full rate: an event tops the level of the bands up to its own amplitude,
-/// so its energy is never played twice. Values outside their ranges are clamped as stated.
+/// Clip decoder. Plays one clip. Construction allocates and copies what it needs; process() and reset() are real-time
+/// safe, and the output does not depend on how it is cut into blocks. Sinusoids are summed at an inner rate of 4-8 kHz
+/// (they end at 1-2 kHz), levelled to the envelope, raised to the output rate by a polyphase filter whose delay is
+/// taken out, and the pulses of the transients are added at full rate: an event tops the level of the bands up to its
+/// own amplitude, so its energy is never played twice. Values outside their ranges are clamped as stated.
 class Decoder
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a clip wants to be played.
+// Choice of decoder parameters: how a clip wants to be played.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/DecoderParams.h>
@@ -10,7 +10,7 @@
 namespace pacini
 {
 
-/// What a user fixes; the rest follows from the method that made the clip.
+/// Overrides of decoder parameters: what a user fixes; the rest follows from the method that made the clip.
 struct DecoderChoice
 {
     std::optional<CarrierMode> carriers;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a clip is decoded.
+// Parameters of the clip decoder.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/TransientPulse.h>
@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// Where a band's sinusoid stands.
+/// Carrier frequency mode: where a band's sinusoid stands.
 enum class CarrierMode
 {
     fixed,    ///< at the band's centre frequency
@@ -22,7 +22,8 @@ enum class CarrierMode
     none,     ///< no sinusoids: the sum of the amplitudes itself, for motors
 };
 
-/// Values outside their ranges are clamped to the nearest end, those that are not finite to the default.
+/// Parameters of the decoder. Values outside their ranges are clamped to the nearest end, those that are not finite to
+/// the default.
 struct DecoderParams
 {
     double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a clip at any other rate has no frames
@@ -40,7 +41,7 @@ struct DecoderParams
     bool operator==(const DecoderParams&) const = default;
 };
 
-/// From `time` on a clip plays at another pitch and speed.
+/// Change of pitch and speed: from `time` on a clip plays at another pitch and speed.
 struct DecoderChange
 {
     double time = 0.0;          ///< s of the output

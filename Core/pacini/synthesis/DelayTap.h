@@ -1,6 +1,6 @@
 #pragma once
 
-// Fractional delays of one signal.
+// Fractional delay line with moving delays of one signal.
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,9 @@
 namespace pacini
 {
 
-/// Remembers a signal and reads it back with delays that may change from sample to sample: between samples by the cubic
-/// through four of them (Lagrange), flat within 0.1 dB up to an eighth of the rate. Haptic signals end far below.
+/// Fractional delay line. Remembers a signal and reads it back with delays that may change from sample to sample:
+/// between samples by the cubic through four of them (Lagrange), flat within 0.1 dB up to an eighth of the rate. Haptic
+/// signals end far below.
 class DelayTap
 {
 public:

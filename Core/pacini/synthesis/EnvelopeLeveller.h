@@ -1,6 +1,6 @@
 #pragma once
 
-// Makes a sum of sinusoids follow the envelope that it should have.
+// Envelope correction: makes a sum of sinusoids follow the envelope that it should have.
 
 #include <algorithm>
 #include <array>
@@ -46,10 +46,10 @@ private:
     std::vector<double> buffer;
 };
 
-/// Sinusoids that stand for bands beat against each other, which the source did not. The leveller measures the
-/// magnitude of their analytic sum over a 10 ms window (a triangle, two moving averages) and scales it to the wanted
-/// envelope, twice, since the first gain moves the magnitude within the window too. Beats slower than about 50 Hz
-/// vanish; faster ones, which carry roughness, stay. Works in hops of a fixed length; output is delayed by
+/// Envelope correction. Sinusoids that stand for bands beat against each other, which the source did not. The leveller
+/// measures the magnitude of their analytic sum over a 10 ms window (a triangle, two moving averages) and scales it to
+/// the wanted envelope, twice, since the first gain moves the magnitude within the window too. Beats slower than about
+/// 50 Hz vanish; faster ones, which carry roughness, stay. Works in hops of a fixed length; output is delayed by
 /// latencyFrames().
 class EnvelopeLeveller
 {

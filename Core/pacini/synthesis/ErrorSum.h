@@ -1,6 +1,6 @@
 #pragma once
 
-// What leaving several things out costs together.
+// Error accumulation: what leaving several things out costs together.
 
 #include <algorithm>
 #include <cmath>

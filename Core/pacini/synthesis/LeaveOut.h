@@ -1,6 +1,6 @@
 #pragma once
 
-// What a plan can do without.
+// Culling: finds the plays and bands that a plan can do without.
 
 #include <pacini/actuator/EqualizerPruning.h>
 #include <pacini/foundation/Result.h>
@@ -21,7 +21,7 @@
 namespace pacini::detail
 {
 
-/// A whole play or one band of it, and what leaving it out costs at most.
+/// Candidate for culling: a whole play or one band of it, and what leaving it out costs at most.
 struct Dispensable
 {
     double energy;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What leaving something out costs behind the limiter of an actuator.
+// Error bound behind a limiter: what leaving something out costs there.
 
 #include <pacini/actuator/LimiterGain.h>
 #include <pacini/actuator/Profile.h>
@@ -259,7 +259,7 @@ private:
     double level = 0.0;
 };
 
-/// How much a limiter can take of a scene, and what it makes of errors.
+/// Limiter behaviour of a scene: how much a limiter can take of a scene, and what it makes of errors.
 ///
 /// Let x be a scene, y = x - e what is left of it, L the level that a limiter answers: the largest |x| of late, held
 /// and let go (KneeLimiterGain). L is a maximum, so that L(x) and L(y) differ by no more than |e| where x or y is

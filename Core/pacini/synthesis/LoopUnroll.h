@@ -1,6 +1,6 @@
 #pragma once
 
-// A loop as one long clip.
+// Loop unrolling: a loop as one long clip.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/Variation.h>

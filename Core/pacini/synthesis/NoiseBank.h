@@ -1,6 +1,6 @@
 #pragma once
 
-// The residual noise of a clip as an analytic signal, at the decoder's inner rate.
+// Noise synthesis: the residual noise of a clip as an analytic signal, at the decoder's inner rate.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/foundation/Random.h>
@@ -27,10 +27,10 @@ struct NoiseCarrier
     double halfWidth = 0.01; ///< cycles per frame, where the level has fallen by 3 dB
 };
 
-/// Sums bands of Gaussian-like noise: complex white noise through two equal one-pole low-passes, turned up to the
-/// band's centre. Chosen over filtering real noise because it needs no design of band-passes that stay stable as they
-/// get narrow, and its level follows in closed form: white noise of variance s^2 leaves the cascade of two poles p with
-/// s^2 (1 + p^2) / (1 - p^2)^3. The same seed gives the same noise, however it is cut into calls.
+/// Noise generator bank. Sums bands of Gaussian-like noise: complex white noise through two equal one-pole low-passes,
+/// turned up to the band's centre. Chosen over filtering real noise because it needs no design of band-passes that stay
+/// stable as they get narrow, and its level follows in closed form: white noise of variance s^2 leaves the cascade of
+/// two poles p with s^2 (1 + p^2) / (1 - p^2)^3. The same seed gives the same noise, however it is cut into calls.
 class NoiseBank
 {
 public:

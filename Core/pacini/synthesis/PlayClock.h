@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a clip has got, while its speed and pitch change.
+// Playback position: how far a clip has got, while its speed and pitch change.
 
 #include <algorithm>
 #include <cassert>
@@ -25,9 +25,9 @@ struct ClockPiece
     [[nodiscard]] double frameOf(double clipFrame) const noexcept { return from + (clipFrame - clip) / rate; }
 };
 
-/// Maps frames of the output to frames of the clip: a chain of straight pieces, so that positions are products and not
-/// sums that drift. Changes may be written down in advance and made while playing; both are exact to a fraction of a
-/// frame. Real-time safe after construction.
+/// Time map of a play. Maps frames of the output to frames of the clip: a chain of straight pieces, so that positions
+/// are products and not sums that drift. Changes may be written down in advance and made while playing; both are exact
+/// to a fraction of a frame. Real-time safe after construction.
 class PlayClock
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// How much of a scene's energy its parts carry, read off their curves without rendering.
+// Energy estimates: how much of a scene's energy its parts carry, read off their curves without rendering.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/filters/BiquadCascade.h>

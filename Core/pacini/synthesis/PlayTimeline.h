@@ -1,6 +1,6 @@
 #pragma once
 
-// What happens to one play of a scene over time: levels and delays towards every actuator, changes of pitch and speed.
+// Automation of one play of a scene: levels and delays towards every actuator, changes of pitch and speed.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/synthesis/DecoderParams.h>

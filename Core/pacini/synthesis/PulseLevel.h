@@ -1,6 +1,6 @@
 #pragma once
 
-// How strong the pulse of an event is beside the bands.
+// Pulse level: how strong the pulse of an event is beside the bands.
 
 #include <pacini/clip/Clip.h>
 

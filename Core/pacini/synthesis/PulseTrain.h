@@ -1,6 +1,6 @@
 #pragma once
 
-// The events of a clip, played one after another.
+// Pulse synthesis: the events of a clip, played one after another.
 
 #include <pacini/synthesis/TransientPulse.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a scene needs, and what it can do without.
+// Render plan: what a scene needs, and what it can do without.
 
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
@@ -26,7 +26,7 @@ struct PlannedPlay
     PlayTimeline timeline;
 };
 
-/// Something that is not played.
+/// Report of culling: something that is not played.
 struct LeftOut
 {
     std::string where;  ///< such as `plays[3]` or `plays[3].bands[2]`
@@ -35,7 +35,7 @@ struct LeftOut
     bool operator==(const LeftOut&) const = default;
 };
 
-/// What was changed to fit the actuator.
+/// Report of the adaptation: what was changed to fit the actuator.
 struct Adaptation
 {
     std::string where; ///< such as `clips[2]`
@@ -43,6 +43,7 @@ struct Adaptation
     bool operator==(const Adaptation&) const = default;
 };
 
+/// Everything that players need to play a scene on its actuators.
 struct RenderPlan
 {
     double duration = 0.0; ///< s

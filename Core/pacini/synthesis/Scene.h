@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// How a play is placed between actuators, which stand in a row from pan 0 to pan 1.
+/// Pan law: how a play is placed between actuators, which stand in a row from pan 0 to pan 1.
 enum class PanLaw
 {
     constantPower, ///< by level between the two nearest actuators; the power stays
@@ -40,6 +40,7 @@ struct ScenePlay
     bool operator==(const ScenePlay&) const = default;
 };
 
+/// Parameter of a play that can change over time.
 enum class SceneParameter
 {
     gain,          ///< dB
@@ -48,8 +49,8 @@ enum class SceneParameter
     stretch
 };
 
-/// A parameter of a play that changes while it plays. Gain and pan glide in a straight line of level; transposition and
-/// stretch step.
+/// Automation event: a parameter of a play that changes while it plays. Gain and pan glide in a straight line of level;
+/// transposition and stretch step.
 struct SceneChange
 {
     double time = 0.0;    ///< s of the scene
@@ -60,6 +61,7 @@ struct SceneChange
     bool operator==(const SceneChange&) const = default;
 };
 
+/// Clips, their plays and what changes over time.
 struct Scene
 {
     std::string name;

@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip of many bands as one voice: one amplitude, one frequency, events.
+// Reduction to one voice: a clip of many bands as one amplitude, one frequency, events.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/PulseLevel.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The short waveform that stands for an event.
+// Transient pulse: the short waveform that stands for an event.
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 namespace pacini
 {
 
+/// Waveform of a pulse.
 enum class PulseShape
 {
     square,  ///< +1 in the first half of each period, -1 in the second (Weber 2020: one cycle at the actuator's
@@ -20,6 +21,7 @@ enum class PulseShape
     adaptive ///< smooth pulses that are over before the next event comes, whatever the event rate
 };
 
+/// Parameters of a pulse.
 struct PulseParams
 {
     PulseShape shape = PulseShape::adaptive;

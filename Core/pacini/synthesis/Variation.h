@@ -1,6 +1,6 @@
 #pragma once
 
-// Ad hoc variation: the same clip, never quite the same.
+// Random variation: the same clip, never quite the same.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Random.h>
@@ -11,12 +11,14 @@
 namespace pacini
 {
 
+/// What is varied together.
 enum class VariationScope
 {
     breakpoint, ///< every breakpoint of a band's amplitude gets its own factor
     band        ///< one factor for a whole band: like striking an object at another place
 };
 
+/// Amount and seed of random variation.
 struct VariationParams
 {
     double amount = 0.0; ///< 0 (none) to 1

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which plays sound at a time on an actuator of few voices.
+// Voice allocation: which plays sound at a time on an actuator of few voices.
 
 #include <pacini/clip/Curve.h>
 
@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// What a play wants of an actuator.
+/// Request for voices: what a play wants of an actuator.
 struct VoiceClaim
 {
     double from = 0.0, to = 0.0; ///< s

@@ -1,6 +1,6 @@
 #pragma once
 
-// Many bands on few voices.
+// Voice reduction: many bands on few voices.
 
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/Clip.h>

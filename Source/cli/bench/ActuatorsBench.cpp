@@ -32,8 +32,8 @@ std::vector<std::pair<std::string, CompileParams>> ways()
 {
     CompileParams asItIs, unflattened, adapted, strong;
     asItIs.adapt = false;
-    unflattened.adaptation.maxBoost = 0.0;
-    strong.adaptation.maxBoost = 12.0;
+    unflattened.adaptation.maxBoost = 0_dB;
+    strong.adaptation.maxBoost = 12_dB;
     return {{"as it is", asItIs}, {"not flattened", unflattened}, {"adapted", adapted}, {"boost 12 dB", strong}};
 }
 

@@ -233,7 +233,7 @@ void measureAnalysis(const BenchSound& sound, const BenchSettings& settings, Ben
         {
             BandAnalysisParams params;
             params.bands = tiledBands(bandCount, lowFrequency, highFrequency, BandSpacing::logarithmic);
-            params.bandWindow = window;
+            params.bandWindow = Seconds(window);
             BandAnalysis analysis(params);
             add(fmt::format("blocks, {:g} ms", 1000.0 * window),
                 [&] { return byBlocks(decimated(mono, decimator), analysis); });

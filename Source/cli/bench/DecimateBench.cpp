@@ -81,10 +81,10 @@ void measureDecimate(const BenchSound& sound, const BenchSettings& settings, Ben
             });
     };
     addDecimator("decimator, 60 dB", {});
-    addDecimator("decimator, 40 dB", {.attenuation = 40.0});
-    addDecimator("decimator, 80 dB", {.attenuation = 80.0});
-    addDecimator("decimator, 100 dB", {.attenuation = 100.0});
-    addDecimator("decimator, 60 dB from 2300 Hz", {.stopFrequency = 2300.0});
+    addDecimator("decimator, 40 dB", {.attenuation = 40_dB});
+    addDecimator("decimator, 80 dB", {.attenuation = 80_dB});
+    addDecimator("decimator, 100 dB", {.attenuation = 100_dB});
+    addDecimator("decimator, 60 dB from 2300 Hz", {.stopFrequency = 2300_Hz});
     const auto addResampler = [&]<typename Sample>(const std::string& variant, Sample)
     {
         const Resampler<Sample> resampler(sound.sampleRate, analysisRate);

@@ -84,7 +84,7 @@ struct ShownFilter
 
 ShownFilter outputFilter(const Profile& profile, const std::vector<double>& frequencies)
 {
-    const auto flattening = flatteningOf(profile, Decibels(AdaptationParams{}.maxBoost));
+    const auto flattening = flatteningOf(profile, AdaptationParams{}.maxBoost);
     const auto filter = designOutputFilter({profile.equalizer, flattening}, sampleRate);
     ShownFilter shown;
     for (const double f : frequencies)

@@ -157,7 +157,7 @@ SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, do
     AdaptationParams onlyFrequencies;
     onlyFrequencies.voices = false;
     onlyFrequencies.dynamicRange = false;
-    onlyFrequencies.maxBoost = 0.0;
+    onlyFrequencies.maxBoost = 0_dB;
     SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
     if (voice.frequency.empty())
         voice.frequency = {{0.0, otherwise}};

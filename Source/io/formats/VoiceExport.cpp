@@ -157,10 +157,10 @@ void fewFrequencies(ExportVoice& result, const Curve& frequency, const Curve& am
 ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
-    SingleVoice voice =
-        params.profile
-            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0.0, {}}).clip, range.low, range.high)
-            : singleVoiceOf(clip, range.low, range.high);
+    SingleVoice voice = params.profile
+                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip,
+                                            range.low, range.high)
+                            : singleVoiceOf(clip, range.low, range.high);
     ExportVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);

@@ -181,15 +181,6 @@ TEST_CASE("Points move together, stop together at the clip's ends and may pass o
     CHECK(passed.selection == Indices{2});
 }
 
-TEST_CASE("A drawn stroke replaces what it passes over, and going back overwrites")
-{
-    const Curve curve = {{0.0, 1.0}, {0.3, 1.0}, {0.6, 1.0}, {1.0, 1.0}};
-    const Curve stroke = {{0.2, 0.1}, {0.5, 0.2}, {0.7, 0.3}, {0.4, 0.9}};
-    const auto drawn = drawPoints(curve, stroke, {1.0, {0.0, 1.0}});
-    CHECK(drawn.curve == Curve{{0.0, 1.0}, {0.2, 0.1}, {0.4, 0.9}, {0.7, 0.3}, {1.0, 1.0}});
-    CHECK(drawn.selection == Indices{1, 2, 3});
-}
-
 TEST_CASE("Thinning keeps the strongest events and leaves no two closer than the gap")
 {
     for (std::uint64_t seed = 1; seed <= 50; ++seed)

@@ -23,8 +23,8 @@
 namespace pacini
 {
 
-/// A low frequency is clamped to 1 Hz to 0.2 of the sample rate, a high one from there to 0.45 of it, both at least an
-/// octave apart; centroids may lie above that.
+/// Parameters of "centroid-flatness". A low frequency is clamped to 1 Hz to 0.2 of the sample rate, a high one from
+/// there to 0.45 of it, both at least an octave apart; centroids may lie above that.
 struct CentroidFlatnessParams
 {
     BandLimitParams range{Hertz(5.0), Hertz(std::numeric_limits<double>::infinity())};

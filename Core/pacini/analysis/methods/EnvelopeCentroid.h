@@ -15,7 +15,8 @@
 namespace pacini
 {
 
-/// `lowest` is clamped to 1 Hz and above, `highest` to 0.45 of the sample rate and below, and to no less than `lowest`.
+/// Parameters of "envelope-centroid". `lowest` is clamped to 1 Hz and above, `highest` to 0.45 of the sample rate and
+/// below, and to no less than `lowest`.
 struct EnvelopeCentroidParams
 {
     BandLimitParams range;

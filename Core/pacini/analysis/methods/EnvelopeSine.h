@@ -13,6 +13,7 @@
 namespace pacini
 {
 
+/// Parameters of "envelope-sine".
 struct EnvelopeSineParams
 {
     BandLimitParams range;

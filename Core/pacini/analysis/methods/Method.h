@@ -22,6 +22,7 @@
 namespace pacini
 {
 
+/// Translation method.
 enum class Method
 {
     a2vt,
@@ -34,12 +35,14 @@ enum class Method
     pitchShift,
 };
 
+/// What a translation method makes: clips or samples.
 enum class MethodOutput
 {
     clip,   ///< few breakpoints, to be decoded
     signal, ///< a drive signal as it is
 };
 
+/// Name and description of a translation method.
 struct MethodInfo
 {
     Method method;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What all clips that translation methods make have in common.
+// Clip building that all translation methods share.
 
 #include <pacini/analysis/methods/MethodCurves.h>
 #include <pacini/analysis/methods/MethodSound.h>

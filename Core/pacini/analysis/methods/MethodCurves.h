@@ -1,6 +1,6 @@
 #pragma once
 
-// How the translation methods get from a sound to the curves of a clip: dense tracks, then few breakpoints.
+// Curve building that the translation methods share: dense tracks, then few breakpoints.
 
 #include <pacini/analysis/EnvelopeFollower.h>
 #include <pacini/analysis/PowerSpectra.h>
@@ -21,6 +21,7 @@
 namespace pacini
 {
 
+/// Parameters of the curves of translation methods.
 struct MethodCurveParams
 {
     EnvelopeFollowerParams follower{

@@ -1,6 +1,6 @@
 #pragma once
 
-// A sound made ready for a translation method.
+// Preprocessing that the translation methods share: a sound limited to a range and normalised.
 
 #include <pacini/analysis/ActiveTime.h>
 #include <pacini/analysis/BandLimit.h>
@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// A sound after preprocessing.
 struct MethodSound
 {
     std::vector<float> samples; ///< within the method's range, the largest magnitude is 1; silence stays silence
@@ -36,8 +37,8 @@ struct MethodSound
     static constexpr std::size_t longestPart = 2048; ///< samples
 };
 
-/// What the thesis does before its analysis (Weber 2020, section 4.3): limits the sound to a range and normalises it.
-/// `mono` may have any length, fs is 8000 to 768000 Hz; NaN and infinities count as 0.
+/// Preprocessing as in the thesis (Weber 2020, section 4.3): limits the sound to a range and normalises it. `mono` may
+/// have any length, fs is 8000 to 768000 Hz; NaN and infinities count as 0.
 [[nodiscard]] inline MethodSound prepareSound(std::span<const float> mono, double fs, const BandLimitParams& range)
 {
     MethodSound sound;

@@ -22,6 +22,7 @@
 namespace pacini
 {
 
+/// Parameters of "pitch-shift".
 struct PitchShiftParams
 {
     double semitones = -24.0; ///< clamped to -60 to 24

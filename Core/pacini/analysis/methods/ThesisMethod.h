@@ -22,6 +22,7 @@
 namespace pacini
 {
 
+/// Parameters of "thesis".
 struct ThesisMethodParams
 {
     BandLimitParams range;

@@ -20,6 +20,7 @@
 namespace pacini
 {
 
+/// Parameters of "vocoder16".
 struct ThirdOctaveVocoderParams
 {
     BandLimitParams range{Hertz(5.0), Hertz(std::numeric_limits<double>::infinity())};

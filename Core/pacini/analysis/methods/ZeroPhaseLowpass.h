@@ -16,6 +16,7 @@
 namespace pacini
 {
 
+/// Parameters of "lowpass".
 struct ZeroPhaseLowpassParams
 {
     Hertz frequency{1000.0}; ///< -6 dB, clamped to 1 Hz to 0.4999 of the sample rate

@@ -14,7 +14,7 @@
 namespace pacini
 {
 
-/// What was copied: times count from the start of the copied range.
+/// Clipboard contents. What was copied: times count from the start of the copied range.
 struct Fragment
 {
     struct LanePart

@@ -1,6 +1,6 @@
 #pragma once
 
-// Parts of curves: what edits of a stretch of time are made of.
+// Sections of curves: what edits of a stretch of time are made of.
 
 #include <pacini/clip/Curve.h>
 #include <pacini/clip/edits/Lane.h>

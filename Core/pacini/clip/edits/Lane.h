@@ -11,6 +11,7 @@
 namespace pacini
 {
 
+/// Kind of lane.
 enum class LaneKind
 {
     envelope,

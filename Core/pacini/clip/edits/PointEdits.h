@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -126,87 +125,6 @@ struct PointMove
         moved[i] = detail::limitedPoint(
             {curve[i].time + shift, curve[i].value * std::max(0.0, move.factor) + move.offset}, limits);
     return detail::inOrder(std::move(moved), chosen);
-}
-
-/// Distances from a pivot are multiplied; factors below 0 mirror.
-struct PointScale
-{
-    double pivotTime = 0.0; ///< s
-    double timeFactor = 1.0;
-    double pivotValue = 0.0;
-    double valueFactor = 1.0;
-};
-
-/// Scales points about a pivot; times and values are clamped one by one.
-[[nodiscard]] inline EditedCurve scalePoints(const Curve& curve, const Indices& selection, const PointScale& scale,
-                                             const CurveLimits& limits)
-{
-    const Indices chosen = detail::existing(selection, curve.size());
-    if (!std::isfinite(scale.pivotTime) || !std::isfinite(scale.timeFactor) || !std::isfinite(scale.pivotValue) ||
-        !std::isfinite(scale.valueFactor))
-        return {curve, chosen};
-    Curve scaled = curve;
-    for (std::size_t i : chosen)
-    {
-        const Breakpoint& p = curve[i];
-        const double time =
-            scale.timeFactor == 1.0 ? p.time : scale.pivotTime + scale.timeFactor * (p.time - scale.pivotTime);
-        const double value =
-            scale.valueFactor == 1.0 ? p.value : scale.pivotValue + scale.valueFactor * (p.value - scale.pivotValue);
-        scaled[i] = detail::limitedPoint({time, value}, limits);
-    }
-    return detail::inOrder(std::move(scaled), chosen);
-}
-
-/// Bows points: a parabola of `depth` (value units, either sign) in the middle and 0 at the ends of the selection's
-/// time is added. Times stay.
-[[nodiscard]] inline EditedCurve bendPoints(const Curve& curve, const Indices& selection, double depth,
-                                            const CurveLimits& limits)
-{
-    const Indices chosen = detail::existing(selection, curve.size());
-    if (chosen.empty() || !std::isfinite(depth))
-        return {curve, chosen};
-    const double start = curve[chosen.front()].time;
-    const double length = curve[chosen.back()].time - start;
-    EditedCurve result{curve, chosen};
-    for (std::size_t i : chosen)
-    {
-        const double x = length > 0.0 ? (curve[i].time - start) / length : 0.5;
-        result.curve[i].value = detail::limitedPoint({0.0, curve[i].value + depth * 4.0 * x * (1.0 - x)}, limits).value;
-    }
-    return result;
-}
-
-/// Draws by hand: what lies between the earliest and the latest point of `stroke` is replaced by it. The stroke is in
-/// the order in which it was drawn; where it goes back in time, the later part counts. Points that are not finite are
-/// left out.
-[[nodiscard]] inline EditedCurve drawPoints(const Curve& curve, std::span<const Breakpoint> stroke,
-                                            const CurveLimits& limits)
-{
-    Curve kept;
-    double earliest = 0.0;
-    double latest = 0.0;
-    for (std::size_t i = stroke.size(); i-- > 0;)
-    {
-        if (!std::isfinite(stroke[i].time) || !std::isfinite(stroke[i].value))
-            continue;
-        const Breakpoint p = detail::limitedPoint(stroke[i], limits);
-        if (!kept.empty() && p.time >= earliest && p.time <= latest)
-            continue;
-        earliest = kept.empty() ? p.time : std::min(earliest, p.time);
-        latest = kept.empty() ? p.time : std::max(latest, p.time);
-        kept.push_back(p);
-    }
-    if (kept.empty())
-        return {curve, {}};
-    std::sort(kept.begin(), kept.end(), [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
-    EditedCurve result{replaceSection(curve, {earliest, latest}, kept), {}};
-    const auto first = std::lower_bound(result.curve.begin(), result.curve.end(), earliest,
-                                        [](const Breakpoint& p, double t) { return p.time < t; });
-    const auto start = static_cast<std::size_t>(first - result.curve.begin());
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        result.selection.push_back(start + i);
-    return result;
 }
 
 } // namespace pacini

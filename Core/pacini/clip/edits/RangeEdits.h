@@ -89,12 +89,14 @@ void sortByTime(Events& events)
     return clip;
 }
 
+/// Whether a fade begins or ends with silence.
 enum class FadeDirection
 {
     in, ///< from silence
     out ///< to silence
 };
 
+/// Shape of a fade's gain over time.
 enum class FadeShape
 {
     linear, ///< of amplitude

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is selected in a clip.
+// Selection of points and transients in a clip.
 
 #include <pacini/clip/edits/Lane.h>
 
@@ -16,6 +16,7 @@ namespace pacini
 /// Ascending indices into the points of a curve or the transients of a clip.
 using Indices = std::vector<std::size_t>;
 
+/// Selected points of one lane.
 struct LaneSelection
 {
     Lane lane;
@@ -23,6 +24,7 @@ struct LaneSelection
     bool operator==(const LaneSelection&) const = default;
 };
 
+/// Selected points of all lanes, and selected transients.
 struct Selection
 {
     std::vector<LaneSelection> lanes;
@@ -64,7 +66,7 @@ struct Selection
     return all;
 }
 
-/// What is in one of the two (shift-marquee adds).
+/// Set union: what is in one of the two (shift-marquee adds).
 [[nodiscard]] inline Indices unionOf(const Indices& a, const Indices& b)
 {
     Indices both;
@@ -72,7 +74,7 @@ struct Selection
     return both;
 }
 
-/// What is in exactly one of the two (control-click toggles).
+/// Symmetric difference: what is in exactly one of the two (control-click toggles).
 [[nodiscard]] inline Indices toggled(const Indices& a, const Indices& b)
 {
     Indices either;

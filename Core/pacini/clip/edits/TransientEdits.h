@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -45,35 +44,6 @@ namespace detail
         if (!std::binary_search(selection.begin(), selection.end(), i))
             kept.push_back(clip.transients[i]);
     clip.transients = std::move(kept);
-    return clip;
-}
-
-/// How transients change together.
-struct TransientMove
-{
-    double time = 0.0;      ///< s; limited as a whole, so that a group keeps its rhythm at the clip's ends
-    double factor = 1.0;    ///< of the amplitude, 0 and above
-    double sharpness = 0.0; ///< added
-};
-
-/// Moves transients. They may pass others.
-[[nodiscard]] inline Clip moveTransients(Clip clip, const Indices& selection, const TransientMove& move)
-{
-    const auto end = std::lower_bound(selection.begin(), selection.end(), clip.transients.size());
-    if (end == selection.begin() || !std::isfinite(move.time) || !std::isfinite(move.factor) ||
-        !std::isfinite(move.sharpness))
-        return clip;
-    const double earliest = clip.transients[selection.front()].time;
-    const double latest = clip.transients[*std::prev(end)].time;
-    const double shift = clampTo(move.time, -earliest, std::max(0.0, clip.duration - latest));
-    for (auto i = selection.begin(); i != end; ++i)
-    {
-        Transient& event = clip.transients[*i];
-        event = detail::limitedTransient(
-            {event.time + shift, event.amplitude * std::max(0.0, move.factor), event.sharpness + move.sharpness},
-            clip.duration);
-    }
-    detail::sortByTime(clip.transients);
     return clip;
 }
 
