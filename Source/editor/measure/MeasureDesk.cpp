@@ -11,11 +11,12 @@
 namespace pacini::editor
 {
 
-MeasureDesk::MeasureDesk(Session& shared, Surroundings wanted) : session(shared), around(std::move(wanted))
+MeasureDesk::MeasureDesk(Actuators& profiles, Transport& playing, Surroundings wanted)
+    : actuators(profiles), transport(playing), around(std::move(wanted))
 {
-    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+    for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
     {
-        const Profile& profile = *session.profiles()[i].profile;
+        const Profile& profile = *actuators.profiles()[i].profile;
         if (profile.body && profile.technology != Technology::erm)
             simulated.push_back(i);
     }
@@ -81,7 +82,7 @@ std::vector<std::string> MeasureDesk::rigNames() const
     if (around.device)
         names.push_back("Sound device");
     for (const std::size_t i : simulated)
-        names.push_back("Simulated: " + session.profiles()[i].profile->name);
+        names.push_back("Simulated: " + actuators.profiles()[i].profile->name);
     if (names.empty())
         names.push_back("Simulated wristband");
     return names;
@@ -97,7 +98,7 @@ void MeasureDesk::chooseRig(std::size_t index)
     {
         number -= around.device ? 1u : 0u;
         wanted = std::make_shared<SimulatedMeasureRig>(
-            number < simulated.size() ? SimulatedMeasureRig::paramsOf(*session.profiles()[simulated[number]].profile)
+            number < simulated.size() ? SimulatedMeasureRig::paramsOf(*actuators.profiles()[simulated[number]].profile)
                                       : RigParams(),
             around.simulatedSpeed);
     }
@@ -170,15 +171,15 @@ void MeasureDesk::setSettings(const MeasureSettings& settings)
 std::vector<std::string> MeasureDesk::profileNames() const
 {
     std::vector<std::string> names;
-    for (const NamedProfile& entry : session.profiles())
+    for (const NamedProfile& entry : actuators.profiles())
         names.push_back(entry.profile->name);
     return names;
 }
 
 void MeasureDesk::setBase(std::optional<std::size_t> profile)
 {
-    baseNow = profile && *profile < session.profiles().size() ? profile : std::nullopt;
-    work.setBase(baseNow ? session.profiles()[*baseNow].profile : nullptr);
+    baseNow = profile && *profile < actuators.profiles().size() ? profile : std::nullopt;
+    work.setBase(baseNow ? actuators.profiles()[*baseNow].profile : nullptr);
     changed();
 }
 
@@ -233,7 +234,7 @@ void MeasureDesk::sweep()
     connect();
     if (auto reason = obstacle(); !reason.empty())
         return fail(false, std::move(reason));
-    session.stop();
+    transport.stop();
     setTone(false);
     playedSweep = sweepOf(work.settings(), portsNow.sampleRate);
     playedGain = 0.0;
@@ -256,7 +257,7 @@ void MeasureDesk::verify()
     connect();
     if (auto reason = obstacle(); !reason.empty())
         return fail(true, std::move(reason));
-    session.stop();
+    transport.stop();
     setTone(false);
     auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, portsNow.sampleRate, true);
     if (!made)

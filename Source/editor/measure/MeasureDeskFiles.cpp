@@ -103,7 +103,7 @@ Result<void> MeasureDesk::save(const std::string& name, const std::filesystem::p
         return Error{ErrorCode::invalidArgument, "", "The file needs a name that ends with .json."};
     const std::u8string stem = file.stem().u8string();
     const std::string shortName(stem.begin(), stem.end());
-    for (const NamedProfile& entry : session.profiles())
+    for (const NamedProfile& entry : actuators.profiles())
         if (entry.name == shortName && !entry.own)
             return Error{ErrorCode::invalidArgument, "",
                          "An actuator that comes with Pacini is called " + shortName + "; choose another file name."};
@@ -112,7 +112,7 @@ Result<void> MeasureDesk::save(const std::string& name, const std::filesystem::p
     std::filesystem::create_directories(file.parent_path(), ignored);
     if (const auto written = writeProfile(file, profile); !written)
         return written.error();
-    session.addProfile({shortName, std::make_shared<const Profile>(profile), true}, use);
+    actuators.addProfile({shortName, std::make_shared<const Profile>(profile), true}, use);
     work.setSaved(std::string(reinterpret_cast<const char*>(file.u8string().c_str())));
     changed();
     return {};

@@ -31,24 +31,25 @@ juce::String share(std::span<const Loss> losses, Loss wanted, const char* name)
 }
 } // namespace
 
-ActuatorRow::ActuatorRow(Session& shared) : session(shared)
+ActuatorRow::ActuatorRow(const EditorModel& project, const Actuators& profiles, const ViewState& sight)
+    : model(project), actuators(profiles), viewState(sight)
 {
     setOpaque(true);
     setTitle("What the actuator plays");
-    session.listeners.add(this);
+    subscriptions.on({&model.contentChanged, &actuators.changed, &viewState.lookChanged}, [this] { update(); });
+    subscriptions.on({&viewState.axisChanged}, [this] { repaint(getLocalBounds().withTrimmedLeft(laneHeadWidth)); });
     update();
 }
 
 ActuatorRow::~ActuatorRow()
 {
-    session.listeners.remove(this);
     if (cancelled)
         cancelled->store(true);
 }
 
 int ActuatorRow::wantedHeight() const
 {
-    return session.profile() ? driveHeight + lossHeight : emptyHeight;
+    return actuators.profile() ? driveHeight + lossHeight : emptyHeight;
 }
 
 juce::Rectangle<int> ActuatorRow::drivePlot() const
@@ -61,19 +62,11 @@ juce::Rectangle<int> ActuatorRow::lossPlot() const
     return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedTop(driveHeight).withTrimmedBottom(1);
 }
 
-void ActuatorRow::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::content | Session::playback | Session::project | Session::look)) != 0)
-        update();
-    if ((changes & Session::view) != 0)
-        repaint(getLocalBounds().withTrimmedLeft(laneHeadWidth));
-}
-
 void ActuatorRow::update()
 {
-    const auto clip = session.clip();
-    const auto profile = session.profile();
-    const bool wanted = clip && profile && session.viewOptions().actuator;
+    const auto clip = model.clip();
+    const auto profile = actuators.profile();
+    const bool wanted = clip && profile && viewState.viewOptions().actuator;
     const bool same = profile ? askedProfile && *profile == *askedProfile : !askedProfile;
     if (clip == askedClip && same && (wanted || !clip || !profile))
         return;
@@ -103,8 +96,8 @@ void ActuatorRow::update()
 void ActuatorRow::timerCallback()
 {
     stopTimer();
-    askedClip = session.clip();
-    const auto profile = session.profile();
+    askedClip = model.clip();
+    const auto profile = actuators.profile();
     if (!askedClip || !profile)
         return;
     askedProfile = *profile;
@@ -156,10 +149,10 @@ std::size_t ActuatorRow::sourceAt(double y) const
 
 juce::String ActuatorRow::textAt(juce::Point<float> place) const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!shown || !clip || place.x < static_cast<float>(laneHeadWidth))
         return getDescription();
-    const double time = session.axis().timeAt(static_cast<double>(place.x) - laneHeadWidth);
+    const double time = viewState.axis().timeAt(static_cast<double>(place.x) - laneHeadWidth);
     const auto step = shown->stepAt(time);
     if (!step)
         return getDescription();

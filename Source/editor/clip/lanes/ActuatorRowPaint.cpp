@@ -64,7 +64,7 @@ void ActuatorRow::paint(juce::Graphics& g)
     g.fillRect(plot);
     if (!shown)
     {
-        const bool chosen = session.profile() != nullptr;
+        const bool chosen = actuators.profile() != nullptr;
         g.setColour(failure.isNotEmpty() && chosen ? p.warning : p.dim);
         g.setFont(smallFont());
         g.drawFittedText(
@@ -87,7 +87,7 @@ void ActuatorRow::paintHead(juce::Graphics& g)
     g.setColour(p.accent);
     g.fillRect(head.removeFromLeft(3));
     head = head.withTrimmedLeft(grid).withTrimmedRight(4);
-    const auto profile = session.profile();
+    const auto profile = actuators.profile();
     auto top = profile ? head.removeFromTop(driveHeight) : head;
     const bool third = profile != nullptr;
     top = top.withSizeKeepingCentre(top.getWidth(), third ? 50 : 19);
@@ -147,7 +147,7 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     const int touch = yOf(shown->touch);
     g.setColour(p.dim.withAlpha(0.12f));
     g.fillRect(plot.withTop(touch));
-    TimeAxis axis = session.axis();
+    TimeAxis axis = viewState.axis();
     axis.start = axis.timeAt(visible.getX() - plot.getX());
     std::vector<Column> peaks(static_cast<std::size_t>(visible.getWidth())), taken(peaks.size());
     shown->drive.columns(axis, peaks);
@@ -186,11 +186,11 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
 
 void ActuatorRow::paintLosses(juce::Graphics& g, juce::Rectangle<int> plot)
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!clip || shown->sources.empty() || plot.isEmpty())
         return;
     const bool dark = darkOf(*this);
-    const TimeAxis& axis = session.axis();
+    const TimeAxis& axis = viewState.axis();
     const bool sized =
         losses.isValid() && losses.getWidth() == plot.getWidth() && losses.getHeight() == plot.getHeight();
     if (!sized || lossStale || axis != lossAxis || dark != lossDark)

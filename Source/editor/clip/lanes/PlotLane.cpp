@@ -21,27 +21,31 @@ constexpr double floorAmplitude = 0.001;                         // -60 dB
 constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
 } // namespace
 
-PlotLane::PlotLane(Session& shared) : session(shared), drawn(shared.clip())
+PlotLane::PlotLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing)
+    : model(project), clipSelection(selected), viewState(sight), transport(playing), drawn(project.clip())
 {
     setOpaque(true);
     setWantsKeyboardFocus(true);
-    session.listeners.add(this);
-}
-
-PlotLane::~PlotLane()
-{
-    session.listeners.remove(this);
-}
-
-bool PlotLane::concerns(unsigned changes) const
-{
-    return (changes & (Session::content | Session::selection | Session::view | Session::range | Session::look)) != 0;
+    subscriptions.on({&model.contentChanged},
+                     [this]
+                     {
+                         if (!repaintChanged())
+                             repaintAll();
+                     });
+    subscriptions.on({&viewState.lookChanged}, [this] { repaintAll(); });
+    subscriptions.on({&viewState.axisChanged, &clipSelection.rangeChanged}, [this] { repaint(plotArea()); });
+    subscriptions.on({&clipSelection.changed},
+                     [this]
+                     {
+                         if (auto now = picked(); now != std::exchange(drawnPicked, now))
+                             repaint(plotArea());
+                     });
 }
 
 bool PlotLane::repaintChanged()
 {
-    const auto before = std::exchange(drawn, session.clip());
-    const Indices pickedBefore = std::exchange(drawnPicked, picked());
+    const auto before = std::exchange(drawn, model.clip());
+    const auto pickedBefore = std::exchange(drawnPicked, picked());
     const auto scaleBefore = scaleNow;
     forgetScale();
     if (!before || !drawn || before->duration != drawn->duration || !scaleBefore || scale() != *scaleBefore ||
@@ -55,7 +59,7 @@ bool PlotLane::repaintChanged()
     const auto plot = plotArea();
     const auto xOf = [&](double time)
     {
-        return juce::roundToInt(std::clamp(session.axis().xOf(time), -100.0, plot.getWidth() + 100.0));
+        return juce::roundToInt(std::clamp(viewState.axis().xOf(time), -100.0, plot.getWidth() + 100.0));
     };
     const int from = xOf(range->from) - edgeOfThings;
     const int to = xOf(range->to) + edgeOfThings;
@@ -65,25 +69,12 @@ bool PlotLane::repaintChanged()
     return true;
 }
 
-void PlotLane::sessionChanged(unsigned changes)
+void PlotLane::repaintAll()
 {
-    follow(changes);
-    const unsigned more = Session::view | Session::range | Session::look;
-    if ((changes & Session::content) != 0 && (changes & more) == 0 && repaintChanged())
-        return;
-    if ((changes & (Session::content | Session::look)) != 0)
-    {
-        forgetScale();
-        drawn = session.clip();
-    }
-    if (!concerns(changes))
-        return;
-    if ((changes & (Session::content | Session::selection)) != 0)
-        drawnPicked = picked();
-    if ((changes & ~(Session::view | Session::range | Session::selection)) == 0)
-        repaint(plotArea());
-    else
-        repaint();
+    forgetScale();
+    drawn = model.clip();
+    drawnPicked = picked();
+    repaint();
 }
 
 ValueAxis PlotLane::amplitudeAxis(bool decibels, double highest, double height)
@@ -117,14 +108,14 @@ const ValueAxis& PlotLane::scale() const
 juce::Point<float> PlotLane::pointOf(Breakpoint p) const
 {
     const auto area = plotArea();
-    return {static_cast<float>(area.getX() + session.axis().xOf(p.time)),
+    return {static_cast<float>(area.getX() + viewState.axis().xOf(p.time)),
             static_cast<float>(area.getY() + scale().yOf(p.value))};
 }
 
 Breakpoint PlotLane::placeAt(juce::Point<float> position) const
 {
     const auto area = plotArea();
-    return {session.axis().timeAt(static_cast<double>(position.x) - area.getX()),
+    return {viewState.axis().timeAt(static_cast<double>(position.x) - area.getX()),
             scale().valueAtY(static_cast<double>(position.y) - area.getY())};
 }
 
@@ -147,10 +138,10 @@ void PlotLane::paint(juce::Graphics& g)
     g.reduceClipRegion(visible);
     g.setColour(p.well);
     g.fillRect(visible);
-    if (const auto& range = session.timeRange())
+    if (const auto& range = clipSelection.timeRange())
     {
-        const auto from = static_cast<float>(plot.getX() + session.axis().xOf(range->from));
-        const auto to = static_cast<float>(plot.getX() + session.axis().xOf(range->to));
+        const auto from = static_cast<float>(plot.getX() + viewState.axis().xOf(range->from));
+        const auto to = static_cast<float>(plot.getX() + viewState.axis().xOf(range->to));
         g.setColour(p.accent.withAlpha(0.10f));
         g.fillRect(juce::Rectangle<float>(from, static_cast<float>(plot.getY()), to - from,
                                           static_cast<float>(plot.getHeight())));
@@ -161,11 +152,11 @@ void PlotLane::paint(juce::Graphics& g)
         g.setColour(p.line.withAlpha(0.6f));
         g.fillRect(plot.getX(), plot.getY() + juce::roundToInt(axis.yOf(lines[1])), plot.getWidth(), 1);
     }
-    if (const auto clip = session.clip())
+    if (const auto clip = model.clip())
     {
         paintPlot(g, plot, visible.getX() - plot.getX(), visible.getRight() - plot.getX());
         // Behind the clip's end there is nothing.
-        const int end = plot.getX() + juce::roundToInt(std::min(1e6, session.axis().xOf(clip->duration)));
+        const int end = plot.getX() + juce::roundToInt(std::min(1e6, viewState.axis().xOf(clip->duration)));
         if (end < plot.getRight())
         {
             g.setColour(p.background);

@@ -23,9 +23,9 @@ void PlotLane::mouseMove(const juce::MouseEvent& event)
 {
     const auto now = plotArea().contains(event.getPosition()) ? thingAt(event.position) : std::nullopt;
     setMouseCursor(!plotArea().contains(event.getPosition()) ? juce::MouseCursor(juce::MouseCursor::NormalCursor)
-                   : now && !session.isDrawing()             ? juce::MouseCursor(juce::MouseCursor::PointingHandCursor)
+                   : now && !viewState.isDrawing()           ? juce::MouseCursor(juce::MouseCursor::PointingHandCursor)
                                                              : cursorAt(event));
-    if (!plotArea().contains(event.getPosition()) || !session.clip())
+    if (!plotArea().contains(event.getPosition()) || !model.clip())
         setTooltip(getDescription());
     else
     {
@@ -50,7 +50,7 @@ void PlotLane::mouseDown(const juce::MouseEvent& event)
 {
     drag = Drag::none;
     grabKeyboardFocus();
-    if (!session.clip() || !plotArea().contains(event.getPosition()))
+    if (!model.clip() || !plotArea().contains(event.getPosition()))
         return;
     if (!event.mods.isPopupMenu() && beginTool(event))
     {
@@ -69,14 +69,14 @@ void PlotLane::mouseDown(const juce::MouseEvent& event)
     const Indices now = picked();
     const bool already = std::binary_search(now.begin(), now.end(), *thing);
     if (more)
-        session.select(pick(session.selected(), toggled(now, {*thing})));
+        clipSelection.select(pick(clipSelection.selected(), toggled(now, {*thing})));
     else if (!already)
-        session.select(pick({}, {*thing}));
+        clipSelection.select(pick({}, {*thing}));
     if (event.mods.isPopupMenu())
         return;
     drag = Drag::things;
-    gesture = session.beginGesture();
-    dragged = session.selected();
+    gesture = model.beginGesture();
+    dragged = clipSelection.selected();
     grabbed = place(*thing);
 }
 
@@ -88,7 +88,7 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
         dragTool(event);
     if (drag != Drag::things || !event.mouseWasDraggedSinceMouseDown() || pacini::isEmpty(dragged))
         return;
-    const auto start = session.gestureStart(gesture);
+    const auto start = model.gestureStart(gesture);
     if (!start)
         return;
     // What was grabbed keeps its distance to the pointer.
@@ -101,14 +101,14 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
     snapping.clip = start.get();
     snapping.moving = &dragged;
     if (!event.mods.isAltDown())
-        target.time = snapTime(session, target.time, snapping);
+        target.time = snapTime(model, viewState, transport, target.time, snapping);
     if (offset.y == 0.0f)
         target.value = grabbed.value;
     if (offset.x == 0.0f)
         target.time = grabbed.time;
     SelectionMove wanted = move(grabbed, target);
     wanted.time = target.time - grabbed.time;
-    if (session.setEdited(moveName(), moveSelected(*start, dragged, wanted), gesture))
+    if (clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), gesture))
         say(juce::String(target.time, 3) + " s, " + valueText(target.value));
 }
 
@@ -123,10 +123,10 @@ void PlotLane::mouseUp(const juce::MouseEvent& event)
 
 void PlotLane::mouseDoubleClick(const juce::MouseEvent& event)
 {
-    const auto clip = session.clip();
-    if (!clip || session.isDrawing() || !plotArea().contains(event.getPosition()) || thingAt(event.position))
+    const auto clip = model.clip();
+    if (!clip || viewState.isDrawing() || !plotArea().contains(event.getPosition()) || thingAt(event.position))
         return;
-    session.setEdited("Add point", added(*clip, placeAt(event.position)));
+    clipSelection.setEdited("Add point", added(*clip, placeAt(event.position)));
 }
 
 // Keys.
@@ -135,13 +135,13 @@ void PlotLane::mouseDoubleClick(const juce::MouseEvent& event)
 bool PlotLane::beginNudge(bool scaling)
 {
     const Indices things = picked();
-    if (!session.clip() || things.empty())
+    if (!model.clip() || things.empty())
         return false;
     const auto now = juce::Time::getMillisecondCounter();
-    if (nudging == 0 || scaling != nudgeScales || now - lastNudge > nudgePause || nudged != session.selected())
+    if (nudging == 0 || scaling != nudgeScales || now - lastNudge > nudgePause || nudged != clipSelection.selected())
     {
-        nudging = session.beginGesture();
-        dragged = session.selected();
+        nudging = model.beginGesture();
+        dragged = clipSelection.selected();
         grabbed = place(things.front());
         nudgedPixels = nudgedSteps = 0.0;
     }
@@ -156,7 +156,7 @@ void PlotLane::scaleByKeys(double pixels, double steps)
         return;
     nudgedPixels += pixels;
     nudgedSteps += steps;
-    const auto start = session.gestureStart(nudging);
+    const auto start = model.gestureStart(nudging);
     const auto range = timeOf(dragged, *start);
     if (!range)
         return;
@@ -164,10 +164,10 @@ void PlotLane::scaleByKeys(double pixels, double steps)
     SelectionScale wanted;
     wanted.pivot = range->from;
     if (length > 0.0)
-        wanted.timeFactor = std::max(0.01, 1.0 + nudgedPixels * session.axis().secondsPerPixel / length);
+        wanted.timeFactor = std::max(0.01, 1.0 + nudgedPixels * viewState.axis().secondsPerPixel / length);
     wanted.spread = std::pow(spreadStep, nudgedSteps);
-    session.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
-    nudged = session.selected();
+    clipSelection.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
+    nudged = clipSelection.selected();
     say(juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0) +
         (steps != 0.0 ? " % of the differences" : " % of the time"));
 }
@@ -178,7 +178,7 @@ void PlotLane::nudge(double pixels, double steps)
         return;
     nudgedPixels += pixels;
     nudgedSteps += steps;
-    const auto start = session.gestureStart(nudging);
+    const auto start = model.gestureStart(nudging);
     const ValueAxis axis = scale();
     Breakpoint to = grabbed;
     // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.
@@ -189,9 +189,9 @@ void PlotLane::nudge(double pixels, double steps)
     else
         to.value += nudgedSteps * (axis.high - axis.low) / 50.0;
     SelectionMove wanted = move(grabbed, to);
-    wanted.time = nudgedPixels * session.axis().secondsPerPixel;
-    session.setEdited(moveName(), moveSelected(*start, dragged, wanted), nudging);
-    nudged = session.selected();
+    wanted.time = nudgedPixels * viewState.axis().secondsPerPixel;
+    clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), nudging);
+    nudged = clipSelection.selected();
     say(valueText(to.value));
 }
 
@@ -203,20 +203,20 @@ void PlotLane::step(int direction)
     std::size_t next = 0;
     if (now.empty())
     {
-        while (next + 1 < count() && place(next).time < session.playhead())
+        while (next + 1 < count() && place(next).time < transport.playhead())
             ++next;
     }
     else if (direction > 0)
         next = std::min(now.back() + 1, count() - 1);
     else
         next = now.front() > 0 ? now.front() - 1 : 0;
-    session.select(pick({}, {next}));
+    clipSelection.select(pick({}, {next}));
     const Breakpoint p = place(next);
-    if (const auto shown = session.axis().visible(session.viewWidth()); p.time < shown.from || p.time > shown.to)
+    if (const auto shown = viewState.axis().visible(viewState.viewWidth()); p.time < shown.from || p.time > shown.to)
     {
-        TimeAxis moved = session.axis();
+        TimeAxis moved = viewState.axis();
         moved.start = p.time - 0.5 * (shown.to - shown.from);
-        session.setAxis(moved);
+        viewState.setAxis(moved);
     }
     say(juce::String(p.time, 3) + " s, " + valueText(p.value));
 }
@@ -248,15 +248,16 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
         nudge(0.0, code == K::upKey ? amount : -amount);
     else if (code == K::returnKey)
     {
-        if (const auto clip = session.clip())
+        if (const auto clip = model.clip())
         {
             // Where the playhead is, on the curve as it is there or in the middle of the scale.
             const ValueAxis axis = scale();
-            session.setEdited("Add point", added(*clip, {session.playhead(), axis.valueAtY(0.5 * axis.height)}));
+            clipSelection.setEdited("Add point",
+                                    added(*clip, {transport.playhead(), axis.valueAtY(0.5 * axis.height)}));
         }
     }
-    else if (code == K::escapeKey && !pacini::isEmpty(session.selected()))
-        session.select({});
+    else if (code == K::escapeKey && !pacini::isEmpty(clipSelection.selected()))
+        clipSelection.select({});
     else
         return false;
     return true;

@@ -23,7 +23,7 @@ juce::String lengthText(double seconds)
 }
 } // namespace
 
-ClipList::ClipList(Session& shared) : session(shared)
+ClipList::ClipList(EditorModel& project) : model(project)
 {
     list.setRowHeight(rowHeight);
     list.setTitle("Clips of the project");
@@ -32,31 +32,24 @@ ClipList::ClipList(Session& shared) : session(shared)
     list.addKeyListener(this);
     list.addMouseListener(this, true); // a ListBox drags in windows of their own
     addAndMakeVisible(list);
-    session.listeners.add(this);
+    subscriptions.on({&model.projectChanged}, [this] { refresh(); });
     refresh();
 }
 
 ClipList::~ClipList()
 {
-    session.listeners.remove(this);
     list.removeKeyListener(this);
     list.removeMouseListener(this);
     list.setModel(nullptr);
 }
 
-void ClipList::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::project | Session::content)) != 0)
-        refresh();
-}
-
 void ClipList::refresh()
 {
     // A heading stays chosen while its clips change.
-    ClipRow chosen{session.activeId(), {}};
+    ClipRow chosen{model.activeId(), {}};
     if (const ClipRow* now = at(list.getSelectedRow()); now != nullptr && now->clip == 0)
         chosen = *now;
-    auto wanted = clipRows(session.document().project());
+    auto wanted = clipRows(model.document().project());
     if (wanted != rowsNow)
     {
         rowsNow = std::move(wanted);
@@ -69,7 +62,7 @@ void ClipList::refresh()
     auto found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
     if (found == rowsNow.end())
     {
-        chosen.clip = session.activeId();
+        chosen.clip = model.activeId();
         found = std::find_if(rowsNow.begin(), rowsNow.end(), isChosen);
     }
     juce::SparseSet<int> shown;
@@ -91,7 +84,7 @@ juce::String ClipList::nameOf(const ClipRow& row) const
 {
     if (row.clip == 0)
         return toText(row.group);
-    const auto item = session.document().clip(row.clip);
+    const auto item = model.document().clip(row.clip);
     if (!item)
         return {};
     return item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name);
@@ -118,7 +111,7 @@ void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
         g.fillRect(area.removeFromBottom(1));
         return;
     }
-    const auto item = session.document().clip(shown->clip);
+    const auto item = model.document().clip(shown->clip);
     if (!item)
         return;
     area.reduce(grid / 2, 0);
@@ -140,7 +133,7 @@ juce::String ClipList::getNameForRow(int row)
         return {};
     if (shown->clip == 0)
         return "Group " + nameOf(*shown);
-    const auto item = session.document().clip(shown->clip);
+    const auto item = model.document().clip(shown->clip);
     return nameOf(*shown) + ", " + (item ? lengthText(item->clip->duration) : juce::String()) +
            (shown->group.empty() ? juce::String() : ", in group " + toText(shown->group));
 }
@@ -156,8 +149,8 @@ juce::String ClipList::getTooltipForRow(int row)
 
 void ClipList::selectedRowsChanged(int row)
 {
-    if (const ClipRow* chosen = at(row); chosen != nullptr && chosen->clip != 0 && chosen->clip != session.activeId())
-        session.show(chosen->clip);
+    if (const ClipRow* chosen = at(row); chosen != nullptr && chosen->clip != 0 && chosen->clip != model.activeId())
+        model.show(chosen->clip);
 }
 
 void ClipList::listBoxItemClicked(int row, const juce::MouseEvent& event)
@@ -188,7 +181,7 @@ juce::PopupMenu ClipList::groupMenuOf(int row)
                          if (self)
                              self->setGroup(row, {});
                      });
-        for (const std::string& group : groupsOf(session.document().project()))
+        for (const std::string& group : groupsOf(model.document().project()))
             menu.addItem(toText(group), true, now == group,
                          [self = Self(this), row, group]
                          {

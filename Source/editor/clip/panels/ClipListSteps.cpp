@@ -37,7 +37,7 @@ void ClipList::rename(int row, const juce::String& name)
     if (shown == nullptr || wanted.empty() || nameOf(*shown) == toText(wanted))
         return;
     const ClipRow was = *shown;
-    session.change(
+    model.change(
         [&was, &wanted](Document& document) -> Result<void>
         {
             if (was.clip != 0)
@@ -56,9 +56,9 @@ void ClipList::remove(int row)
     if (shown == nullptr)
         return;
     const ClipRow was = *shown;
-    if (was.clip != 0 && was.clip == session.activeId())
-        return session.removeClip();
-    session.change(
+    if (was.clip != 0 && was.clip == model.activeId())
+        return model.removeClip();
+    model.change(
         [&was](Document& document) -> Result<void>
         {
             if (was.clip != 0)
@@ -73,9 +73,9 @@ void ClipList::duplicate(int row)
     const ClipRow* shown = at(row);
     if (shown == nullptr || shown->clip == 0)
         return;
-    if (shown->clip != session.activeId())
-        session.show(shown->clip);
-    session.duplicate();
+    if (shown->clip != model.activeId())
+        model.show(shown->clip);
+    model.duplicate();
 }
 
 void ClipList::move(int row, std::size_t above)
@@ -84,13 +84,13 @@ void ClipList::move(int row, std::size_t above)
     if (shown == nullptr || shown->clip == 0)
         return;
     const int id = shown->clip;
-    const Project& project = session.document().project();
+    const Project& project = model.document().project();
     const ClipPlace place = placeAbove(project, rowsNow, above, id);
     const auto item = project.find(id);
     if (item && item->group == place.group && place.index < project.clips.size() &&
         project.clips[place.index]->id == id)
         return;
-    session.change([&](Document& document) { return document.placeClip(id, place.index, place.group, "Move clip"); });
+    model.change([&](Document& document) { return document.placeClip(id, place.index, place.group, "Move clip"); });
 }
 
 void ClipList::setGroup(int row, const std::string& group)
@@ -98,22 +98,22 @@ void ClipList::setGroup(int row, const std::string& group)
     const ClipRow* shown = at(row);
     if (shown == nullptr || shown->clip == 0 || shown->group == group)
         return;
-    const auto& clips = session.document().project().clips;
+    const auto& clips = model.document().project().clips;
     const int id = shown->clip;
     // Its place among all clips stays.
     const auto place = std::find_if(clips.begin(), clips.end(), [id](const auto& item) { return item->id == id; });
-    session.change(
+    model.change(
         [&](Document& document)
         { return document.placeClip(id, static_cast<std::size_t>(place - clips.begin()), group, "Move to group"); });
 }
 
 void ClipList::addGroup(int row)
 {
-    const std::string name = freeGroupName(session.document().project());
+    const std::string name = freeGroupName(model.document().project());
     if (const ClipRow* shown = at(row); shown != nullptr && shown->clip != 0)
         setGroup(row, name);
     else
-        session.change(
+        model.change(
             [&](Document& document) -> Result<void>
             {
                 auto groups = groupsOf(document.project());

@@ -18,8 +18,9 @@
 namespace pacini::editor
 {
 
+class EditorModel;
 class Jobs;
-class Session;
+class ProjectSounds;
 
 /// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a waveform.
 /// The others come into the project without taking the place of what is looked at. What failed is told once, when all
@@ -27,7 +28,10 @@ class Session;
 class Importer
 {
 public:
-    Importer(Session& wanted, Jobs& worker) : session(wanted), jobs(worker) {}
+    Importer(EditorModel& project, ProjectSounds& projectSounds, Jobs& worker)
+        : model(project), sounds(projectSounds), jobs(worker)
+    {
+    }
 
     /// Folders stand for all openableFiles() in them.
     void add(const std::vector<std::filesystem::path>& files);
@@ -48,7 +52,8 @@ private:
     void finish();
     void tellWork();
 
-    Session& session;
+    EditorModel& model;
+    ProjectSounds& sounds;
     Jobs& jobs;
     std::deque<std::filesystem::path> waiting;
     std::shared_ptr<Task> task; ///< of what is being done; null: nothing
