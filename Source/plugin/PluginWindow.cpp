@@ -246,9 +246,9 @@ void PluginWindow::editClip(const Clip& clip)
     editor::Imported captured;
     captured.clip = clip;
     editor::Session& session = processor.clips().session();
-    if (session.isEmpty())
-        session.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
-    session.add(std::move(captured));
+    if (session.model.isEmpty())
+        session.actuators.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
+    session.sounds.add(std::move(captured));
 }
 
 void PluginWindow::refresh()

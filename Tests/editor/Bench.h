@@ -36,10 +36,10 @@ struct EditorBench
     {
         auto imported = editor::importFile(demoSound(name), EncoderParams{});
         REQUIRE(imported.ok());
-        session.add(std::move(imported).value());
+        session.sounds.add(std::move(imported).value());
     }
 
-    [[nodiscard]] Clip clip() const { return *session.clip(); }
+    [[nodiscard]] Clip clip() const { return *session.model.clip(); }
     [[nodiscard]] editor::PlotLane& row(Lane lane)
     {
         auto* found = view.clipView().rowOf(lane);
@@ -137,7 +137,8 @@ inline juce::Point<float> placeOf(const editor::PlotLane& row, const editor::Ses
 {
     const auto plot = row.plotArea();
     const double decibels = p.value > 0.0 ? std::max(-60.0, 20.0 * std::log10(p.value)) : -60.0;
-    return {static_cast<float>(plot.getX() + (p.time - session.axis().start) / session.axis().secondsPerPixel),
+    return {static_cast<float>(plot.getX() +
+                               (p.time - session.viewState.axis().start) / session.viewState.axis().secondsPerPixel),
             static_cast<float>(plot.getY() - plot.getHeight() * decibels / 60.0)};
 }
 

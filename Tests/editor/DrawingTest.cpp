@@ -90,7 +90,7 @@ void addLong(editor::Session& session)
     imported.reference.duration = 600.0;
     imported.reference.sampleRate = 8000.0;
     imported.reference.channels = 1;
-    session.add(std::move(imported));
+    session.sounds.add(std::move(imported));
 }
 } // namespace
 
@@ -169,7 +169,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
     const auto profile = readProfile(sourceFolder() / "profiles/l5-wristband.json");
     REQUIRE(profile.ok());
     EditorBench bench({{"l5-wristband", std::make_shared<const Profile>(*profile)}});
-    bench.session.setProfile("l5-wristband");
+    bench.session.actuators.setProfile("l5-wristband");
     addLong(bench.session);
     auto& view = bench.view.clipView();
     using Clock = std::chrono::steady_clock;
@@ -186,7 +186,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
         view.actuatorRow().show(*trace);
     }
     {
-        const auto sound = bench.session.soundOfClip();
+        const auto sound = bench.session.sounds.soundOfClip();
         const SpectrumRows rows;
         SpectrumAnalyser analyser(sound->mono, static_cast<double>(sound->audio.sampleRate), rows);
         Spectrogram spectrogram(600.0, rows);
@@ -204,9 +204,9 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
                              << " ms for one");
     }
     juce::Image image(juce::Image::RGB, view.getWidth(), view.getHeight(), true);
-    editor::ViewOptions spectral = bench.session.viewOptions();
+    editor::ViewOptions spectral = bench.session.viewState.viewOptions();
     spectral.sound = editor::SoundView::spectrum;
-    bench.session.setViewOptions(spectral);
+    bench.session.viewState.setViewOptions(spectral);
     view.createComponentSnapshot(view.getLocalBounds());
     Waiting waiting;
     REQUIRE(waiting.until([&] { return view.soundRow().isComplete(); }));
@@ -219,20 +219,20 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
     };
     for (const auto shown : {editor::SoundView::waveform, editor::SoundView::spectrum, editor::SoundView::both})
     {
-        editor::ViewOptions options = bench.session.viewOptions();
+        editor::ViewOptions options = bench.session.viewState.viewOptions();
         options.sound = shown;
-        bench.session.setViewOptions(options);
+        bench.session.viewState.setViewOptions(options);
         for (const Way& way : {Way{"scrolling 600 s", 580.0, 1.0, 1.0}, Way{"scrolling 60 s", 60.0, 1.0, 17.0},
                                Way{"scrolling 5 s", 5.0, 1.0, 17.0}, Way{"zooming in from 600 s", 600.0, 1.05, 0.0}})
         {
-            bench.session.showRange({10.0, 10.0 + way.seconds});
+            bench.session.viewState.showRange({10.0, 10.0 + way.seconds});
             std::vector<double> times;
             for (int i = 0; i < 120; ++i)
             {
                 const double start = threadMilliseconds();
-                TimeAxis axis = bench.session.axis();
+                TimeAxis axis = bench.session.viewState.axis();
                 axis.start += way.pixels * axis.secondsPerPixel;
-                bench.session.setAxis(axis.zoomed(way.factor, 400.0));
+                bench.session.viewState.setAxis(axis.zoomed(way.factor, 400.0));
                 {
                     juce::Graphics g(image);
                     view.paintEntireComponent(g, true);
@@ -260,9 +260,9 @@ TEST_CASE("A frame of a ten-minute clip with 50 000 breakpoints is drawn within 
     juce::Image image(juce::Image::RGB, view.getWidth(), view.getHeight(), true);
     for (const double seconds : {600.0, 60.0, 40.0, 20.0, 6.0, 1.0})
     {
-        bench.session.showRange({300.0, 300.0 + seconds});
+        bench.session.viewState.showRange({300.0, 300.0 + seconds});
         if (seconds == 600.0)
-            bench.session.fit();
+            bench.session.viewState.fit();
         double best = 1e9;
         for (int i = 0; i < 20; ++i)
         {

@@ -32,9 +32,9 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     EditorBench bench;
     bench.openDemo("knock_wood_bridge");
     const Clip before = bench.clip();
-    bench.session.showRange({0.0, 0.5 * before.duration});
+    bench.session.viewState.showRange({0.0, 0.5 * before.duration});
     auto& row = bench.row(envelope);
-    const double perPixel = bench.session.axis().secondsPerPixel;
+    const double perPixel = bench.session.viewState.axis().secondsPerPixel;
     const std::size_t i = freePoint(before.envelope, 12.0 * perPixel);
     const auto from = placeOf(row, bench.session, before.envelope[i]);
     const juce::Point<float> offset(8.0f, -10.0f);
@@ -49,22 +49,22 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     CHECK(after.envelope[i].value == Approx(expected.envelope[i].value).epsilon(1e-5));
     expected.envelope[i] = after.envelope[i];
     CHECK(after == expected);
-    CHECK(bench.session.document().undoName() == "Move points");
+    CHECK(bench.session.model.document().undoName() == "Move points");
 
     TempFolder folder;
     ExportChoice choice;
     choice.folder = folder.path();
     choice.file = "edited.json";
-    REQUIRE(exportClips({bench.session.clip()}, choice).ok());
+    REQUIRE(exportClips({bench.session.model.clip()}, choice).ok());
     const auto exported = readClip(folder.path() / "edited.json");
     REQUIRE(exported.ok());
     CHECK(*exported == expected);
 
     // The whole drag is one step.
-    bench.session.undo();
+    bench.session.model.undo();
     CHECK(bench.clip() == before);
-    CHECK(bench.session.document().undoName() != "Move points");
-    bench.session.redo();
+    CHECK(bench.session.model.document().undoName() != "Move points");
+    bench.session.model.redo();
     CHECK(bench.clip() == expected);
 }
 
@@ -78,15 +78,15 @@ TEST_CASE("A double-click adds a point there, Delete removes it, and both can be
     Mouse(row).doubleClick(where);
     const Clip with = bench.clip();
     REQUIRE(with.envelope.size() == before.envelope.size() + 1);
-    REQUIRE(selectedCount(bench.session.selected()) == 1);
-    const Breakpoint added = with.envelope[bench.session.selected().lanes.front().points.front()];
-    CHECK(added.time == Approx(501.0 * bench.session.axis().secondsPerPixel));
+    REQUIRE(selectedCount(bench.session.clipSelection.selected()) == 1);
+    const Breakpoint added = with.envelope[bench.session.clipSelection.selected().lanes.front().points.front()];
+    CHECK(added.time == Approx(501.0 * bench.session.viewState.axis().secondsPerPixel));
     CHECK(20.0 * std::log10(added.value) == Approx(-60.0 * 20.0 / row.plotArea().getHeight()));
     CHECK(bench.view.doCommand(editor::deleteSelection));
     CHECK(bench.clip() == before);
-    bench.session.undo();
+    bench.session.model.undo();
     CHECK(bench.clip() == with);
-    bench.session.undo();
+    bench.session.model.undo();
     CHECK(bench.clip() == before);
 }
 
@@ -99,16 +99,17 @@ TEST_CASE("Transients are added, moved with their level, made sharper and delete
     const juce::Point<float> where(static_cast<float>(row.plotArea().getX()) + 333.0f, 30.0f);
     Mouse(row).doubleClick(where);
     REQUIRE(bench.clip().transients.size() == before.transients.size() + 1);
-    const std::size_t i = bench.session.selected().transients.front();
+    const std::size_t i = bench.session.clipSelection.selected().transients.front();
     const Transient added = bench.clip().transients[i];
     Mouse(row, juce::ModifierKeys::altModifier).dragFromTo(where, where + juce::Point<float>(0.0f, 12.0f));
-    const Transient lower = bench.clip().transients[bench.session.selected().transients.front()];
+    const Transient lower = bench.clip().transients[bench.session.clipSelection.selected().transients.front()];
     CHECK(lower.time == added.time);
     CHECK(lower.amplitude < 0.9 * added.amplitude);
     SelectionMove sharper;
     sharper.sharpness = 0.25;
-    bench.session.setEdited("Sharper", moveSelected(bench.clip(), bench.session.selected(), sharper));
-    CHECK(bench.clip().transients[bench.session.selected().transients.front()].sharpness ==
+    bench.session.clipSelection.setEdited("Sharper",
+                                          moveSelected(bench.clip(), bench.session.clipSelection.selected(), sharper));
+    CHECK(bench.clip().transients[bench.session.clipSelection.selected().transients.front()].sharpness ==
           Approx(added.sharpness + 0.25));
     bench.view.doCommand(editor::deleteSelection);
     CHECK(bench.clip() == before);
@@ -119,16 +120,16 @@ TEST_CASE("A marquee over several lanes selects what is inside, and moves it tog
     EditorBench bench;
     bench.openDemo("drums_tabla_pattern");
     const Clip before = bench.clip();
-    bench.session.showRange({0.0, 1.0});
+    bench.session.viewState.showRange({0.0, 1.0});
     auto& row = bench.row(envelope);
     auto& next = bench.row({LaneKind::centroid, 0});
     const auto plot = row.plotArea();
     const int below = next.getY() - row.getY() + next.getHeight() - 2;
-    const double perPixel = bench.session.axis().secondsPerPixel;
+    const double perPixel = bench.session.viewState.axis().secondsPerPixel;
     // Begins where no point is near.
     juce::Point<float> from(static_cast<float>(plot.getX()) + 100.0f, 1.0f);
     Mouse(row).dragFromTo(from, {from.x + 400.0f, static_cast<float>(below)});
-    const Selection selected = bench.session.selected();
+    const Selection selected = bench.session.clipSelection.selected();
     std::size_t inside = 0;
     for (const Curve* curve : {&before.envelope, &before.centroid})
         for (const Breakpoint& p : *curve)
@@ -139,8 +140,9 @@ TEST_CASE("A marquee over several lanes selects what is inside, and moves it tog
     CHECK(row.keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
     CHECK(row.keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
     const Clip after = bench.clip();
-    CHECK(timeOf(bench.session.selected(), after)->from == Approx(timeOf(selected, before)->from + 2.0 * perPixel));
-    bench.session.undo(); // both presses are one step
+    CHECK(timeOf(bench.session.clipSelection.selected(), after)->from ==
+          Approx(timeOf(selected, before)->from + 2.0 * perPixel));
+    bench.session.model.undo(); // both presses are one step
     CHECK(bench.clip() == before);
 }
 
@@ -150,7 +152,7 @@ TEST_CASE("Gain, fades, reverse, cut and paste go through the document with thei
     bench.openDemo("drums_tabla_pattern");
     const Clip before = bench.clip();
     REQUIRE(bench.view.doCommand(editor::fadeIn));
-    CHECK(bench.session.document().undoName() == "Fade in");
+    CHECK(bench.session.model.document().undoName() == "Fade in");
     CHECK(valueAt(bench.clip().envelope, 0.0) == 0.0);
     bench.view.doCommand(editor::undo);
     REQUIRE(bench.view.doCommand(editor::reverse));
@@ -159,9 +161,9 @@ TEST_CASE("Gain, fades, reverse, cut and paste go through the document with thei
     bench.view.doCommand(editor::undo);
     CHECK(bench.clip() == before);
 
-    bench.session.setTimeRange(TimeRange{0.5, 1.0});
+    bench.session.clipSelection.setTimeRange(TimeRange{0.5, 1.0});
     REQUIRE(bench.view.doCommand(editor::copy));
-    bench.session.setPlayhead(1.5);
+    bench.session.transport.setPlayhead(1.5);
     REQUIRE(bench.view.doCommand(editor::paste));
     CHECK(valueAt(bench.clip().envelope, 1.7) == Approx(valueAt(before.envelope, 0.7)));
     CHECK(bench.clip().duration == before.duration);
@@ -194,15 +196,15 @@ TEST_CASE("A project that is saved and opened again shows the same, and only cha
     bench.view.doCommand(editor::fadeOut);
     const Clip before = bench.clip();
     TempFolder folder;
-    REQUIRE(bench.session.saveAs(folder.path() / "one.pacini").ok());
-    CHECK_FALSE(bench.session.document().isDirty());
+    REQUIRE(bench.session.model.saveAs(folder.path() / "one.pacini").ok());
+    CHECK_FALSE(bench.session.model.document().isDirty());
     bench.view.doCommand(editor::fadeOut);
-    CHECK(bench.session.document().isDirty());
+    CHECK(bench.session.model.document().isDirty());
     bench.view.doCommand(editor::undo);
-    CHECK_FALSE(bench.session.document().isDirty());
-    bench.session.newProject();
-    CHECK(bench.session.isEmpty());
-    REQUIRE(bench.session.openProject(folder.path() / "one.pacini").ok());
+    CHECK_FALSE(bench.session.model.document().isDirty());
+    bench.session.model.newProject();
+    CHECK(bench.session.model.isEmpty());
+    REQUIRE(bench.session.model.openProject(folder.path() / "one.pacini").ok());
     CHECK(bench.clip() == before);
 }
 
@@ -215,9 +217,9 @@ TEST_CASE("What an autosave wrote is offered and restored with all edits")
         editor::Session session({folder.path() / "recovery", {}}, {});
         auto imported = editor::importFile(demoSound("knock_wood_bridge"), EncoderParams{});
         REQUIRE(imported.ok());
-        session.add(std::move(imported).value());
-        session.edit("Gain", GainEdit{{}, -6.0});
-        edited = *session.clip();
+        session.sounds.add(std::move(imported).value());
+        session.model.edit("Gain", GainEdit{{}, -6.0});
+        edited = *session.model.clip();
     }
     // The process that wrote it still runs, so its file is not offered; under another name it is one that has ended.
     std::filesystem::path left;
@@ -228,7 +230,7 @@ TEST_CASE("What an autosave wrote is offered and restored with all edits")
     editor::Session session({folder.path() / "recovery", {}}, {});
     Recoverable entry;
     entry.file = left;
-    REQUIRE(session.recover(entry).ok());
-    CHECK(*session.clip() == edited);
-    CHECK(session.document().isDirty());
+    REQUIRE(session.model.recover(entry).ok());
+    CHECK(*session.model.clip() == edited);
+    CHECK(session.model.document().isDirty());
 }

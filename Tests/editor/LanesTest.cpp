@@ -32,7 +32,7 @@ TEST_CASE("With the pencil a drag draws the curve under the pointer with few poi
     const Clip before = bench.clip();
     auto& row = bench.row(envelope);
     bench.view.doCommand(editor::draw);
-    REQUIRE(bench.session.isDrawing());
+    REQUIRE(bench.session.viewState.isDrawing());
     const auto plot = row.plotArea().toFloat();
     Mouse mouse(row);
     const auto place = [&](int k)
@@ -47,22 +47,22 @@ TEST_CASE("With the pencil a drag draws the curve under the pointer with few poi
     const Clip after = bench.clip();
     for (int k = 0; k < 80; ++k)
     {
-        const double time = bench.session.axis().timeAt(100.0 + 4.0 * k);
+        const double time = bench.session.viewState.axis().timeAt(100.0 + 4.0 * k);
         const float y = placeOf(row, bench.session, {time, valueAt(after.envelope, time)}).y;
         CHECK(std::abs(y - place(k).y) < 1.6f);
     }
     std::size_t drawn = 0;
-    const double from = bench.session.axis().timeAt(100.0);
-    const double to = bench.session.axis().timeAt(420.0);
+    const double from = bench.session.viewState.axis().timeAt(100.0);
+    const double to = bench.session.viewState.axis().timeAt(420.0);
     for (const Breakpoint& p : after.envelope)
         drawn += p.time >= from && p.time <= to ? 1 : 0;
     CHECK(drawn < 40);
     CHECK(valueAt(after.envelope, from - 0.05) == Approx(valueAt(before.envelope, from - 0.05)));
-    CHECK(bench.session.document().undoName() == "Draw");
-    bench.session.undo();
+    CHECK(bench.session.model.document().undoName() == "Draw");
+    bench.session.model.undo();
     CHECK(bench.clip() == before);
     bench.view.doCommand(editor::draw);
-    CHECK_FALSE(bench.session.isDrawing());
+    CHECK_FALSE(bench.session.viewState.isDrawing());
 }
 
 TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else stay")
@@ -71,7 +71,7 @@ TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else 
     bench.openDemo("drums_tabla_pattern");
     Clip plain = bench.clip();
     plain.envelope = {{0.0, 0.2}, {0.5, 0.1}, {1.5, 0.3}, {plain.duration, 0.2}};
-    bench.session.setClip("Plain", plain);
+    bench.session.model.setClip("Plain", plain);
     auto& row = bench.row(envelope);
     const auto from = placeOf(row, bench.session, {1.0, valueAt(plain.envelope, 1.0)});
     const auto to = from + juce::Point<float>(0.0f, -15.0f);
@@ -81,8 +81,8 @@ TEST_CASE("A line dragged with Ctrl bends to the pointer, its ends and all else 
     CHECK(placeOf(row, bench.session, {1.0, valueAt(bent.envelope, 1.0)}).y == Approx(to.y).margin(0.7));
     for (const Breakpoint& p : plain.envelope)
         CHECK(std::find(bent.envelope.begin(), bent.envelope.end(), p) != bent.envelope.end());
-    CHECK(bench.session.document().undoName() == "Bend line");
-    bench.session.undo();
+    CHECK(bench.session.model.document().undoName() == "Bend line");
+    bench.session.model.undo();
     CHECK(bench.clip() == plain);
     // Away from the line it is a marquee.
     Mouse(row, juce::ModifierKeys::commandModifier).dragFromTo(to, to + juce::Point<float>(30.0f, -5.0f));
@@ -96,16 +96,16 @@ TEST_CASE("A dragged point sticks to a transient within 8 pixels, unless Alt is 
     Clip clip = bench.clip();
     clip.envelope = {{0.0, 0.2}, {0.5, 0.1}, {clip.duration, 0.2}};
     clip.transients = {{1.0, 0.5, 0.5}};
-    bench.session.setClip("Plain", clip);
+    bench.session.model.setClip("Plain", clip);
     auto& row = bench.row(envelope);
-    const double perPixel = bench.session.axis().secondsPerPixel;
+    const double perPixel = bench.session.viewState.axis().secondsPerPixel;
     const auto from = placeOf(row, bench.session, clip.envelope[1]);
     const auto target = placeOf(row, bench.session, {1.0 - 6.0 * perPixel, 0.1});
     const auto drag = [&](int flags)
     {
         Mouse(row, flags).dragFromTo(from, {target.x, from.y});
         const double time = bench.clip().envelope[1].time;
-        bench.session.undo();
+        bench.session.model.undo();
         return time;
     };
     CHECK(drag(0) == 1.0);
@@ -124,9 +124,9 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     clip.transients = {{0.43, 0.5, 0.5}, {1.5, 0.5, 0.5}};
     clip.markers = {{0.7, "a"}};
     auto& session = bench.session;
-    session.setClip("Plain", clip);
-    session.setPlayhead(1.1);
-    const double perPixel = session.axis().secondsPerPixel;
+    session.model.setClip("Plain", clip);
+    session.transport.setPlayhead(1.1);
+    const double perPixel = session.viewState.axis().secondsPerPixel;
     const double near = 7.0 * perPixel;
     CHECK(editor::snapTime(session, 0.43 + near) == 0.43);
     CHECK(editor::snapTime(session, 0.43 + 9.0 * perPixel) == 0.43 + 9.0 * perPixel);
@@ -141,7 +141,7 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     for (const double time : {0.43 + near, 0.7 - near, 1.1 + near})
         CHECK(editor::snapTime(session, time, without) == time);
     SnapTargets only{true, true, false, false, false};
-    session.setSnapTargets(only);
+    session.viewState.setSnapTargets(only);
     CHECK(editor::snapTime(session, 0.43 + near) != 0.43);
     const double line = 1.0; // a second is a line of the ruler at this zoom
     CHECK(editor::snapTime(session, line + 0.5 * perPixel) == Approx(line));
@@ -154,18 +154,19 @@ TEST_CASE("An end of the time range can be dragged in the ruler and sticks to tr
     Clip clip = bench.clip();
     clip.transients = {{1.2, 0.5, 0.5}};
     auto& session = bench.session;
-    session.setClip("Plain", clip);
-    session.setTimeRange(TimeRange{0.5, 1.0});
+    session.model.setClip("Plain", clip);
+    session.clipSelection.setTimeRange(TimeRange{0.5, 1.0});
     auto& ruler = childOf<editor::TimeRuler>(bench.view.clipView());
     const auto at = [&](double time)
     {
-        return juce::Point<float>(static_cast<float>(editor::laneHeadWidth + session.axis().xOf(time)), 20.0f);
+        return juce::Point<float>(static_cast<float>(editor::laneHeadWidth + session.viewState.axis().xOf(time)),
+                                  20.0f);
     };
     Mouse(ruler).dragFromTo(at(1.0) + juce::Point<float>(3.0f, 0.0f), at(1.2) + juce::Point<float>(5.0f, 0.0f));
-    REQUIRE(session.timeRange().has_value());
-    CHECK(session.timeRange()->from == 0.5);
-    CHECK(session.timeRange()->to == 1.2);
-    CHECK(session.playhead() == 0.0);
+    REQUIRE(session.clipSelection.timeRange().has_value());
+    CHECK(session.clipSelection.timeRange()->from == 0.5);
+    CHECK(session.clipSelection.timeRange()->to == 1.2);
+    CHECK(session.transport.playhead() == 0.0);
 }
 
 TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow keys as well")
@@ -176,19 +177,19 @@ TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow key
     clip.envelope = {{0.0, 0.2}, {0.4, 0.1}, {0.6, 0.4}, {0.8, 0.2}, {clip.duration, 0.2}};
     clip.transients.clear();
     auto& session = bench.session;
-    session.setClip("Plain", clip);
-    session.select(withPoints({}, envelope, {1, 2, 3}));
+    session.model.setClip("Plain", clip);
+    session.clipSelection.select(withPoints({}, envelope, {1, 2, 3}));
     auto& bar = childOf<editor::SelectionBar>(bench.view.clipView());
-    const auto x = static_cast<float>(session.axis().xOf(0.8));
+    const auto x = static_cast<float>(session.viewState.axis().xOf(0.8));
     REQUIRE(bar.hitTest(juce::roundToInt(x), 3));
-    CHECK_FALSE(bar.hitTest(juce::roundToInt(session.axis().xOf(0.6)), 3));
+    CHECK_FALSE(bar.hitTest(juce::roundToInt(session.viewState.axis().xOf(0.6)), 3));
     Mouse(bar, juce::ModifierKeys::altModifier).dragFromTo({x, 3.0f}, {x + 80.0f, 3.0f});
-    const double longer = 80.0 * session.axis().secondsPerPixel;
+    const double longer = 80.0 * session.viewState.axis().secondsPerPixel;
     CHECK(bench.clip().envelope[1].time == 0.4);
     CHECK(bench.clip().envelope[2].time == Approx(0.6 + 0.5 * longer));
     CHECK(bench.clip().envelope[3].time == Approx(0.8 + longer));
-    CHECK(session.document().undoName() == "Stretch selection");
-    session.undo();
+    CHECK(session.model.document().undoName() == "Stretch selection");
+    session.model.undo();
     CHECK(bench.clip() == clip);
 
     auto& row = bench.row(envelope);
@@ -198,11 +199,11 @@ TEST_CASE("The ends of the selection's bar stretch it in time, Alt and arrow key
     };
     alt(juce::KeyPress::rightKey);
     alt(juce::KeyPress::rightKey);
-    CHECK(bench.clip().envelope[3].time == Approx(0.8 + 2.0 * session.axis().secondsPerPixel));
+    CHECK(bench.clip().envelope[3].time == Approx(0.8 + 2.0 * session.viewState.axis().secondsPerPixel));
     CHECK(bench.clip().envelope[1] == clip.envelope[1]);
     alt(juce::KeyPress::upKey);
     CHECK(bench.clip().envelope[2].value / bench.clip().envelope[1].value == Approx(std::pow(4.0, 1.05)));
-    session.undo();
+    session.model.undo();
     CHECK(bench.clip() == clip);
 }
 
@@ -214,23 +215,23 @@ TEST_CASE("Version A is shown and played in place of the clip, cannot be edited,
     auto& session = bench.session;
     CHECK_FALSE(bench.view.doCommand(editor::compareWithA));
     REQUIRE(bench.view.doCommand(editor::keepVersionA));
-    session.edit("Gain", GainEdit{{}, -6.0});
+    session.model.edit("Gain", GainEdit{{}, -6.0});
     const Clip second = bench.clip();
-    const auto state = session.document().snapshot().state;
+    const auto state = session.model.document().snapshot().state;
     REQUIRE(bench.view.doCommand(editor::compareWithA));
     CHECK(bench.clip() == first);
-    CHECK_FALSE(session.edit("Gain", GainEdit{{}, -6.0}));
+    CHECK_FALSE(session.model.edit("Gain", GainEdit{{}, -6.0}));
     CHECK(bench.view.sheet() != nullptr); // it says why
     bench.view.showSheet(nullptr);
-    CHECK_FALSE(session.setClip("Change", second, session.beginGesture()));
+    CHECK_FALSE(session.model.setClip("Change", second, session.model.beginGesture()));
     CHECK(bench.view.sheet() == nullptr);
-    CHECK(session.document().snapshot().state == state);
+    CHECK(session.model.document().snapshot().state == state);
     REQUIRE(bench.view.doCommand(editor::compareWithA));
     CHECK(bench.clip() == second);
     REQUIRE(bench.view.doCommand(editor::takeVersionA));
     CHECK(bench.clip() == first);
-    CHECK(session.document().undoName() == "Take version A");
-    session.undo();
+    CHECK(session.model.document().undoName() == "Take version A");
+    session.model.undo();
     CHECK(bench.clip() == second);
 }
 
@@ -239,17 +240,17 @@ TEST_CASE("Undo, another clip and another project end a comparison")
     EditorBench bench;
     bench.openDemo("knock_wood_bridge");
     auto& session = bench.session;
-    session.keepVersion();
-    session.edit("Gain", GainEdit{{}, -6.0});
-    session.setComparing(true);
-    session.undo();
-    CHECK_FALSE(session.isComparing());
-    session.setComparing(true);
-    session.duplicate();
-    CHECK_FALSE(session.isComparing());
-    CHECK(session.keptVersion() == nullptr); // it was kept of the other clip
-    session.newProject();
-    CHECK(session.clip() == nullptr);
+    session.model.keepVersion();
+    session.model.edit("Gain", GainEdit{{}, -6.0});
+    session.model.setComparing(true);
+    session.model.undo();
+    CHECK_FALSE(session.model.isComparing());
+    session.model.setComparing(true);
+    session.model.duplicate();
+    CHECK_FALSE(session.model.isComparing());
+    CHECK(session.model.keptVersion() == nullptr); // it was kept of the other clip
+    session.model.newProject();
+    CHECK(session.model.clip() == nullptr);
 }
 
 TEST_CASE("Switching between clip and version A while playing makes no gap")
@@ -260,12 +261,12 @@ TEST_CASE("Switching between clip and version A while playing makes no gap")
     steady.bands.push_back({80.0, 100.0, 120.0, 0, {{0.0, 0.5}, {5.0, 0.5}}, {}});
     editor::Imported imported;
     imported.clip = steady;
-    bench.session.add(std::move(imported));
+    bench.session.sounds.add(std::move(imported));
     auto& session = bench.session;
-    session.keepVersion();
-    session.edit("Gain", GainEdit{{}, -6.0206});
+    session.model.keepVersion();
+    session.model.edit("Gain", GainEdit{{}, -6.0206});
     session.player.prepare(48000.0);
-    session.play();
+    session.transport.play();
     std::vector<float> block(480);
     const auto level = [&]
     {
@@ -293,13 +294,13 @@ TEST_CASE("Switching between clip and version A while playing makes no gap")
         return 0.0f;
     };
     until(0.2f, 0.3f);
-    const double before = session.playhead();
-    session.setComparing(true);
+    const double before = session.transport.playhead();
+    session.model.setComparing(true);
     CHECK(until(0.45f, 0.55f) > 0.2f);
-    session.setComparing(false);
+    session.model.setComparing(false);
     CHECK(until(0.2f, 0.3f) > 0.2f);
-    CHECK(session.isPlaying());
-    CHECK(session.playhead() > before);
+    CHECK(session.transport.isPlaying());
+    CHECK(session.transport.playhead() > before);
 }
 
 TEST_CASE("One key switches from haptic to sound and back")
@@ -307,9 +308,9 @@ TEST_CASE("One key switches from haptic to sound and back")
     EditorBench bench;
     bench.openDemo("knock_wood_bridge");
     bench.view.doCommand(editor::hapticOrSound);
-    CHECK(bench.session.heard() == editor::Heard::sound);
+    CHECK(bench.session.transport.heard() == editor::Heard::sound);
     bench.view.doCommand(editor::hapticOrSound);
-    CHECK(bench.session.heard() == editor::Heard::haptic);
+    CHECK(bench.session.transport.heard() == editor::Heard::haptic);
 }
 
 TEST_CASE("What was copied from one clip is pasted into another, and a single lane into the lane that is asked for")
@@ -318,18 +319,18 @@ TEST_CASE("What was copied from one clip is pasted into another, and a single la
     bench.openDemo("drums_tabla_pattern");
     auto& session = bench.session;
     const Clip from = bench.clip();
-    session.select(withPoints({}, envelope, allIndices(from.envelope.size())));
-    session.copy();
+    session.clipSelection.select(withPoints({}, envelope, allIndices(from.envelope.size())));
+    session.clipSelection.copy();
     bench.openDemo("knock_wood_bridge");
     const Clip before = bench.clip();
-    session.setPlayhead(0.1);
-    session.paste();
+    session.transport.setPlayhead(0.1);
+    session.clipSelection.paste();
     const double start = from.envelope.front().time;
     for (const double time : {0.2, 0.3})
         CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(from.envelope, start + time - 0.1)));
-    session.undo();
-    session.paste(Lane{LaneKind::amplitude, 1});
+    session.model.undo();
+    session.clipSelection.paste(Lane{LaneKind::amplitude, 1});
     CHECK(bench.clip().envelope == before.envelope);
     CHECK(valueAt(bench.clip().bands[1].amplitude, 0.2) == Approx(valueAt(from.envelope, start + 0.1)));
-    CHECK_FALSE(selectedIn(session.selected(), {LaneKind::amplitude, 1}).empty());
+    CHECK_FALSE(selectedIn(session.clipSelection.selected(), {LaneKind::amplitude, 1}).empty());
 }

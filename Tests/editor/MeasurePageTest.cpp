@@ -36,7 +36,7 @@ struct MeasureBench
         std::filesystem::create_directories(folder);
         const auto wristband = readProfile(sourceFolder() / "profiles/l5-wristband.json");
         REQUIRE(wristband.ok());
-        session.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
+        session.actuators.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
         desk = std::make_shared<MeasureDesk>(session, MeasureDesk::Surroundings{nullptr, folder, 0.0, true});
         params.sampleRate = 8000.0;
         desk->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
@@ -147,17 +147,17 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     CHECK(bench.desk->measurement().state(MeasureStep::save) == MeasureStepState::done);
 
     // It can be chosen, has been, and goes with the project.
-    REQUIRE(bench.session.profiles().size() == 2);
-    CHECK(bench.session.profiles().back().profile->name == "My wristband");
-    CHECK(bench.session.profileName() == "my-wristband");
-    REQUIRE(bench.session.document().project().profile.embedded.has_value());
-    CHECK(bench.session.document().project().profile.embedded->equalizer == saved->equalizer);
+    REQUIRE(bench.session.actuators.profiles().size() == 2);
+    CHECK(bench.session.actuators.profiles().back().profile->name == "My wristband");
+    CHECK(bench.session.actuators.profileName() == "my-wristband");
+    REQUIRE(bench.session.model.document().project().profile.embedded.has_value());
+    CHECK(bench.session.model.document().project().profile.embedded->equalizer == saved->equalizer);
     // Again, with another name and the same file: no second entry.
     page.saveStep().name.control.setText("My Wristband", juce::dontSendNotification);
     page.saveStep().name.control.onTextChange();
     page.saveStep().saveButton.onClick();
-    CHECK(bench.session.profiles().size() == 2);
-    CHECK(bench.session.profile()->name == "My Wristband");
+    CHECK(bench.session.actuators.profiles().size() == 2);
+    CHECK(bench.session.actuators.profile()->name == "My Wristband");
 }
 
 TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[measure]")

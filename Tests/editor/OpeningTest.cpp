@@ -50,7 +50,7 @@ struct Messages
 
     explicit Messages(editor::Session& session)
     {
-        session.onError = [this](const juce::String& title, const juce::String& text)
+        session.model.onError = [this](const juce::String& title, const juce::String& text)
         {
             titles.push_back(title.toStdString());
             texts.push_back(text.toStdString());
@@ -60,12 +60,12 @@ struct Messages
 
 bool idle(const editor::Session& session)
 {
-    return !session.workNow();
+    return !session.sounds.workNow();
 }
 
 std::size_t clipCount(const editor::Session& session)
 {
-    return session.document().project().clips.size();
+    return session.model.document().project().clips.size();
 }
 } // namespace
 
@@ -74,26 +74,26 @@ TEST_CASE("A sound is shown as a waveform before it is analysed, and then become
     TempFolder folder;
     EditorBench bench;
     editor::Session& session = bench.session;
-    session.openFiles({writeSound(folder / "long.wav", 20.0)});
-    REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+    session.sounds.openFiles({writeSound(folder / "long.wav", 20.0)});
+    REQUIRE(pumpUntil([&] { return session.model.isShowingUnanalysed(); }));
     // Waveform and time are there; edits are not possible yet.
-    CHECK(session.clip() == nullptr);
-    REQUIRE(session.soundOfClip() != nullptr);
-    CHECK(session.duration() == Approx(20.0));
-    CHECK(session.axis().secondsPerPixel * session.viewWidth() == Approx(20.0 * 1.02));
+    CHECK(session.model.clip() == nullptr);
+    REQUIRE(session.sounds.soundOfClip() != nullptr);
+    CHECK(session.model.duration() == Approx(20.0));
+    CHECK(session.viewState.axis().secondsPerPixel * session.viewState.viewWidth() == Approx(20.0 * 1.02));
     CHECK(bench.view.clipView().isVisible());
-    REQUIRE(session.workNow());
-    CHECK(session.workNow()->text.contains("long.wav"));
-    CHECK_FALSE(session.document().canUndo());
-    session.zoom(0.5, 100.0);
-    const TimeAxis axis = session.axis();
-    REQUIRE(pumpUntil([&] { return session.clip() != nullptr; }));
-    CHECK(session.clip()->duration == Approx(20.0));
-    CHECK(session.axis() == axis);
-    CHECK_FALSE(session.isShowingUnanalysed());
+    REQUIRE(session.sounds.workNow());
+    CHECK(session.sounds.workNow()->text.contains("long.wav"));
+    CHECK_FALSE(session.model.document().canUndo());
+    session.viewState.zoom(0.5, 100.0);
+    const TimeAxis axis = session.viewState.axis();
+    REQUIRE(pumpUntil([&] { return session.model.clip() != nullptr; }));
+    CHECK(session.model.clip()->duration == Approx(20.0));
+    CHECK(session.viewState.axis() == axis);
+    CHECK_FALSE(session.model.isShowingUnanalysed());
     CHECK(idle(session));
-    CHECK(session.document().undoName() == "Add long");
-    CHECK(*session.clip() == editor::importFile(folder / "long.wav", {})->clip);
+    CHECK(session.model.document().undoName() == "Add long");
+    CHECK(*session.model.clip() == editor::importFile(folder / "long.wav", {})->clip);
 }
 
 TEST_CASE("Stopping leaves the project as it was, whatever is under way")
@@ -106,14 +106,14 @@ TEST_CASE("Stopping leaves the project as it was, whatever is under way")
         editor::Session& session = bench.session;
         const Messages messages(session);
         bench.openDemo("knock_wood_bridge");
-        const int before = session.activeId();
-        session.openFiles({file, file});
+        const int before = session.model.activeId();
+        session.sounds.openFiles({file, file});
         if (analysing)
-            REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+            REQUIRE(pumpUntil([&] { return session.model.isShowingUnanalysed(); }));
         CHECK(bench.view.doCommand(editor::stopWork));
         CHECK(idle(session));
-        CHECK_FALSE(session.isShowingUnanalysed());
-        CHECK(session.activeId() == before);
+        CHECK_FALSE(session.model.isShowingUnanalysed());
+        CHECK(session.model.activeId() == before);
         pumpFor(0.5);
         CHECK(clipCount(session) == 1);
         CHECK(messages.titles.empty());
@@ -134,13 +134,13 @@ TEST_CASE("Several files come in their order, the first is shown, and what fails
     EditorBench bench;
     editor::Session& session = bench.session;
     const Messages messages(session);
-    session.openFiles({folder / "in"});
+    session.sounds.openFiles({folder / "in"});
     REQUIRE(pumpUntil([&] { return idle(session); }));
     std::vector<std::string> names;
-    for (const auto& item : session.document().project().clips)
+    for (const auto& item : session.model.document().project().clips)
         names.push_back(item->clip->name);
     CHECK(names == std::vector<std::string>{"a", "b", "c"});
-    CHECK(session.item()->clip->name == "a");
+    CHECK(session.model.item()->clip->name == "a");
     REQUIRE(messages.titles.size() == 1);
     CHECK(messages.titles[0] == "2 of 5 files were not opened");
     CHECK(messages.texts[0].find("broken.wav") != std::string::npos);
@@ -153,13 +153,13 @@ TEST_CASE("Who turns to another clip while a sound is analysed is left there")
     EditorBench bench;
     editor::Session& session = bench.session;
     bench.openDemo("knock_wood_bridge");
-    const int before = session.activeId();
-    session.openFiles({writeSound(folder / "long.wav", 20.0)});
-    REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
-    session.show(before);
+    const int before = session.model.activeId();
+    session.sounds.openFiles({writeSound(folder / "long.wav", 20.0)});
+    REQUIRE(pumpUntil([&] { return session.model.isShowingUnanalysed(); }));
+    session.model.show(before);
     REQUIRE(pumpUntil([&] { return idle(session); }));
     CHECK(clipCount(session) == 2);
-    CHECK(session.activeId() == before);
+    CHECK(session.model.activeId() == before);
 }
 
 TEST_CASE("A project without its sound says so once, can be edited, and finds the sound where it is shown")
@@ -169,41 +169,41 @@ TEST_CASE("A project without its sound says so once, can be edited, and finds th
     writeSound(folder / "hit.wav", 1.0);
     {
         EditorBench bench;
-        bench.session.add(editor::importFile(folder / "hit.wav", {}).value());
-        REQUIRE(bench.session.saveAs(folder / "p.pacini"));
+        bench.session.sounds.add(editor::importFile(folder / "hit.wav", {}).value());
+        REQUIRE(bench.session.model.saveAs(folder / "p.pacini"));
     }
     std::filesystem::rename(folder / "hit.wav", folder / "elsewhere/renamed.wav");
     EditorBench bench;
     editor::Session& session = bench.session;
     const Messages messages(session);
     int told = 0;
-    session.onSoundsMissing = [&](const std::vector<AudioReference>& missing)
+    session.sounds.onSoundsMissing = [&](const std::vector<AudioReference>& missing)
     {
         ++told;
         REQUIRE(missing.size() == 1);
         CHECK(missing[0].path == folder / "hit.wav");
     };
-    session.openFiles({folder / "p.pacini"});
+    session.sounds.openFiles({folder / "p.pacini"});
     REQUIRE(pumpUntil([&] { return told > 0; }));
     pumpFor(0.1);
     CHECK(told == 1);
     CHECK(messages.titles.empty());
-    const int source = session.item()->source;
-    CHECK(session.isMissing(source));
-    CHECK(session.edit("Reverse", ReverseEdit{}));
-    session.undo();
+    const int source = session.model.item()->source;
+    CHECK(session.sounds.isMissing(source));
+    CHECK(session.model.edit("Reverse", ReverseEdit{}));
+    session.model.undo();
 
     writeSound(folder / "other.wav", 1.0, 99);
-    session.findSounds(folder / "other.wav");
+    session.sounds.findSounds(folder / "other.wav");
     REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
     CHECK(messages.titles[0] == "other.wav is another sound");
-    CHECK(session.isMissing(source));
+    CHECK(session.sounds.isMissing(source));
 
-    session.findSounds(folder / "elsewhere/renamed.wav");
-    REQUIRE(pumpUntil([&] { return session.soundOfClip() != nullptr; }));
-    CHECK_FALSE(session.isMissing(source));
-    CHECK(session.document().undoName() == "Find sound");
-    CHECK(session.document().project().sources[0].path == folder / "elsewhere/renamed.wav");
+    session.sounds.findSounds(folder / "elsewhere/renamed.wav");
+    REQUIRE(pumpUntil([&] { return session.sounds.soundOfClip() != nullptr; }));
+    CHECK_FALSE(session.sounds.isMissing(source));
+    CHECK(session.model.document().undoName() == "Find sound");
+    CHECK(session.model.document().project().sources[0].path == folder / "elsewhere/renamed.wav");
 }
 
 TEST_CASE("A copy inside the project makes it independent of the file, and the only copy is never given up")
@@ -212,25 +212,25 @@ TEST_CASE("A copy inside the project makes it independent of the file, and the o
     writeSound(folder / "hit.wav", 1.0);
     {
         EditorBench bench;
-        bench.session.add(editor::importFile(folder / "hit.wav", {}).value());
-        bench.session.keepSound(bench.session.item()->source, true);
-        REQUIRE(pumpUntil([&] { return bench.session.document().project().sources[0].embedded != nullptr; }));
-        CHECK(bench.session.document().undoName() == "Keep a copy of the sound");
-        REQUIRE(bench.session.saveAs(folder / "p.pacini"));
+        bench.session.sounds.add(editor::importFile(folder / "hit.wav", {}).value());
+        bench.session.sounds.keepSound(bench.session.model.item()->source, true);
+        REQUIRE(pumpUntil([&] { return bench.session.model.document().project().sources[0].embedded != nullptr; }));
+        CHECK(bench.session.model.document().undoName() == "Keep a copy of the sound");
+        REQUIRE(bench.session.model.saveAs(folder / "p.pacini"));
     }
     const std::string bytes = bytesOf(folder / "hit.wav");
     std::filesystem::remove(folder / "hit.wav");
     EditorBench bench;
     editor::Session& session = bench.session;
     const Messages messages(session);
-    REQUIRE(session.openProject(folder / "p.pacini"));
-    REQUIRE(pumpUntil([&] { return session.soundOfClip() != nullptr; }));
-    CHECK(*session.document().project().sources[0].embedded == bytes);
-    session.keepSound(session.item()->source, false);
+    REQUIRE(session.model.openProject(folder / "p.pacini"));
+    REQUIRE(pumpUntil([&] { return session.sounds.soundOfClip() != nullptr; }));
+    CHECK(*session.model.document().project().sources[0].embedded == bytes);
+    session.sounds.keepSound(session.model.item()->source, false);
     REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
     CHECK(messages.titles[0] == "The copy is kept");
-    CHECK(session.document().project().sources[0].embedded != nullptr);
-    CHECK_FALSE(session.document().isDirty());
+    CHECK(session.model.document().project().sources[0].embedded != nullptr);
+    CHECK_FALSE(session.model.document().isDirty());
 }
 
 #ifdef __linux__
@@ -240,8 +240,8 @@ TEST_CASE("A project that cannot be written says why, stays open with its change
     EditorBench bench;
     editor::Session& session = bench.session;
     bench.openDemo("knock_wood_bridge");
-    REQUIRE(session.saveAs(folder / "p.pacini"));
-    REQUIRE(session.edit("Reverse", ReverseEdit{}));
+    REQUIRE(session.model.saveAs(folder / "p.pacini"));
+    REQUIRE(session.model.edit("Reverse", ReverseEdit{}));
     const Clip edited = bench.clip();
     std::filesystem::remove(folder / "p.pacini");
     std::filesystem::create_symlink("/dev/full", folder / "p.pacini");
@@ -252,20 +252,20 @@ TEST_CASE("A project that cannot be written says why, stays open with its change
     CHECK(bench.view.sheet()->getDescription().contains("p.pacini"));
     CHECK(bench.view.sheet()->getDescription().contains("the disk is full"));
     CHECK_FALSE(followed);
-    CHECK(session.document().isDirty());
+    CHECK(session.model.document().isDirty());
     CHECK(bench.clip() == edited);
     std::filesystem::remove(folder / "p.pacini");
     bench.view.files().save([&] { followed = true; });
     CHECK(followed);
-    CHECK_FALSE(session.document().isDirty());
+    CHECK_FALSE(session.model.document().isDirty());
 }
 #endif
 
 TEST_CASE("No message is lost behind another")
 {
     EditorBench bench;
-    bench.session.onError("First", "one");
-    bench.session.onError("Second", "two");
+    bench.session.model.onError("First", "one");
+    bench.session.model.onError("Second", "two");
     REQUIRE(bench.view.sheet() != nullptr);
     CHECK(bench.view.sheet()->getTitle() == "First");
     bench.view.showSheet(nullptr);
@@ -297,11 +297,11 @@ TEST_CASE("Opening a minute of stereo, in figures", "[.bench]")
             {
                 (void)bench.view.createComponentSnapshot(bench.view.getLocalBounds());
             };
-            session.openFiles({folder / name});
-            REQUIRE(pumpUntil([&] { return session.isShowingUnanalysed(); }));
+            session.sounds.openFiles({folder / name});
+            REQUIRE(pumpUntil([&] { return session.model.isShowingUnanalysed(); }));
             draw();
             best["waveform"] = std::min(best["waveform"], since());
-            REQUIRE(pumpUntil([&] { return session.clip() != nullptr; }));
+            REQUIRE(pumpUntil([&] { return session.model.clip() != nullptr; }));
             best["analysis"] = std::min(best["analysis"], since());
             draw();
             best["drawn"] = std::min(best["drawn"], since());

@@ -41,7 +41,7 @@ Kind& get(juce::Component& inside, const juce::String& title)
 
 bool analysed(const editor::Session& session)
 {
-    return !session.workNow();
+    return !session.sounds.workNow();
 }
 
 /// Both pages open beside two demo sounds.
@@ -61,7 +61,7 @@ struct Pages : EditorBench
     {
         std::vector<std::string> all;
         for (const auto& row : project.clips().rows())
-            all.push_back(row.clip == 0 ? "[" + row.group + "]" : session.document().clip(row.clip)->clip->name);
+            all.push_back(row.clip == 0 ? "[" + row.group + "]" : session.model.document().clip(row.clip)->clip->name);
         return all;
     }
 };
@@ -74,7 +74,7 @@ TEST_CASE("Knobs of the analysis run it again after a pause as one step, the han
     auto& session = pages.session;
     Clip edited = pages.clip();
     edited.transients.front().amplitude = 0.25;
-    REQUIRE(session.setClip("Softer", edited));
+    REQUIRE(session.model.setClip("Softer", edited));
     auto& bands = get<juce::Slider>(pages.analysis, "Bands");
     REQUIRE(bands.isEnabled());
     CHECK(bands.getValue() == 12.0);
@@ -84,13 +84,13 @@ TEST_CASE("Knobs of the analysis run it again after a pause as one step, the han
     CHECK(pages.clip().bands.size() == 12);
     REQUIRE(pumpUntil([&] { return pages.clip().bands.size() == 20; }));
     CHECK(pages.clip().transients.front().amplitude == Approx(0.25));
-    CHECK(session.item()->encoder.bands == 20);
-    CHECK(session.document().undoName() == "Analysis");
-    CHECK(session.item()->clip->name == "knock_wood_bridge");
-    session.undo();
+    CHECK(session.model.item()->encoder.bands == 20);
+    CHECK(session.model.document().undoName() == "Analysis");
+    CHECK(session.model.item()->clip->name == "knock_wood_bridge");
+    session.model.undo();
     CHECK(pages.clip() == edited);
     CHECK(bands.getValue() == 12.0);
-    CHECK(session.document().undoName() == "Softer");
+    CHECK(session.model.document().undoName() == "Softer");
 }
 
 TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back to the usual ones")
@@ -102,7 +102,7 @@ TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back t
     CHECK(pages.analysis.params() == encoderPresets()[1].params);
     pages.analysis.carryOut();
     REQUIRE(pumpUntil([&] { return analysed(pages.session); }));
-    CHECK(pages.session.item()->encoder == encoderPresets()[1].params);
+    CHECK(pages.session.model.item()->encoder == encoderPresets()[1].params);
     get<juce::Slider>(pages.analysis, "Detail").setValue(33.0, juce::sendNotificationSync);
     CHECK(preset.getSelectedId() == 0);
     CHECK(preset.getText() == "Own settings");
@@ -124,7 +124,7 @@ TEST_CASE("A clip without a sound cannot be analysed, and says why")
     Pages pages;
     Clip clip = pages.clip();
     clip.name = "drawn";
-    pages.session.add({{}, nullptr, {}, clip, {}});
+    pages.session.sounds.add({{}, nullptr, {}, clip, {}});
     CHECK_FALSE(get<juce::Slider>(pages.analysis, "Bands").isEnabled());
     CHECK_FALSE(get<juce::ComboBox>(pages.analysis, "Preset").isEnabled());
     CHECK(get<juce::Label>(pages.analysis, "Sound of the clip").getText().contains("without a sound"));
@@ -138,26 +138,26 @@ TEST_CASE("Edits that found no place are listed with their reasons, shown where 
     // An edit of the highest band, which the lower range does not have.
     Clip edited = pages.clip();
     edited.bands.back().amplitude = {{0.0, 0.2}, {0.1, 0.9}, {edited.duration, 0.1}};
-    REQUIRE(session.setClip("Draw", edited));
+    REQUIRE(session.model.setClip("Draw", edited));
     EncoderParams low;
     low.highFrequency = 200.0;
     low.bands = 4;
-    session.reanalyse(low);
+    session.sounds.reanalyse(low);
     REQUIRE(pumpUntil([&] { return analysed(session); }));
-    REQUIRE(session.item()->unfitting.size() == 1);
+    REQUIRE(session.model.item()->unfitting.size() == 1);
     auto& list = get<juce::ListBox>(pages.analysis, "Edits that do not fit");
     CHECK(list.isVisible());
     REQUIRE(list.getModel()->getNumRows() == 1);
-    CHECK(list.getModel()->getNameForRow(0).contains(juce::String(session.item()->unfitting[0].reason)));
-    session.showRange({0.3, 0.31});
+    CHECK(list.getModel()->getNameForRow(0).contains(juce::String(session.model.item()->unfitting[0].reason)));
+    session.viewState.showRange({0.3, 0.31});
     list.getModel()->returnKeyPressed(0);
-    CHECK(session.axis().visible(session.viewWidth()).from < 0.01);
+    CHECK(session.viewState.axis().visible(session.viewState.viewWidth()).from < 0.01);
     list.getModel()->deleteKeyPressed(0);
-    REQUIRE(pumpUntil([&] { return session.item()->unfitting.empty(); }));
-    CHECK(session.item()->edits.size() == 0);
+    REQUIRE(pumpUntil([&] { return session.model.item()->unfitting.empty(); }));
+    CHECK(session.model.item()->edits.size() == 0);
     CHECK_FALSE(list.isVisible());
-    session.undo();
-    CHECK(session.item()->unfitting.size() == 1);
+    session.model.undo();
+    CHECK(session.model.item()->unfitting.size() == 1);
 }
 
 TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; a clip is no sound")
@@ -171,32 +171,32 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     Pages pages;
     auto& session = pages.session;
     const Clip before = pages.clip();
-    REQUIRE(session.edit("Gain", GainEdit{{}, -6.0}));
-    session.replaceSound(folder / "tone.wav");
+    REQUIRE(session.model.edit("Gain", GainEdit{{}, -6.0}));
+    session.sounds.replaceSound(folder / "tone.wav");
     REQUIRE(pumpUntil([&] { return analysed(session); }));
     CHECK(pages.clip().duration == Approx(1.0));
     CHECK(pages.clip().name == before.name);
-    CHECK(session.document().undoName() == "Replace sound");
-    REQUIRE(session.soundOfClip() != nullptr);
-    CHECK(session.soundOfClip()->duration() == Approx(1.0));
-    const Clip& analysis = *session.item()->analysis;
+    CHECK(session.model.document().undoName() == "Replace sound");
+    REQUIRE(session.sounds.soundOfClip() != nullptr);
+    CHECK(session.sounds.soundOfClip()->duration() == Approx(1.0));
+    const Clip& analysis = *session.model.item()->analysis;
     Clip expected = editor::importFile(folder / "tone.wav", {})->clip;
     expected.name = before.name;
     CHECK(analysis == expected);
     REQUIRE(pages.clip().envelope.size() == analysis.envelope.size());
     for (std::size_t i = 0; i < analysis.envelope.size(); ++i)
         CHECK(pages.clip().envelope[i].value == Approx(analysis.envelope[i].value * std::pow(10.0, -6.0 / 20.0)));
-    session.undo();
-    session.undo();
+    session.model.undo();
+    session.model.undo();
     CHECK(pages.clip() == before);
-    CHECK(session.soundOfClip()->duration() == Approx(before.duration));
+    CHECK(session.sounds.soundOfClip()->duration() == Approx(before.duration));
     juce::String told;
-    session.onError = [&](const juce::String&, const juce::String& text)
+    session.model.onError = [&](const juce::String&, const juce::String& text)
     {
         told = text;
     };
     put(folder / "clip.json", "{}");
-    session.replaceSound(folder / "clip.json");
+    session.sounds.replaceSound(folder / "clip.json");
     REQUIRE(pumpUntil([&] { return analysed(session); }));
     CHECK(told.isNotEmpty());
     CHECK(pages.clip() == before);
@@ -211,8 +211,8 @@ TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in 
     CHECK(pages.names() == Names{"knock_wood_bridge", "drums_tabla_pattern"});
     CHECK(list.chosenRow() == 1);
     list.choose(0);
-    CHECK(session.item()->clip->name == "knock_wood_bridge");
-    const Project before = session.document().project();
+    CHECK(session.model.item()->clip->name == "knock_wood_bridge");
+    const Project before = session.model.document().project();
     list.rename(0, "  Knock  ");
     list.rename(0, "");
     list.duplicate(0);
@@ -240,10 +240,10 @@ TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in 
     CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern", "Second"});
     list.remove(0);
     CHECK(pages.names() == Names{"drums_tabla_pattern", "Second"});
-    while (session.document().project().clips.size() != 2 || !(session.document().project() == before))
+    while (session.model.document().project().clips.size() != 2 || !(session.model.document().project() == before))
     {
-        REQUIRE(session.document().canUndo());
-        session.undo();
+        REQUIRE(session.model.document().canUndo());
+        session.model.undo();
     }
 }
 
@@ -282,17 +282,17 @@ TEST_CASE("Notes of clip and project are steps, each with the clip that they wer
     ofClip.setText("slower", true);
     ofProject.setText("for the wristband", true);
     ofClip.onTextChange();
-    const int typedFor = session.activeId();
+    const int typedFor = session.model.activeId();
     pages.project.clips().choose(0);
-    CHECK(session.document().clip(typedFor)->notes == "slower");
-    CHECK(session.document().project().notes == "for the wristband");
-    CHECK(session.item()->notes.empty());
+    CHECK(session.model.document().clip(typedFor)->notes == "slower");
+    CHECK(session.model.document().project().notes == "for the wristband");
+    CHECK(session.model.item()->notes.empty());
     CHECK(ofClip.getText().isEmpty());
     CHECK(ofProject.getText() == "for the wristband");
     pages.project.clips().choose(1);
     CHECK(ofClip.getText() == "slower");
-    session.undo();
-    session.undo();
+    session.model.undo();
+    session.model.undo();
     CHECK(ofClip.getText().isEmpty());
     CHECK(ofProject.getText().isEmpty());
 }

@@ -89,7 +89,7 @@ editor::Imported toneFrom2s()
 TEST_CASE("The spectrogram is bright where a tone sounds and nowhere else, and is chosen by menu or button")
 {
     EditorBench bench;
-    bench.session.add(toneFrom2s());
+    bench.session.sounds.add(toneFrom2s());
     auto& row = bench.view.clipView().soundRow();
     const int before = row.getHeight();
     REQUIRE(bench.view.doCommand(editor::showSpectrum));
@@ -102,7 +102,7 @@ TEST_CASE("The spectrogram is bright where a tone sounds and nowhere else, and i
     const int y = juce::roundToInt((1.0 - std::log(5.0) / std::log(100.0)) * (row.getHeight() - 1));
     const auto xOf = [&](double time)
     {
-        return 144 + juce::roundToInt(bench.session.axis().xOf(time));
+        return 144 + juce::roundToInt(bench.session.viewState.axis().xOf(time));
     };
     const double tone = brightness(image, {xOf(2.5), y - 2, 200, 4});
     CHECK(tone > 0.7);
@@ -115,27 +115,28 @@ TEST_CASE("The spectrogram is bright where a tone sounds and nowhere else, and i
             button = dynamic_cast<juce::Button*>(child);
     REQUIRE(button != nullptr);
     button->onClick();
-    CHECK(bench.session.viewOptions().sound == editor::SoundView::both);
+    CHECK(bench.session.viewState.viewOptions().sound == editor::SoundView::both);
     button->onClick();
-    CHECK(bench.session.viewOptions().sound == editor::SoundView::waveform);
+    CHECK(bench.session.viewState.viewOptions().sound == editor::SoundView::waveform);
     CHECK(row.getHeight() == before);
 }
 
 TEST_CASE("The actuator's rows tell that none is chosen, then what it plays and what is lost and why")
 {
     EditorBench bench({shipped("lra-175")});
-    bench.session.add(toneFrom2s());
+    bench.session.sounds.add(toneFrom2s());
     auto& row = bench.view.clipView().actuatorRow();
     const int low = row.getHeight();
     CHECK(row.trace() == nullptr);
-    bench.session.setProfile("lra-175");
+    bench.session.actuators.setProfile("lra-175");
     CHECK(row.getHeight() > low);
     Waiting waiting;
     REQUIRE(waiting.until([&] { return row.trace() != nullptr; }));
     CHECK(row.trace()->sources.size() == 2);
     const auto textAt = [&](double time, int y)
     {
-        return row.textAt({144.0f + static_cast<float>(bench.session.axis().xOf(time)), static_cast<float>(y)});
+        return row.textAt(
+            {144.0f + static_cast<float>(bench.session.viewState.axis().xOf(time)), static_cast<float>(y)});
     };
     const int bottom = row.getHeight();
     CHECK(textAt(3.0, 20).contains("dB of full drive"));
@@ -149,11 +150,11 @@ TEST_CASE("The actuator's rows tell that none is chosen, then what it plays and 
     const auto image = pictureOf(row);
     const auto xOf = [&](double time)
     {
-        return 144 + juce::roundToInt(bench.session.axis().xOf(time));
+        return 144 + juce::roundToInt(bench.session.viewState.axis().xOf(time));
     };
     CHECK(brightness(image, {xOf(2.5), bottom - 45, 100, 10}) >
           brightness(image, {xOf(0.5), bottom - 45, 100, 10}) + 0.2);
-    bench.session.setProfile({});
+    bench.session.actuators.setProfile({});
     CHECK(row.trace() == nullptr);
     CHECK(row.getHeight() == low);
 }
@@ -161,8 +162,8 @@ TEST_CASE("The actuator's rows tell that none is chosen, then what it plays and 
 TEST_CASE("An edit is rendered anew once the clip rests, and meanwhile the old is shown")
 {
     EditorBench bench({shipped("wideband-exciter")});
-    bench.session.setProfile("wideband-exciter");
-    bench.session.add(toneFrom2s());
+    bench.session.actuators.setProfile("wideband-exciter");
+    bench.session.sounds.add(toneFrom2s());
     auto& row = bench.view.clipView().actuatorRow();
     Waiting waiting;
     std::shared_ptr<const ActuatorTrace> first;
@@ -175,7 +176,7 @@ TEST_CASE("An edit is rendered anew once the clip rests, and meanwhile the old i
                 Clip edited = bench.clip();
                 edited.envelope = {{0.0, 0.1}, {4.0, 0.1}};
                 edited.bands[0].amplitude = {{0.0, 0.1}, {4.0, 0.1}};
-                bench.session.setClip("Edit", edited);
+                bench.session.model.setClip("Edit", edited);
                 CHECK(row.trace() == first);
             }
             return first && row.trace() != first && row.trace();
@@ -189,11 +190,11 @@ TEST_CASE("Follow goes through the view's commands, and the view stays when it i
 {
     EditorBench bench;
     bench.openDemo("knock_wood_bridge");
-    CHECK(bench.session.viewOptions().follow == Follow::page);
+    CHECK(bench.session.viewState.viewOptions().follow == Follow::page);
     REQUIRE(bench.view.doCommand(editor::followSmooth));
-    CHECK(bench.session.viewOptions().follow == Follow::smooth);
+    CHECK(bench.session.viewState.viewOptions().follow == Follow::smooth);
     REQUIRE(bench.view.doCommand(editor::followOff));
-    CHECK(bench.session.viewOptions().follow == Follow::off);
+    CHECK(bench.session.viewState.viewOptions().follow == Follow::off);
     const auto height = bench.view.clipView().actuatorRow().isVisible();
     REQUIRE(bench.view.doCommand(editor::showActuator));
     CHECK(bench.view.clipView().actuatorRow().isVisible() != height);
@@ -202,10 +203,10 @@ TEST_CASE("Follow goes through the view's commands, and the view stays when it i
 TEST_CASE("The meters get the peak of what is played, once")
 {
     EditorBench bench;
-    bench.session.add(toneFrom2s());
+    bench.session.sounds.add(toneFrom2s());
     bench.session.player.prepare(8000.0);
-    bench.session.setPlayhead(2.2);
-    bench.session.play();
+    bench.session.transport.setPlayhead(2.2);
+    bench.session.transport.play();
     std::array<float, 256> block{};
     float heard = 0.0f;
     for (int i = 0; i < 400 && heard < 0.1f; ++i)
@@ -233,7 +234,7 @@ TEST_CASE("Moving one point redraws what lies about it and nothing else")
     juce::RectangleList<int> dirty;
     view.setCachedComponentImage(new Repaints(dirty));
     dirty.clear(); // of having been set
-    bench.session.setClip("Edit", edited);
+    bench.session.model.setClip("Edit", edited);
     view.setCachedComponentImage(nullptr);
     const auto& row = bench.row({LaneKind::envelope, 0});
     const auto place = view.getLocalPoint(&row, placeOf(row, bench.session, before.envelope[k])).roundToInt();
@@ -258,7 +259,7 @@ TEST_CASE("A point more is told in the head, and bands that stay as they are are
     juce::RectangleList<int> dirty;
     view.setCachedComponentImage(new Repaints(dirty));
     dirty.clear(); // of having been set
-    bench.session.setClip("Edit", edited);
+    bench.session.model.setClip("Edit", edited);
     view.setCachedComponentImage(nullptr);
     const auto headOf = [&](Lane lane)
     {
@@ -279,7 +280,7 @@ TEST_CASE("Lanes of noise are named by their frequencies")
     editor::Imported imported = toneFrom2s();
     const Curve level = {{0.0, 0.1}, {4.0, 0.2}};
     imported.clip.noise = {{40.0, 125.0, level}, {500.0, 2000.0, level}};
-    bench.session.add(std::move(imported));
+    bench.session.sounds.add(std::move(imported));
     const auto title = [&](std::size_t k)
     {
         return bench.row({LaneKind::noise, k}).getTitle();
@@ -288,6 +289,6 @@ TEST_CASE("Lanes of noise are named by their frequencies")
     CHECK(title(1) == juce::String::fromUTF8("Noise 0.50–2.0 kHz"));
     Clip edited = bench.clip();
     edited.noise[0].highFrequency = 130.0;
-    bench.session.setClip("Edit", edited);
+    bench.session.model.setClip("Edit", edited);
     CHECK(title(0) == juce::String::fromUTF8("Noise 40–130 Hz"));
 }

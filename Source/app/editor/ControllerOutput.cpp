@@ -14,14 +14,22 @@ constexpr double shortestLoop = 0.05;      // s
 constexpr double nearStart = 0.02;         // s
 } // namespace
 
-ControllerOutput::ControllerOutput(editor::Session& shared) : session(shared)
+ControllerOutput::ControllerOutput(const editor::EditorModel& project, const editor::ClipSelection& selected,
+                                   const editor::Transport& playing)
+    : edited(project), clipSelection(selected), transport(playing)
 {
-    session.listeners.add(this);
-}
-
-ControllerOutput::~ControllerOutput()
-{
-    session.listeners.remove(this);
+    subscriptions.on({&transport.changed, &edited.versionChanged},
+                     [this]
+                     {
+                         if (target)
+                             start();
+                     });
+    subscriptions.on({&edited.contentChanged, &clipSelection.rangeChanged, &transport.loopChanged},
+                     [this]
+                     {
+                         if (target && transport.isPlaying())
+                             restartAt = juce::Time::getMillisecondCounter() + restartDelay;
+                     });
 }
 
 Result<void> ControllerOutput::choose(const std::optional<devices::Controller>& wanted)
@@ -55,15 +63,15 @@ void ControllerOutput::silence()
 void ControllerOutput::start()
 {
     silence();
-    const auto clip = session.clip();
-    if (!target || !clip || !session.isPlaying() || session.heard() == editor::Heard::sound)
+    const auto clip = edited.clip();
+    if (!target || !clip || !transport.isPlaying() || transport.heard() == editor::Heard::sound)
         return;
-    const double here = session.playhead();
+    const double here = transport.playhead();
     devices::PlayRange range{Seconds(here), Seconds(clip->duration), false};
-    if (session.isLooping())
+    if (transport.isLooping())
     {
         // From the middle of a loop it plays to its end, and from then on whole passes.
-        const TimeRange looped = session.timeRange().value_or(TimeRange{0.0, clip->duration});
+        const TimeRange looped = clipSelection.timeRange().value_or(TimeRange{0.0, clip->duration});
         range = {Seconds(here), Seconds(looped.to), false};
         if (here - looped.from < nearStart && looped.to - looped.from >= shortestLoop)
             range = {Seconds(looped.from), Seconds(looped.to), true};
@@ -78,21 +86,11 @@ void ControllerOutput::start()
                                                      *target, *clock);
 }
 
-void ControllerOutput::sessionChanged(unsigned changes)
-{
-    if (!target)
-        return;
-    if ((changes & editor::Session::playback) != 0)
-        start();
-    else if ((changes & (editor::Session::content | editor::Session::range)) != 0 && session.isPlaying())
-        restartAt = juce::Time::getMillisecondCounter() + restartDelay;
-}
-
 void ControllerOutput::timerCallback()
 {
-    if (!session.isPlaying())
+    if (!transport.isPlaying())
         return silence();
-    const double here = session.playhead();
+    const double here = transport.playhead();
     const bool jumpedBack = here < lastPlayhead && !loops;
     lastPlayhead = here;
     if (player && !player->isPlaying())
@@ -110,8 +108,8 @@ void ControllerOutput::tellFailure()
         return;
     const juce::String name = editor::toText(controller->name);
     (void)choose(std::nullopt);
-    if (session.onError)
-        session.onError(name + " does not play any more", editor::toText(result.error().text()));
+    if (edited.onError)
+        edited.onError(name + " does not play any more", editor::toText(result.error().text()));
 }
 
 } // namespace pacini::app

@@ -6,7 +6,7 @@
 #include "devices/HidList.h"
 #include "devices/OpenController.h"
 #include "devices/RumblePlayer.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
 
 #include <memory>
 #include <optional>
@@ -19,11 +19,11 @@ namespace pacini::app
 /// Follows the session: plays when it plays, from the same place, and is silent when it is. Edits are felt from the
 /// next restart on, which follows the last of them within a fifth of a second. The sender has a thread of its own.
 /// [message]
-class ControllerOutput final : private editor::Session::Listener, private juce::Timer
+class ControllerOutput final : private juce::Timer
 {
 public:
-    explicit ControllerOutput(editor::Session& shared);
-    ~ControllerOutput() override;
+    ControllerOutput(const editor::EditorModel& project, const editor::ClipSelection& selected,
+                     const editor::Transport& playing);
 
     /// What is connected now. Errors as in connectedControllers().
     [[nodiscard]] static Result<std::vector<devices::Controller>> connected()
@@ -43,13 +43,14 @@ public:
     }
 
 private:
-    void sessionChanged(unsigned changes) override;
     void timerCallback() override;
     void start();
     void silence();
     void tellFailure();
 
-    editor::Session& session;
+    const editor::EditorModel& edited;
+    const editor::ClipSelection& clipSelection;
+    const editor::Transport& transport;
     std::optional<devices::Controller> controller;
     devices::ControllerModel model; ///< of the controller
     juce::uint32 restartAt = 0;     ///< ms, 0: no restart is due
@@ -58,6 +59,7 @@ private:
     std::unique_ptr<devices::OpenController> target;
     std::unique_ptr<devices::SteadyClock> clock;
     std::unique_ptr<devices::RumblePlayer> player; // ends before the others
+    editor::Subscriptions subscriptions;
 };
 
 } // namespace pacini::app

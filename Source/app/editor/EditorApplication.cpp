@@ -94,7 +94,7 @@ public:
             home.createDirectory();
             settings = std::make_unique<EditorSettings>(home);
         }
-        editor::Session::Folders folders;
+        editor::EditorModel::Folders folders;
         if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
         auto profiles = plugin::shelfProfiles();
@@ -171,7 +171,7 @@ private:
     void leave()
     {
         // The user has decided about what was not saved.
-        session->discardAutosave();
+        session->model.discardAutosave();
         quit();
     }
 

@@ -41,31 +41,31 @@ void EditorSettings::apply(PreviewRig& rig) const
 
 void EditorSettings::apply(editor::EditorView& view) const
 {
-    editor::Session& session = view.session();
+    editor::ViewState& viewState = view.session().viewState;
     view.setDark(file.getBoolValue("dark", true));
     view.setScale(file.getDoubleValue("scale", 1.0));
-    session.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
-    session.setLaneHeight(file.getIntValue("laneHeight", session.laneHeight()));
-    editor::ViewOptions options = session.viewOptions();
-    SnapTargets snap = session.snapTargets();
+    viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
+    viewState.setLaneHeight(file.getIntValue("laneHeight", viewState.laneHeight()));
+    editor::ViewOptions options = viewState.viewOptions();
+    SnapTargets snap = viewState.snapTargets();
     forAll(options, snap, [this](const char* name, bool& value) { value = file.getBoolValue(name, value); });
     options.sound =
         static_cast<SoundView>(juce::jlimit(0, static_cast<int>(SoundView::both), file.getIntValue("soundView", 0)));
     options.follow = static_cast<Follow>(
         juce::jlimit(0, static_cast<int>(Follow::smooth), file.getIntValue("follow", static_cast<int>(Follow::page))));
-    session.setViewOptions(options);
-    session.setSnapTargets(snap);
+    viewState.setViewOptions(options);
+    viewState.setSnapTargets(snap);
 }
 
 void EditorSettings::keep(PreviewRig& rig, editor::EditorView& view, const juce::String& windowState)
 {
-    editor::Session& session = view.session();
+    editor::ViewState& viewState = view.session().viewState;
     file.setValue("dark", view.isDark());
     file.setValue("scale", view.scale());
-    file.setValue("decibels", session.amplitudesInDecibels());
-    file.setValue("laneHeight", session.laneHeight());
-    editor::ViewOptions options = session.viewOptions();
-    SnapTargets snap = session.snapTargets();
+    file.setValue("decibels", viewState.amplitudesInDecibels());
+    file.setValue("laneHeight", viewState.laneHeight());
+    editor::ViewOptions options = viewState.viewOptions();
+    SnapTargets snap = viewState.snapTargets();
     forAll(options, snap, [this](const char* name, bool& value) { file.setValue(name, value); });
     file.setValue("soundView", static_cast<int>(options.sound));
     file.setValue("follow", static_cast<int>(options.follow));

@@ -10,7 +10,7 @@ namespace pacini::app
 EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, editor::Surroundings around)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
-      controllers(session),
+      controllers(session.model, session.clipSelection, session.transport),
       content(session, completed(std::move(around)))
 {
     setUsingNativeTitleBar(true);

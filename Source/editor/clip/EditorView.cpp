@@ -37,12 +37,12 @@ EditorView::EditorView(Session& shared, Surroundings around)
     : open(shared),
       host(std::move(around)),
       menuBar(&menuList),
-      toolbar(shared),
+      toolbar(shared.model, shared.actuators, shared.transport),
       clipPart(shared),
       side(*this),
-      meters(shared),
-      empty(shared, host.demoSounds),
-      workBar(shared)
+      meters(shared.actuators, shared.transport, shared.player),
+      empty(shared.model, host.demoSounds),
+      workBar(shared.model, shared.sounds)
 {
     setLookAndFeel(&look);
     tooltips.setLookAndFeel(&look);
@@ -71,24 +71,33 @@ EditorView::EditorView(Session& shared, Surroundings around)
     {
         fileQuestions.open({file});
     };
-    open.onError = [this](const juce::String& title, const juce::String& text)
+    open.model.onError = [this](const juce::String& title, const juce::String& text)
     {
         showMessage(std::make_unique<MessageSheet>(title, text, std::vector<Sheet::Answer>{{"Close", {}}}));
     };
-    open.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
+    open.sounds.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
     {
         fileQuestions.tellMissing(missing);
     };
     translateTexts(body);
-    open.listeners.add(this);
+    subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
+                     [this] { arrange(); });
+    subscriptions.on({&open.model.projectChanged, &open.model.versionChanged, &open.clipSelection.changed,
+                      &open.clipSelection.rangeChanged, &open.transport.changed, &open.transport.loopChanged,
+                      &open.sounds.workChanged},
+                     [this]
+                     {
+                         menuList.refresh();
+                         if (onTitleChanged)
+                             onTitleChanged();
+                     });
     arrange();
 }
 
 EditorView::~EditorView()
 {
-    open.listeners.remove(this);
-    open.onError = nullptr;
-    open.onSoundsMissing = nullptr;
+    open.model.onError = nullptr;
+    open.sounds.onSoundsMissing = nullptr;
     removeKeyListener(menuList.keys());
     menuBar.setModel(nullptr);
     sheetNow.reset();
@@ -98,9 +107,9 @@ EditorView::~EditorView()
 
 juce::String EditorView::title() const
 {
-    const auto& path = open.document().path();
-    return (path.empty() ? juce::String("Untitled") : pathText(path.stem())) + (open.document().isDirty() ? " *" : "") +
-           " - Pacini Editor";
+    const auto& path = open.model.document().path();
+    return (path.empty() ? juce::String("Untitled") : pathText(path.stem())) +
+           (open.model.document().isDirty() ? " *" : "") + " - Pacini Editor";
 }
 
 void EditorView::setDark(bool dark)
@@ -117,21 +126,9 @@ void EditorView::setScale(double wanted)
     resized();
 }
 
-void EditorView::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::project | Session::content | Session::work)) != 0)
-        arrange();
-    if ((changes & (Session::project | Session::selection | Session::range | Session::playback | Session::work)) != 0)
-    {
-        menuList.refresh();
-        if (onTitleChanged)
-            onTitleChanged();
-    }
-}
-
 void EditorView::arrange()
 {
-    const bool any = open.clip() != nullptr || open.isShowingUnanalysed();
+    const bool any = open.model.clip() != nullptr || open.model.isShowingUnanalysed();
     clipPart.setVisible(any);
     side.setVisible(any);
     meters.setVisible(any);
@@ -166,7 +163,7 @@ bool EditorView::keyStateChanged(bool)
 {
     if (drawKey.isDown() && !juce::KeyPress::isKeyCurrentlyDown(drawKeyCode) &&
         drawKey.release(juce::Time::getMillisecondCounter()))
-        open.setDrawing(!open.isDrawing());
+        open.viewState.setDrawing(!open.viewState.isDrawing());
     return false;
 }
 
@@ -175,7 +172,7 @@ void EditorView::switchDrawing()
     // A key that is held repeats; its release decides.
     const bool byKey = isShowing() && juce::KeyPress::isKeyCurrentlyDown(drawKeyCode);
     if (!byKey || drawKey.press(juce::Time::getMillisecondCounter()))
-        open.setDrawing(!open.isDrawing());
+        open.viewState.setDrawing(!open.viewState.isDrawing());
 }
 
 void EditorView::takeFocus()

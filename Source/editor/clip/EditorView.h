@@ -41,7 +41,7 @@ struct Surroundings
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.
-class EditorView final : public juce::Component, public juce::FileDragAndDropTarget, private Session::Listener
+class EditorView final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:
     EditorView(Session& shared, Surroundings around);
@@ -88,7 +88,6 @@ private:
     void fileDragExit(const juce::StringArray&) override { empty.setDropping(false); }
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
-    void sessionChanged(unsigned changes) override;
     void arrange();
 
     Session& open;
@@ -109,6 +108,7 @@ private:
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     HeldSwitch drawKey;
     juce::TooltipWindow tooltips{&body, 600};
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -22,8 +22,8 @@ juce::String shownName(const std::filesystem::path& file)
 }
 } // namespace
 
-EmptyState::EmptyState(Session& shared, std::vector<std::filesystem::path> demoSounds)
-    : session(shared), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
+EmptyState::EmptyState(EditorModel& project, std::vector<std::filesystem::path> demoSounds)
+    : model(project), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
 {
     setTitle("No clip yet");
     openButton.setTooltip("Opens sounds, clips and projects (Ctrl+O)");
@@ -32,19 +32,8 @@ EmptyState::EmptyState(Session& shared, std::vector<std::filesystem::path> demoS
         onOpen();
     };
     addAndMakeVisible(openButton);
-    session.listeners.add(this);
+    subscriptions.on({&model.projectChanged}, [this] { fill(); });
     fill();
-}
-
-EmptyState::~EmptyState()
-{
-    session.listeners.remove(this);
-}
-
-void EmptyState::sessionChanged(unsigned changes)
-{
-    if ((changes & Session::project) != 0)
-        fill();
 }
 
 void EmptyState::fill()
@@ -65,7 +54,7 @@ void EmptyState::fill()
     recentButtons.clear();
     for (std::size_t i = 0; i < std::min(demos.size(), mostDemos); ++i)
         make(demoButtons, demos[i], "Opens the demo sound ");
-    for (const auto& file : session.recentFiles().files())
+    for (const auto& file : model.recentFiles().files())
         if (recentButtons.size() < mostRecent && RecentFiles::exists(file))
             make(recentButtons, file, "Opens the project ");
     resized();

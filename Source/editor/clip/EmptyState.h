@@ -3,7 +3,7 @@
 
 // What an editor without a clip shows.
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/EditorModel.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -15,11 +15,10 @@
 namespace pacini::editor
 {
 
-class EmptyState final : public juce::Component, private Session::Listener
+class EmptyState final : public juce::Component
 {
 public:
-    EmptyState(Session& shared, std::vector<std::filesystem::path> demoSounds);
-    ~EmptyState() override;
+    EmptyState(EditorModel& project, std::vector<std::filesystem::path> demoSounds);
 
     std::function<void()> onOpen;
     std::function<void(const std::filesystem::path&)> onFile;
@@ -29,15 +28,15 @@ public:
     void resized() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void fill();
     [[nodiscard]] juce::Rectangle<int> field() const;
 
-    Session& session;
+    EditorModel& model;
     std::vector<std::filesystem::path> demos;
     juce::TextButton openButton;
     std::vector<std::unique_ptr<juce::TextButton>> demoButtons, recentButtons;
     bool dropNow = false;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -32,7 +32,7 @@ void ProjectFiles::open(const std::vector<std::filesystem::path>& files)
 {
     const auto openThem = [&session = view.session(), files]
     {
-        session.openFiles(files);
+        session.sounds.openFiles(files);
     };
     if (std::any_of(files.begin(), files.end(), isProject))
         whenSaved(openThem);
@@ -66,9 +66,9 @@ void ProjectFiles::openSample()
             const auto text = readWholeFile(file, largestProjectText);
             auto read = text ? readProjectJson(*text, file.parent_path()) : Result<ReadProject>(text.error());
             if (read)
-                session.openProject(std::move(read->project));
+                session.model.openProject(std::move(read->project));
             else
-                session.onError("The sample project was not opened", toText(read.error().text()));
+                session.model.onError("The sample project was not opened", toText(read.error().text()));
         });
 }
 
@@ -118,7 +118,8 @@ void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
     const auto find = [this, start = missing.front().path]
     {
         askForSound("Find " + pathText(start.filename()), start,
-                    [&session = view.session()](const std::filesystem::path& file) { session.findSounds(file); });
+                    [&session = view.session()](const std::filesystem::path& file)
+                    { session.sounds.findSounds(file); });
     };
     const bool one = missing.size() == 1;
     view.showMessage(std::make_unique<MessageSheet>(
@@ -131,9 +132,9 @@ void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
 void ProjectFiles::whenSaved(std::function<void()> next)
 {
     Session& session = view.session();
-    if (!session.document().isDirty() || session.isEmpty())
+    if (!session.model.document().isDirty() || session.model.isEmpty())
         return next();
-    const auto& path = session.document().path();
+    const auto& path = session.model.document().path();
     view.showSheet(
         std::make_unique<MessageSheet>("Save the changes?",
                                        (path.empty() ? juce::String("This project has never been saved.")
@@ -147,7 +148,7 @@ void ProjectFiles::whenSaved(std::function<void()> next)
                                                                   {"Don't save",
                                                                    [&session, next]
                                                                    {
-                                                                       session.discardAutosave();
+                                                                       session.model.discardAutosave();
                                                                        next();
                                                                    }},
                                                                   {"Cancel", {}}}));
@@ -175,9 +176,9 @@ void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem
 
 void ProjectFiles::save(std::function<void()> next)
 {
-    if (view.session().document().path().empty())
+    if (view.session().model.document().path().empty())
         return saveAs(std::move(next));
-    finishSaving(view.session().save(), view.session().document().path(), next);
+    finishSaving(view.session().model.save(), view.session().model.document().path(), next);
 }
 
 void ProjectFiles::saveAs(std::function<void()> next)
@@ -188,7 +189,7 @@ void ProjectFiles::saveAs(std::function<void()> next)
                if (chosen.isEmpty())
                    return;
                const auto file = pathOf(chosen[0].withFileExtension("pacini"));
-               finishSaving(view.session().saveAs(file), file, next);
+               finishSaving(view.session().model.saveAs(file), file, next);
            });
 }
 
@@ -197,7 +198,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
                           const std::filesystem::path& wantedStart)
 {
     const bool saving = purpose == Purpose::saving;
-    const auto& path = view.session().document().path();
+    const auto& path = view.session().model.document().path();
     juce::File start =
         path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : juce::File(pathText(path));
     if (saving && path.empty())
@@ -230,7 +231,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
 void ProjectFiles::offerRecovery()
 {
     Session& session = view.session();
-    const auto found = session.recoverable();
+    const auto found = session.model.recoverable();
     const auto usable =
         std::find_if(found.begin(), found.end(), [](const Recoverable& entry) { return !entry.problem; });
     if (usable == found.end())
@@ -241,8 +242,8 @@ void ProjectFiles::offerRecovery()
     const juce::Time when(static_cast<juce::int64>(usable->time * 1000.0));
     const auto restore = [&session, entry = *usable]
     {
-        if (const auto done = session.recover(entry); !done)
-            session.onError("Not restored", toText(done.error().text()));
+        if (const auto done = session.model.recover(entry); !done)
+            session.model.onError("Not restored", toText(done.error().text()));
     };
     view.showMessage(std::make_unique<MessageSheet>(
         "Restore unsaved work?",

@@ -20,8 +20,10 @@ juce::String clockText(double seconds)
 }
 } // namespace
 
-Toolbar::Toolbar(Session& shared)
-    : session(shared),
+Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
+    : model(project),
+      actuators(profiles),
+      transport(playing),
       startButton("|<"),
       playButton("Play"),
       zoomOutButton(toText("−")),
@@ -74,44 +76,32 @@ Toolbar::Toolbar(Session& shared)
     heard.addItem("Both", 1 + static_cast<int>(Heard::both));
     heard.onChange = [this]
     {
-        session.setHeard(static_cast<Heard>(heard.getSelectedId() - 1));
+        transport.setHeard(static_cast<Heard>(heard.getSelectedId() - 1));
     };
     fillProfiles();
     profile.onChange = [this]
     {
         const int chosen = profile.getSelectedId() - plainDrive - 1;
-        session.setProfile(chosen < 0 ? std::string() : session.profiles()[static_cast<std::size_t>(chosen)].name);
+        actuators.setProfile(chosen < 0 ? std::string() : actuators.profiles()[static_cast<std::size_t>(chosen)].name);
     };
     clips.onChange = [this]
     {
         if (clips.getSelectedId() > 0)
-            session.show(clips.getSelectedId());
+            model.show(clips.getSelectedId());
     };
-    session.listeners.add(this);
+    subscriptions.on({&model.projectChanged}, [this] { fillClips(); });
+    subscriptions.on({&actuators.listChanged}, [this] { fillProfiles(); });
+    subscriptions.on({&model.contentChanged, &model.projectChanged, &transport.changed, &transport.loopChanged,
+                      &actuators.changed, &actuators.listChanged},
+                     [this] { showState(); });
     fillClips();
     showState();
     startTimerHz(30);
 }
 
-Toolbar::~Toolbar()
-{
-    session.listeners.remove(this);
-}
-
-void Toolbar::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::project | Session::content)) != 0)
-        fillClips();
-    if ((changes & Session::profileList) != 0)
-        fillProfiles();
-    if ((changes & (Session::project | Session::playback | Session::range | Session::content | Session::profileList)) !=
-        0)
-        showState();
-}
-
 void Toolbar::fillClips()
 {
-    const auto& items = session.document().project().clips;
+    const auto& items = model.document().project().clips;
     bool same = clips.getNumItems() == static_cast<int>(items.size());
     for (std::size_t i = 0; same && i < items.size(); ++i)
         same = clips.getItemId(static_cast<int>(i)) == items[i]->id &&
@@ -123,8 +113,8 @@ void Toolbar::fillClips()
             clips.addItem(item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name),
                           item->id);
     }
-    clips.setSelectedId(session.activeId(), juce::dontSendNotification);
-    clips.setTextWhenNothingSelected(session.isShowingUnanalysed() ? "Being analysed" : "No clip");
+    clips.setSelectedId(model.activeId(), juce::dontSendNotification);
+    clips.setTextWhenNothingSelected(model.isShowingUnanalysed() ? "Being analysed" : "No clip");
     clips.setEnabled(!items.empty());
 }
 
@@ -132,24 +122,24 @@ void Toolbar::fillProfiles()
 {
     profile.clear(juce::dontSendNotification);
     profile.addItem("None (plain drive)", plainDrive);
-    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+    for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
     {
-        const NamedProfile& entry = session.profiles()[i];
+        const NamedProfile& entry = actuators.profiles()[i];
         profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
     }
 }
 
 void Toolbar::showState()
 {
-    playButton.setButtonText(tr(session.isPlaying() ? "Pause" : "Play"));
-    loopButton.setToggleState(session.isLooping(), juce::dontSendNotification);
-    heard.setSelectedId(1 + static_cast<int>(session.heard()), juce::dontSendNotification);
+    playButton.setButtonText(tr(transport.isPlaying() ? "Pause" : "Play"));
+    loopButton.setToggleState(transport.isLooping(), juce::dontSendNotification);
+    heard.setSelectedId(1 + static_cast<int>(transport.heard()), juce::dontSendNotification);
     int chosen = plainDrive;
-    for (std::size_t i = 0; i < session.profiles().size(); ++i)
-        if (session.profiles()[i].name == session.profileName())
+    for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
+        if (actuators.profiles()[i].name == actuators.profileName())
             chosen = plainDrive + 1 + static_cast<int>(i);
     profile.setSelectedId(chosen, juce::dontSendNotification);
-    const bool any = session.clip() != nullptr;
+    const bool any = model.clip() != nullptr;
     for (juce::Component* one : std::initializer_list<juce::Component*>{&startButton, &playButton, &loopButton,
                                                                         &zoomOutButton, &zoomInButton, &fitButton})
         one->setEnabled(any);
@@ -158,10 +148,11 @@ void Toolbar::showState()
 
 void Toolbar::showTime()
 {
-    const auto clip = session.clip();
-    time.setText(clip ? clockText(session.playhead()) + " / " + clockText(clip->duration) : juce::String("-:-- / -:--"),
+    const auto clip = model.clip();
+    time.setText(clip ? clockText(transport.playhead()) + " / " + clockText(clip->duration)
+                      : juce::String("-:-- / -:--"),
                  juce::dontSendNotification);
-    const juce::String wanted = tr(session.isPlaying() ? "Pause" : "Play");
+    const juce::String wanted = tr(transport.isPlaying() ? "Pause" : "Play");
     if (playButton.getButtonText() != wanted)
         playButton.setButtonText(wanted);
 }

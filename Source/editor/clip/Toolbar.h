@@ -4,7 +4,7 @@
 // Playing, zooming, the actuator and the clip, always in sight.
 
 #include "editor/clip/commands/Command.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -13,11 +13,10 @@
 namespace pacini::editor
 {
 
-class Toolbar final : public juce::Component, private Session::Listener, private juce::Timer
+class Toolbar final : public juce::Component, private juce::Timer
 {
 public:
-    explicit Toolbar(Session& shared);
-    ~Toolbar() override;
+    Toolbar(EditorModel& project, Actuators& profiles, Transport& playing);
 
     std::function<void(Command)> onCommand;
 
@@ -25,18 +24,20 @@ public:
     void resized() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void timerCallback() override { showTime(); }
     void showTime();
     void fillClips();
     void fillProfiles();
     void showState();
 
-    Session& session;
+    EditorModel& model;
+    Actuators& actuators;
+    Transport& transport;
     juce::TextButton startButton, playButton, zoomOutButton, zoomInButton, fitButton;
     juce::ToggleButton loopButton;
     juce::Label time, clipLabel, heardLabel, profileLabel;
     juce::ComboBox clips, heard, profile;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -14,23 +14,19 @@ constexpr int ticksPerSecond = 20;
 constexpr int barHeight = 4;
 } // namespace
 
-WorkBar::WorkBar(Session& shared) : session(shared), stopButton("Stop")
+WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
+    : model(project), sounds(projectSounds), stopButton("Stop")
 {
     setTitle("Progress");
     stopButton.setTooltip("Leaves out what is not read and analysed yet (Escape)");
     stopButton.setTitle("Stop opening and analysing");
     stopButton.onClick = [this]
     {
-        session.stopWork();
+        sounds.stopWork();
     };
     addAndMakeVisible(stopButton);
-    session.listeners.add(this);
-    sessionChanged(Session::work);
-}
-
-WorkBar::~WorkBar()
-{
-    session.listeners.remove(this);
+    subscriptions.on({&sounds.workChanged}, [this] { follow(); });
+    follow();
 }
 
 std::unique_ptr<juce::AccessibilityHandler> WorkBar::createAccessibilityHandler()
@@ -38,11 +34,9 @@ std::unique_ptr<juce::AccessibilityHandler> WorkBar::createAccessibilityHandler(
     return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::group);
 }
 
-void WorkBar::sessionChanged(unsigned changes)
+void WorkBar::follow()
 {
-    if ((changes & Session::work) == 0)
-        return;
-    if (!session.workNow())
+    if (!sounds.workNow())
     {
         stopTimer();
         setVisible(false);
@@ -50,7 +44,7 @@ void WorkBar::sessionChanged(unsigned changes)
         return;
     }
     // A sound that waits for its curves must say so at once.
-    if (session.isShowingUnanalysed())
+    if (model.isShowingUnanalysed())
         timerCallback();
     if (!isTimerRunning())
         startTimerHz(ticksPerSecond);
@@ -58,8 +52,8 @@ void WorkBar::sessionChanged(unsigned changes)
 
 void WorkBar::timerCallback()
 {
-    const auto now = session.workNow();
-    if (!now || (++ticks < 3 && !session.isShowingUnanalysed()))
+    const auto now = sounds.workNow();
+    if (!now || (++ticks < 3 && !model.isShowingUnanalysed()))
         return;
     if (!isVisible() || shown.text != now->text)
         setDescription(now->text);

@@ -3,7 +3,7 @@
 
 // What is being read and analysed, how far it is, and a button that stops it.
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ProjectSounds.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -11,25 +11,26 @@ namespace pacini::editor
 {
 
 /// Shows itself when work has gone on for a moment, and hides itself when it is done.
-class WorkBar final : public juce::Component, private Session::Listener, private juce::Timer
+class WorkBar final : public juce::Component, private juce::Timer
 {
 public:
-    explicit WorkBar(Session& shared);
-    ~WorkBar() override;
+    WorkBar(const EditorModel& project, ProjectSounds& projectSounds);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
+    void follow();
     void timerCallback() override;
     [[nodiscard]] juce::Rectangle<int> bar() const;
 
-    Session& session;
+    const EditorModel& model;
+    ProjectSounds& sounds;
     juce::TextButton stopButton;
     WorkState shown;
     int ticks = 0; ///< since the work began
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -2,6 +2,10 @@
 #include "editor/measure/MeasureDesk.h"
 
 #include "document/measure/SimulatedMeasureRig.h"
+#include "editor/Text.h"
+#include "io/AudioFile.h"
+#include "io/ProfileFile.h"
+#include "io/SweepFile.h"
 
 #include <pacini/linearize/SweepSchedule.h>
 
@@ -11,11 +15,22 @@
 namespace pacini::editor
 {
 
-MeasureDesk::MeasureDesk(Session& shared, Surroundings wanted) : session(shared), around(std::move(wanted))
+namespace
 {
-    for (std::size_t i = 0; i < session.profiles().size(); ++i)
+constexpr double soundRate = 48000.0; // Hz, of sweeps for other players
+
+std::filesystem::path describing(std::filesystem::path sound)
+{
+    return sound.replace_extension(".json");
+}
+} // namespace
+
+MeasureDesk::MeasureDesk(Actuators& profiles, Transport& playing, Surroundings wanted)
+    : actuators(profiles), transport(playing), around(std::move(wanted))
+{
+    for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
     {
-        const Profile& profile = *session.profiles()[i].profile;
+        const Profile& profile = *actuators.profiles()[i].profile;
         if (profile.body && profile.technology != Technology::erm)
             simulated.push_back(i);
     }
@@ -81,7 +96,7 @@ std::vector<std::string> MeasureDesk::rigNames() const
     if (around.device)
         names.push_back("Sound device");
     for (const std::size_t i : simulated)
-        names.push_back("Simulated: " + session.profiles()[i].profile->name);
+        names.push_back("Simulated: " + actuators.profiles()[i].profile->name);
     if (names.empty())
         names.push_back("Simulated wristband");
     return names;
@@ -97,7 +112,7 @@ void MeasureDesk::chooseRig(std::size_t index)
     {
         number -= around.device ? 1u : 0u;
         wanted = std::make_shared<SimulatedMeasureRig>(
-            number < simulated.size() ? SimulatedMeasureRig::paramsOf(*session.profiles()[simulated[number]].profile)
+            number < simulated.size() ? SimulatedMeasureRig::paramsOf(*actuators.profiles()[simulated[number]].profile)
                                       : RigParams(),
             around.simulatedSpeed);
     }
@@ -170,15 +185,15 @@ void MeasureDesk::setSettings(const MeasureSettings& settings)
 std::vector<std::string> MeasureDesk::profileNames() const
 {
     std::vector<std::string> names;
-    for (const NamedProfile& entry : session.profiles())
+    for (const NamedProfile& entry : actuators.profiles())
         names.push_back(entry.profile->name);
     return names;
 }
 
 void MeasureDesk::setBase(std::optional<std::size_t> profile)
 {
-    baseNow = profile && *profile < session.profiles().size() ? profile : std::nullopt;
-    work.setBase(baseNow ? session.profiles()[*baseNow].profile : nullptr);
+    baseNow = profile && *profile < actuators.profiles().size() ? profile : std::nullopt;
+    work.setBase(baseNow ? actuators.profiles()[*baseNow].profile : nullptr);
     changed();
 }
 
@@ -233,7 +248,7 @@ void MeasureDesk::sweep()
     connect();
     if (auto reason = obstacle(); !reason.empty())
         return fail(false, std::move(reason));
-    session.stop();
+    transport.stop();
     setTone(false);
     playedSweep = sweepOf(work.settings(), portsNow.sampleRate);
     playedGain = 0.0;
@@ -256,7 +271,7 @@ void MeasureDesk::verify()
     connect();
     if (auto reason = obstacle(); !reason.empty())
         return fail(true, std::move(reason));
-    session.stop();
+    transport.stop();
     setTone(false);
     auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, portsNow.sampleRate, true);
     if (!made)
@@ -376,6 +391,104 @@ void MeasureDesk::setTolerance(double decibels)
 {
     work.setTolerance(decibels);
     changed();
+}
+
+// What is read and written: sweeps for other players; recordings of theirs; the profile.
+
+Result<void> MeasureDesk::saveSweep(const std::filesystem::path& sound, bool throughEqualizer)
+{
+    if (throughEqualizer && work.equalizer() == nullptr)
+        return Error{ErrorCode::invalidArgument, "", "There is no equaliser yet."};
+    SweepFile file;
+    if (throughEqualizer)
+        file.equalizedFor = "the actuator that is measured";
+    auto made = throughEqualizer ? verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate, true)
+                                 : verifyingSweep(work.settings(), {}, soundRate);
+    if (!made)
+        return made.error();
+    file.sweep = made->sweep;
+    file.gain = made->gain;
+    AudioWriteParams writing;
+    writing.sampleRate = static_cast<int>(soundRate);
+    writing.encoding = SampleEncoding::pcm24;
+    writing.expectedFrames = made->signal.size();
+    if (const auto written = writeAudio(sound, made->signal, writing); !written)
+        return written.error();
+    if (const auto written = writeSweepFile(describing(sound), file); !written)
+        return written.error();
+    return {};
+}
+
+void MeasureDesk::readRecording(const std::filesystem::path& file, bool throughEqualizer)
+{
+    if (doing != Activity::none || (throughEqualizer && work.equalizer() == nullptr))
+        return;
+    (throughEqualizer ? verifyTrouble : sweepTrouble).clear();
+    auto audio = readAudio(file);
+    if (!audio)
+        return fail(throughEqualizer, file.filename().string() + " was not read: " + audio.error().text() + ".");
+    const auto width = static_cast<std::size_t>(audio->channels);
+    if (width > mostInputs)
+        return fail(throughEqualizer,
+                    file.filename().string() + " has " + std::to_string(width) +
+                        " channels. Keep those of the microphone or of the axes of the sensor, three at most.");
+    RecordedSweep recorded{{},
+                           {},
+                           static_cast<double>(audio->sampleRate),
+                           sweepOf(work.settings(), soundRate),
+                           false,
+                           0.0,
+                           throughEqualizer};
+    if (throughEqualizer)
+        if (const auto made = verifyingSweep(proving(), work.equalizer()->fit.sections, soundRate, true))
+        {
+            recorded.sweep = made->sweep;
+            recorded.gain = made->gain;
+        }
+    if (const auto described = readSweepFile(describing(file)))
+    {
+        recorded.sweep = described->sweep;
+        recorded.gain = described->gain;
+    }
+    for (std::size_t c = 0; c < width; ++c)
+    {
+        auto& channel = recorded.channels.emplace_back(audio->samples.size() / width);
+        for (std::size_t i = 0; i < channel.size(); ++i)
+            channel[i] = audio->samples[i * width + c];
+        recorded.inputs.push_back(width == 1 ? file.filename().string() : "channel " + std::to_string(c + 1));
+    }
+    analyse(std::move(recorded), {throughEqualizer, file.stem().string()});
+}
+
+std::filesystem::path MeasureDesk::profileFolder() const
+{
+    return around.profileFolder.empty() ? pathOf(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory))
+                                        : around.profileFolder;
+}
+
+Result<void> MeasureDesk::save(const std::string& name, const std::filesystem::path& file, bool use)
+{
+    if (work.equalizer() == nullptr)
+        return Error{ErrorCode::invalidArgument, "", work.whyLocked(MeasureStep::save)};
+    if (name.empty())
+        return Error{ErrorCode::invalidArgument, "", "Give the profile a name."};
+    if (file.stem().empty() || file.extension() != ".json")
+        return Error{ErrorCode::invalidArgument, "", "The file needs a name that ends with .json."};
+    const std::u8string stem = file.stem().u8string();
+    const std::string shortName(stem.begin(), stem.end());
+    for (const NamedProfile& entry : actuators.profiles())
+        if (entry.name == shortName && !entry.own)
+            return Error{ErrorCode::invalidArgument, "",
+                         "An actuator that comes with Pacini is called " + shortName + "; choose another file name."};
+    const Profile profile = work.profile(name);
+    std::error_code ignored; // writing says what is wrong
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    if (const auto written = writeProfile(file, profile); !written)
+        return written.error();
+    actuators.addProfile({shortName, std::make_shared<const Profile>(profile), true}, use);
+    work.setSaved(std::string(reinterpret_cast<const char*>(file.u8string().c_str())));
+    changed();
+    return {};
 }
 
 } // namespace pacini::editor

@@ -5,7 +5,7 @@
 
 #include "document/measure/ActuatorMeasurement.h"
 #include "document/measure/MeasureRig.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -32,7 +32,7 @@ public:
 
     static constexpr std::size_t mostInputs = 3; ///< one sensor of three axes
 
-    MeasureDesk(Session& shared, Surroundings around);
+    MeasureDesk(Actuators& profiles, Transport& playing, Surroundings around);
     ~MeasureDesk();
 
     std::function<void()> onChange; ///< anything but meters and progress
@@ -129,7 +129,8 @@ private:
     template <typename Work, typename Done>
     void run(Work work, Done done);
 
-    Session& session;
+    Actuators& actuators;
+    Transport& transport;
     const Surroundings around;
     ActuatorMeasurement work;
     std::vector<std::size_t> simulated; ///< profiles of the session that can be simulated

@@ -39,11 +39,11 @@ Menu editMenu(EditorView& view)
     Session& session = view.session();
     const auto anyClip = [&session]
     {
-        return session.clip() != nullptr;
+        return session.model.clip() != nullptr;
     };
     const auto anySelected = [&session]
     {
-        return !isEmpty(session.selected());
+        return !isEmpty(session.clipSelection.selected());
     };
     using Key = juce::KeyPress;
     return {"Edit",
@@ -51,61 +51,61 @@ Menu editMenu(EditorView& view)
                 {.id = undo,
                  .name = "Undo",
                  .help = "Takes the last step back",
-                 .run = [&session] { session.undo(); },
-                 .can = [&session] { return session.document().canUndo(); },
+                 .run = [&session] { session.model.undo(); },
+                 .can = [&session] { return session.model.document().canUndo(); },
                  .keys = {ctrl('z')},
                  .fullName =
                      [&session]
                  {
-                     return nameWithStep("Undo", session.document().undoName());
+                     return nameWithStep("Undo", session.model.document().undoName());
                  }},
                 {.id = redo,
                  .name = "Redo",
                  .help = "Takes the last undo back",
-                 .run = [&session] { session.redo(); },
-                 .can = [&session] { return session.document().canRedo(); },
+                 .run = [&session] { session.model.redo(); },
+                 .can = [&session] { return session.model.document().canRedo(); },
                  .keys = {ctrlShift('z'), ctrl('y')},
                  .fullName =
                      [&session]
                  {
-                     return nameWithStep("Redo", session.document().redoName());
+                     return nameWithStep("Redo", session.model.document().redoName());
                  }},
                 {.id = cut,
                  .name = "Cut",
                  .help = "Copies and removes what is selected, or the time range",
-                 .run = [&session] { session.cut(); },
+                 .run = [&session] { session.clipSelection.cut(); },
                  .can = anyClip,
                  .keys = {ctrl('x')},
                  .lineBefore = true},
                 {.id = copy,
                  .name = "Copy",
                  .help = "Copies what is selected, or the time range of all lanes",
-                 .run = [&session] { session.copy(); },
+                 .run = [&session] { session.clipSelection.copy(); },
                  .can = anyClip,
                  .keys = {ctrl('c')}},
                 {.id = paste,
                  .name = "Paste at playhead",
                  .help = "Pastes into the lanes it was copied from; a single lane into the one with the focus",
-                 .run = [&session] { session.paste(focusedLane()); },
-                 .can = [&session] { return session.clip() && session.canPaste(); },
+                 .run = [&session] { session.clipSelection.paste(session.transport.playhead(), focusedLane()); },
+                 .can = [&session] { return session.model.clip() && session.clipSelection.canPaste(); },
                  .keys = {ctrl('v')}},
                 {.id = deleteSelection,
                  .name = "Delete points",
                  .help = "Removes the selected points and transients",
-                 .run = [&session] { session.deleteSelection(); },
+                 .run = [&session] { session.clipSelection.deleteSelection(); },
                  .can = anySelected,
                  .keys = {Key(Key::deleteKey), Key(Key::backspaceKey)}},
                 {.id = selectAll,
                  .name = "Select all",
                  .help = "Selects all points of the lane with the focus, else all transients",
-                 .run = [&session] { session.select(everything(*session.clip())); },
+                 .run = [&session] { session.clipSelection.select(everything(*session.model.clip())); },
                  .can = anyClip,
                  .keys = {ctrl('a')},
                  .lineBefore = true},
                 {.id = selectNone,
                  .name = "Select nothing",
                  .help = "Selects nothing",
-                 .run = [&session] { session.select({}); },
+                 .run = [&session] { session.clipSelection.select({}); },
                  .can = anySelected,
                  .keys = {ctrlShift('a')}},
             }};

@@ -12,7 +12,7 @@ namespace
 juce::PopupMenu recentProjects(EditorView& view)
 {
     juce::PopupMenu menu;
-    RecentFiles& recent = view.session().recentFiles();
+    RecentFiles& recent = view.session().model.recentFiles();
     for (const auto& file : recent.files())
         menu.addItem(pathText(file), RecentFiles::exists(file), false, [&view, file] { view.files().open({file}); });
     menu.addSeparator();
@@ -33,14 +33,14 @@ Menu fileMenu(EditorView& view)
 {
     const auto anyClip = [&view]
     {
-        return view.session().clip() != nullptr;
+        return view.session().model.clip() != nullptr;
     };
     Menu menu{"File", {}};
     menu.actions = {
         {.id = newProject,
          .name = "New project",
          .help = "Begins an empty project",
-         .run = [&view] { view.files().whenSaved([&view] { view.session().newProject(); }); },
+         .run = [&view] { view.files().whenSaved([&view] { view.session().model.newProject(); }); },
          .keys = {ctrl('n')}},
         {.id = openFile,
          .name = "Open...",
@@ -55,7 +55,7 @@ Menu fileMenu(EditorView& view)
         {.id = openRecent,
          .name = "Recent projects",
          .help = "Opens a project that was open before",
-         .can = [&view] { return !view.session().recentFiles().files().empty(); },
+         .can = [&view] { return !view.session().model.recentFiles().files().empty(); },
          .choices =
              [&view]
          {
@@ -96,7 +96,8 @@ Menu fileMenu(EditorView& view)
         {.id = exportClips,
          .name = "Export...",
          .help = "Writes clips for use elsewhere, in any format",
-         .run = [&view] { view.showSheet(std::make_unique<ExportSheet>(view.session())); },
+         .run = [&view]
+         { view.showSheet(std::make_unique<ExportSheet>(view.session().model, view.session().actuators)); },
          .can = anyClip,
          .keys = {ctrl('e')},
          .lineBefore = true},
@@ -104,8 +105,8 @@ Menu fileMenu(EditorView& view)
     menu.actions.push_back({.id = stopWork,
                             .name = "Stop opening and analysing",
                             .help = "Leaves out what is not read and analysed yet",
-                            .run = [&view] { view.session().stopWork(); },
-                            .can = [&view] { return view.session().workNow().has_value(); },
+                            .run = [&view] { view.session().sounds.stopWork(); },
+                            .can = [&view] { return view.session().sounds.workNow().has_value(); },
                             .keys = {juce::KeyPress(juce::KeyPress::escapeKey)},
                             .lineBefore = true});
     if (view.surroundings().quit)

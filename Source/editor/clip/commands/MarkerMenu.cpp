@@ -16,20 +16,21 @@ namespace
 /// The marker that the playhead stands on.
 std::optional<std::size_t> markerHere(const Session& session)
 {
-    const auto clip = session.clip();
-    return clip ? markerNear(clip->markers, session.playhead(), snapReach * session.axis().secondsPerPixel)
+    const auto clip = session.model.clip();
+    return clip ? markerNear(clip->markers, session.transport.playhead(),
+                             snapReach * session.viewState.axis().secondsPerPixel)
                 : std::nullopt;
 }
 
 void setMarkers(Session& session, const char* name, std::vector<Marker> markers)
 {
-    session.edit(name, MarkersEdit{std::move(markers)});
+    session.model.edit(name, MarkersEdit{std::move(markers)});
 }
 
 void addHere(Session& session)
 {
-    const auto clip = session.clip();
-    const double here = std::clamp(session.playhead(), 0.0, clip->duration);
+    const auto clip = session.model.clip();
+    const double here = std::clamp(session.transport.playhead(), 0.0, clip->duration);
     setMarkers(session, "Add marker", withMarker(clip->markers, {here, freeMarkerName(clip->markers)}));
 }
 
@@ -37,11 +38,11 @@ void rename(EditorView& view)
 {
     Session& session = view.session();
     const auto index = *markerHere(session);
-    const std::string now = session.clip()->markers[index].name;
+    const std::string now = session.model.clip()->markers[index].name;
     view.showSheet(std::make_unique<NameSheet>("Rename marker", "Name", toText(now),
                                                [&session, index](const juce::String& name)
                                                {
-                                                   const auto clip = session.clip();
+                                                   const auto clip = session.model.clip();
                                                    setMarkers(session, "Rename marker",
                                                               renamedMarker(clip->markers, index, name.toStdString()));
                                                }));
@@ -50,7 +51,7 @@ void rename(EditorView& view)
 void go(Session& session, const std::optional<double>& time)
 {
     if (time)
-        session.setPlayhead(*time);
+        session.transport.setPlayhead(*time);
 }
 } // namespace
 
@@ -63,45 +64,49 @@ Menu markerMenu(EditorView& view)
     };
     const auto anyMarker = [&session]
     {
-        return session.clip() && !session.clip()->markers.empty();
+        return session.model.clip() && !session.model.clip()->markers.empty();
     };
     using Key = juce::KeyPress;
-    return {
-        "Marker",
-        {
-            {.id = addMarker,
-             .name = "Add marker",
-             .help = "Adds a marker at the playhead, also while playing",
-             .run = [&session] { addHere(session); },
-             .can = [&session] { return session.clip() != nullptr; },
-             .keys = {Key('m')}},
-            {.id = renameMarker,
-             .name = "Rename marker...",
-             .help = "Another name for the marker at the playhead",
-             .run = [&view] { rename(view); },
-             .can = onMarker,
-             .keys = {Key(Key::F2Key)}},
-            {.id = deleteMarker,
-             .name = "Delete marker",
-             .help = "Removes the marker at the playhead",
-             .run = [&session]
-             { setMarkers(session, "Delete marker", withoutMarker(session.clip()->markers, *markerHere(session))); },
-             .can = onMarker,
-             .keys = {Key('m', juce::ModifierKeys::shiftModifier, 0)}},
-            {.id = nextMarker,
-             .name = "Next marker",
-             .help = "Brings the playhead to the next marker",
-             .run = [&session] { go(session, markerAfter(session.clip()->markers, session.playhead())); },
-             .can = anyMarker,
-             .keys = {ctrlShift(Key::rightKey)},
-             .lineBefore = true},
-            {.id = markerBack,
-             .name = "Previous marker",
-             .help = "Brings the playhead to the marker before it",
-             .run = [&session] { go(session, markerBefore(session.clip()->markers, session.playhead())); },
-             .can = anyMarker,
-             .keys = {ctrlShift(Key::leftKey)}},
-        }};
+    return {"Marker",
+            {
+                {.id = addMarker,
+                 .name = "Add marker",
+                 .help = "Adds a marker at the playhead, also while playing",
+                 .run = [&session] { addHere(session); },
+                 .can = [&session] { return session.model.clip() != nullptr; },
+                 .keys = {Key('m')}},
+                {.id = renameMarker,
+                 .name = "Rename marker...",
+                 .help = "Another name for the marker at the playhead",
+                 .run = [&view] { rename(view); },
+                 .can = onMarker,
+                 .keys = {Key(Key::F2Key)}},
+                {.id = deleteMarker,
+                 .name = "Delete marker",
+                 .help = "Removes the marker at the playhead",
+                 .run =
+                     [&session] {
+                         setMarkers(session, "Delete marker",
+                                    withoutMarker(session.model.clip()->markers, *markerHere(session)));
+                     },
+                 .can = onMarker,
+                 .keys = {Key('m', juce::ModifierKeys::shiftModifier, 0)}},
+                {.id = nextMarker,
+                 .name = "Next marker",
+                 .help = "Brings the playhead to the next marker",
+                 .run = [&session]
+                 { go(session, markerAfter(session.model.clip()->markers, session.transport.playhead())); },
+                 .can = anyMarker,
+                 .keys = {ctrlShift(Key::rightKey)},
+                 .lineBefore = true},
+                {.id = markerBack,
+                 .name = "Previous marker",
+                 .help = "Brings the playhead to the marker before it",
+                 .run = [&session]
+                 { go(session, markerBefore(session.model.clip()->markers, session.transport.playhead())); },
+                 .can = anyMarker,
+                 .keys = {ctrlShift(Key::leftKey)}},
+            }};
 }
 
 } // namespace pacini::editor

@@ -42,7 +42,7 @@ std::function<bool(const OperationValues&)> whenFirstIs(double choice)
 }
 } // namespace
 
-Operation gainOperation(const Session& session)
+Operation gainOperation(const ClipSelection& selection)
 {
     Operation result;
     result.name = "Gain";
@@ -53,14 +53,14 @@ Operation gainOperation(const Session& session)
                       .high = 24.0,
                       .value = 0.0,
                       .decimals = 1}};
-    result.make = [scope = session.scope()](const OperationValues& v)
+    result.make = [scope = selection.scope()](const OperationValues& v)
     {
         return GainEdit{scope, v[0]};
     };
     return result;
 }
 
-Operation quantiseOperation(const Session& session)
+Operation quantiseOperation(const ClipSelection& selection)
 {
     Operation result;
     result.name = "Quantise";
@@ -103,7 +103,7 @@ Operation quantiseOperation(const Session& session)
          .low = 0.0,
          .high = 100.0,
          .value = 100.0}};
-    result.make = [scope = session.scope()](const OperationValues& v)
+    result.make = [scope = selection.scope()](const OperationValues& v)
     {
         const double whole = 240.0 / v[2]; // s of four beats
         const double step = v[0] == 0.0 ? v[1] : whole * divisions[static_cast<std::size_t>(v[3])].notes;
@@ -112,7 +112,7 @@ Operation quantiseOperation(const Session& session)
     return result;
 }
 
-Operation humaniseOperation(const Session& session)
+Operation humaniseOperation(const ClipSelection& selection)
 {
     Operation result;
     result.name = "Humanise";
@@ -143,14 +143,14 @@ Operation humaniseOperation(const Session& session)
                       .low = 1.0,
                       .high = 999.0,
                       .value = 1.0}};
-    result.make = [scope = session.scope()](const OperationValues& v)
+    result.make = [scope = selection.scope()](const OperationValues& v)
     {
         return HumaniseEdit{scope, {v[0] / 1000.0, v[1], v[2], static_cast<std::uint64_t>(v[3])}};
     };
     return result;
 }
 
-Operation thinOperation(const Session& session)
+Operation thinOperation(const ClipSelection& selection)
 {
     Operation result;
     result.name = "Thin transients";
@@ -168,7 +168,7 @@ Operation thinOperation(const Session& session)
                       .high = 0.0,
                       .value = silence,
                       .decimals = 1}};
-    result.make = [range = session.scope().range](const OperationValues& v)
+    result.make = [range = selection.scope().range](const OperationValues& v)
     {
         return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
     };
@@ -194,9 +194,9 @@ Operation transposeOperation()
     return result;
 }
 
-Operation stretchOperation(const Session& session)
+Operation stretchOperation(const EditorModel& model)
 {
-    const double duration = session.clip()->duration;
+    const double duration = model.clip()->duration;
     Operation result;
     result.name = "Stretch";
     result.wholeClip = true;

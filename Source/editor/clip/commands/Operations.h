@@ -8,12 +8,12 @@
 namespace pacini::editor
 {
 
-[[nodiscard]] Operation gainOperation(const Session& session);
-[[nodiscard]] Operation quantiseOperation(const Session& session);
-[[nodiscard]] Operation humaniseOperation(const Session& session);
-[[nodiscard]] Operation thinOperation(const Session& session);
+[[nodiscard]] Operation gainOperation(const ClipSelection& selection);
+[[nodiscard]] Operation quantiseOperation(const ClipSelection& selection);
+[[nodiscard]] Operation humaniseOperation(const ClipSelection& selection);
+[[nodiscard]] Operation thinOperation(const ClipSelection& selection);
 [[nodiscard]] Operation transposeOperation();
-[[nodiscard]] Operation stretchOperation(const Session& session);
+[[nodiscard]] Operation stretchOperation(const EditorModel& model);
 [[nodiscard]] Operation repeatOperation();
 
 } // namespace pacini::editor

@@ -9,36 +9,37 @@ namespace
 {
 void playOrStop(Session& session)
 {
-    if (!session.isPlaying())
-        return session.play();
-    const double here = session.playhead();
-    session.stop();
-    session.setPlayhead(here);
+    if (!session.transport.isPlaying())
+        return session.transport.play();
+    const double here = session.transport.playhead();
+    session.transport.stop();
+    session.transport.setPlayhead(here);
 }
 
 /// Tenths of what is visible.
 void step(Session& session, int tenths)
 {
-    session.setPlayhead(session.playhead() + 0.1 * tenths * session.viewWidth() * session.axis().secondsPerPixel);
+    session.transport.setPlayhead(session.transport.playhead() + 0.1 * tenths * session.viewState.viewWidth() *
+                                                                     session.viewState.axis().secondsPerPixel);
 }
 
 TimeRange rangeOrAll(const Session& session)
 {
-    return session.timeRange().value_or(TimeRange{0.0, session.clip()->duration});
+    return session.clipSelection.timeRange().value_or(TimeRange{0.0, session.model.clip()->duration});
 }
 
 void beginRange(Session& session)
 {
-    const double here = session.playhead();
+    const double here = session.transport.playhead();
     const TimeRange range = rangeOrAll(session);
-    session.setTimeRange(TimeRange{here, range.to > here ? range.to : session.clip()->duration});
+    session.clipSelection.setTimeRange(TimeRange{here, range.to > here ? range.to : session.model.clip()->duration});
 }
 
 void endRange(Session& session)
 {
-    const double here = session.playhead();
+    const double here = session.transport.playhead();
     const TimeRange range = rangeOrAll(session);
-    session.setTimeRange(TimeRange{range.from < here ? range.from : 0.0, here});
+    session.clipSelection.setTimeRange(TimeRange{range.from < here ? range.from : 0.0, here});
 }
 } // namespace
 
@@ -47,15 +48,15 @@ Menu playMenu(EditorView& view)
     Session& session = view.session();
     const auto anyClip = [&session]
     {
-        return session.clip() != nullptr;
+        return session.model.clip() != nullptr;
     };
     const auto hear = [&session](Command id, const char* name, const char* help, Heard what, char key)
     {
         return Action{.id = id,
                       .name = name,
                       .help = help,
-                      .run = [&session, what] { session.setHeard(what); },
-                      .on = [&session, what] { return session.heard() == what; },
+                      .run = [&session, what] { session.transport.setHeard(what); },
+                      .on = [&session, what] { return session.transport.heard() == what; },
                       .keys = {ctrl(key)},
                       .lineBefore = what == Heard::haptic};
     };
@@ -72,13 +73,13 @@ Menu playMenu(EditorView& view)
             {.id = toStart,
              .name = "To start",
              .help = "Brings the playhead to the start",
-             .run = [&session] { session.setPlayhead(0.0); },
+             .run = [&session] { session.transport.setPlayhead(0.0); },
              .can = anyClip,
              .keys = {Key(Key::homeKey)}},
             {.id = toEnd,
              .name = "To end",
              .help = "Brings the playhead to the end",
-             .run = [&session] { session.setPlayhead(session.clip()->duration); },
+             .run = [&session] { session.transport.setPlayhead(session.model.clip()->duration); },
              .can = anyClip,
              .keys = {Key(Key::endKey)}},
             {.id = stepBack,
@@ -109,8 +110,8 @@ Menu playMenu(EditorView& view)
             {.id = loop,
              .name = "Loop",
              .help = "Plays the time range, or the whole clip, again and again",
-             .run = [&session] { session.setLooping(!session.isLooping()); },
-             .on = [&session] { return session.isLooping(); },
+             .run = [&session] { session.transport.setLooping(!session.transport.isLooping()); },
+             .on = [&session] { return session.transport.isLooping(); },
              .keys = {ctrl('l')}},
             hear(hearHaptic, "Haptic only", "The drive signal alone", Heard::haptic, '1'),
             hear(hearSound, "Sound only", "The sound alone", Heard::sound, '2'),
@@ -118,7 +119,8 @@ Menu playMenu(EditorView& view)
             {.id = hapticOrSound,
              .name = "Switch haptic and sound",
              .help = "From one to the other while playing, to compare them",
-             .run = [&session] { session.setHeard(session.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
+             .run = [&session]
+             { session.transport.setHeard(session.transport.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
              .can = anyClip,
              .keys = {Key('h')}},
         }};

@@ -9,13 +9,13 @@ namespace pacini::editor
 namespace
 {
 /// Asks for the arguments of an operation of the scope, and keeps them for the next time.
-std::function<void()> asking(EditorView& view, Operation (*make)(const Session&), bool keeps)
+std::function<void()> asking(EditorView& view, Operation (*make)(const ClipSelection&), bool keeps)
 {
     auto last = keeps ? std::make_shared<OperationValues>() : nullptr;
     return [&view, make, last]
     {
-        view.session().setComparing(false);
-        view.showSheet(std::make_unique<OperationSheet>(view, make(view.session()), last));
+        view.session().model.setComparing(false);
+        view.showSheet(std::make_unique<OperationSheet>(view, make(view.session().clipSelection), last));
     };
 }
 } // namespace
@@ -25,7 +25,7 @@ Menu shapeMenu(EditorView& view)
     Session& session = view.session();
     const auto anyClip = [&session]
     {
-        return session.clip() != nullptr;
+        return session.model.clip() != nullptr;
     };
     const auto fade = [&](Command id, const char* name, const char* help, FadeDirection direction, FadeShape shape)
     {
@@ -34,7 +34,7 @@ Menu shapeMenu(EditorView& view)
                       .help = help,
                       .run =
                           [&session, name, direction, shape] {
-                              session.edit(name, FadeEdit{session.scope(), direction, shape});
+                              session.model.edit(name, FadeEdit{session.clipSelection.scope(), direction, shape});
                           },
                       .can = anyClip,
                       .lineBefore = id == fadeIn};
@@ -59,7 +59,7 @@ Menu shapeMenu(EditorView& view)
                 {.id = invertCurves,
                  .name = "Invert",
                  .help = "Turns levels, frequencies and sharpness upside down",
-                 .run = [&session] { session.edit("Invert", InvertEdit{session.scope()}); },
+                 .run = [&session] { session.model.edit("Invert", InvertEdit{session.clipSelection.scope()}); },
                  .can = anyClip,
                  .keys = {ctrl('i')},
                  .lineBefore = true},
@@ -82,7 +82,7 @@ Menu shapeMenu(EditorView& view)
                  .can =
                      [&session]
                  {
-                     return session.clip() && !session.clip()->transients.empty();
+                     return session.model.clip() && !session.model.clip()->transients.empty();
                  }},
             }};
 }

@@ -24,8 +24,9 @@ Menu toolsMenu(EditorView& view)
              // Made when it is first needed, and kept: the page may be closed and opened again.
              const Surroundings& around = view.surroundings();
              if (!*desk)
-                 *desk = std::make_shared<MeasureDesk>(
-                     view.session(), MeasureDesk::Surroundings{around.measureRig, around.profileFolder});
+                 *desk =
+                     std::make_shared<MeasureDesk>(view.session().actuators, view.session().transport,
+                                                   MeasureDesk::Surroundings{around.measureRig, around.profileFolder});
              view.showSheet(std::make_unique<MeasurePage>(*desk, around.showDevices));
          }},
     };

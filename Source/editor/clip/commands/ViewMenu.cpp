@@ -17,12 +17,12 @@ juce::PopupMenu snapChoices(Session& session)
     juce::PopupMenu menu;
     const auto add = [&](const char* name, bool SnapTargets::*target)
     {
-        menu.addItem(name, true, session.snapTargets().*target,
+        menu.addItem(name, true, session.viewState.snapTargets().*target,
                      [&session, target]
                      {
-                         SnapTargets wanted = session.snapTargets();
+                         SnapTargets wanted = session.viewState.snapTargets();
                          wanted.*target = !(wanted.*target);
-                         session.setSnapTargets(wanted);
+                         session.viewState.setSnapTargets(wanted);
                      });
     };
     add("Transients", &SnapTargets::transients);
@@ -38,36 +38,36 @@ Menu viewMenu(EditorView& view)
     Session& session = view.session();
     const auto anyClip = [&session]
     {
-        return session.clip() != nullptr;
+        return session.model.clip() != nullptr;
     };
     const auto taller = [&session](int pixels)
     {
-        session.setLaneHeight(session.laneHeight() + pixels);
+        session.viewState.setLaneHeight(session.viewState.laneHeight() + pixels);
     };
     // An option, and the value that an action gives it.
     const auto has = [&session](auto ViewOptions::*option, auto value)
     {
         return [&session, option, value]
         {
-            return session.viewOptions().*option == value;
+            return session.viewState.viewOptions().*option == value;
         };
     };
     const auto give = [&session](auto ViewOptions::*option, auto value)
     {
         return [&session, option, value]
         {
-            ViewOptions wanted = session.viewOptions();
+            ViewOptions wanted = session.viewState.viewOptions();
             wanted.*option = value;
-            session.setViewOptions(wanted);
+            session.viewState.setViewOptions(wanted);
         };
     };
     const auto change = [&session](bool ViewOptions::*option)
     {
         return [&session, option]
         {
-            ViewOptions wanted = session.viewOptions();
+            ViewOptions wanted = session.viewState.viewOptions();
             wanted.*option = !(wanted.*option);
-            session.setViewOptions(wanted);
+            session.viewState.setViewOptions(wanted);
         };
     };
     using Key = juce::KeyPress;
@@ -88,18 +88,23 @@ Menu viewMenu(EditorView& view)
         {.id = fit,
          .name = "Fit clip",
          .help = "Shows the whole clip",
-         .run = [&session] { session.fit(); },
+         .run = [&session] { session.viewState.fit(); },
          .can = anyClip,
          .keys = {Key('0')}},
         {.id = zoomToRange,
          .name = "Zoom to range",
          .help = "Shows the time range, or the selection",
          .run =
+             [&session]
+         {
+             session.viewState.showRange(session.clipSelection.timeRange().value_or(
+                 timeOf(session.clipSelection.selected(), *session.model.clip()).value_or(TimeRange{})));
+         },
+         .can =
              [&session] {
-                 session.showRange(
-                     session.timeRange().value_or(timeOf(session.selected(), *session.clip()).value_or(TimeRange{})));
+                 return session.model.clip() &&
+                        (session.clipSelection.timeRange() || !isEmpty(session.clipSelection.selected()));
              },
-         .can = [&session] { return session.clip() && (session.timeRange() || !isEmpty(session.selected())); },
          .keys = {Key('r')}},
         {.id = tallerLanes,
          .name = "Taller lanes",
@@ -117,18 +122,18 @@ Menu viewMenu(EditorView& view)
         {.id = decibels,
          .name = "Levels in dB",
          .help = "Levels on a scale of decibels, or linear",
-         .run = [&session] { session.setAmplitudesInDecibels(!session.amplitudesInDecibels()); },
+         .run = [&session] { session.viewState.setAmplitudesInDecibels(!session.viewState.amplitudesInDecibels()); },
          .on =
              [&session]
          {
-             return session.amplitudesInDecibels();
+             return session.viewState.amplitudesInDecibels();
          }},
         {.id = draw,
          .name = "Draw curves",
          .help = "A drag in a lane draws its curve; with the key held, as long as that",
          .run = [&view] { view.switchDrawing(); },
          .can = anyClip,
-         .on = [&session] { return session.isDrawing(); },
+         .on = [&session] { return session.viewState.isDrawing(); },
          .keys = {Key(EditorView::drawKeyCode)},
          .lineBefore = true},
         {.id = snap,
@@ -137,16 +142,16 @@ Menu viewMenu(EditorView& view)
          .run =
              [&session]
          {
-             SnapTargets wanted = session.snapTargets();
+             SnapTargets wanted = session.viewState.snapTargets();
              wanted.on = !wanted.on;
-             session.setSnapTargets(wanted);
+             session.viewState.setSnapTargets(wanted);
          },
-         .on = [&session] { return session.snapTargets().on; },
+         .on = [&session] { return session.viewState.snapTargets().on; },
          .keys = {Key('n')}},
         {.id = snapTo,
          .name = "Snap to",
          .help = "What is dragged sticks to these",
-         .can = [&session] { return session.snapTargets().on; },
+         .can = [&session] { return session.viewState.snapTargets().on; },
          .choices =
              [&session]
          {

@@ -4,8 +4,9 @@
 // What the chosen actuator really plays of the clip.
 
 #include "document/ActuatorTrace.h"
+#include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -19,13 +20,10 @@ namespace pacini::editor
 /// Two plots: the drive with what protection takes from it, and under it one line for each band, shaded where it is not
 /// played as it is in the clip. Rendered in the background when the clip has rested for a moment. Muted and soloed
 /// bands do not count here.
-class ActuatorRow final : public juce::Component,
-                          public juce::SettableTooltipClient,
-                          private Session::Listener,
-                          private juce::Timer
+class ActuatorRow final : public juce::Component, public juce::SettableTooltipClient, private juce::Timer
 {
 public:
-    explicit ActuatorRow(Session& shared);
+    ActuatorRow(const EditorModel& project, const Actuators& profiles, const ViewState& sight);
     ~ActuatorRow() override;
 
     /// Low without an actuator.
@@ -44,7 +42,6 @@ public:
 private:
     static constexpr int driveHeight = 60; // pixels
 
-    void sessionChanged(unsigned changes) override;
     void timerCallback() override;
     void update();
     [[nodiscard]] juce::Rectangle<int> drivePlot() const;
@@ -54,7 +51,9 @@ private:
     void paintDrive(juce::Graphics& g, juce::Rectangle<int> plot);
     void paintLosses(juce::Graphics& g, juce::Rectangle<int> plot);
 
-    Session& session;
+    const EditorModel& model;
+    const Actuators& actuators;
+    const ViewState& viewState;
     std::shared_ptr<const Clip> askedClip; ///< what is rendered or has been
     std::optional<Profile> askedProfile;
     std::shared_ptr<std::atomic<bool>> cancelled;
@@ -65,6 +64,7 @@ private:
     TimeAxis lossAxis;
     bool lossDark = true, lossStale = true;
     Jobs jobs; ///< ends before the rest
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -28,7 +28,7 @@ constexpr int headHeight = 8; // of the playhead
 class ClipView::Overlay final : public juce::Component
 {
 public:
-    explicit Overlay(Session& shared) : session(shared)
+    Overlay(const EditorModel& project, const ViewState& sight) : model(project), viewState(sight)
     {
         setInterceptsMouseClicks(false, false);
         setAccessible(false);
@@ -79,21 +79,21 @@ private:
     /// Lines through all lanes, below the flags.
     void paintMarkers(juce::Graphics& g, const Palette& p) const
     {
-        const auto clip = session.clip();
+        const auto clip = model.clip();
         if (!clip)
             return;
         g.setColour(p.accent.withAlpha(0.55f));
         for (const Marker& marker : clip->markers)
         {
-            const double x = session.axis().xOf(marker.time);
-            if (x >= 0.0 && x <= session.viewWidth())
+            const double x = viewState.axis().xOf(marker.time);
+            if (x >= 0.0 && x <= viewState.viewWidth())
                 g.fillRect(laneHeadWidth + juce::roundToInt(x), rulerHeight + MarkerStrip::height, 1, getHeight());
         }
     }
 
     void paintVersion(juce::Graphics& g, const Palette& p) const
     {
-        if (!session.isComparing())
+        if (!model.isComparing())
             return;
         const auto place = getLocalBounds()
                                .withTrimmedLeft(laneHeadWidth)
@@ -117,15 +117,18 @@ private:
 };
 
 ClipView::ClipView(Session& shared)
-    : session(shared),
-      ruler(shared),
-      tools(shared),
-      selectionBar(shared),
-      markers(shared),
-      waveform(shared),
-      actuator(shared),
-      overview(shared),
-      overlay(std::make_unique<Overlay>(shared))
+    : model(shared.model),
+      clipSelection(shared.clipSelection),
+      viewState(shared.viewState),
+      transport(shared.transport),
+      ruler(model, clipSelection, viewState, transport),
+      tools(model, viewState),
+      selectionBar(model, clipSelection, viewState, transport),
+      markers(model, viewState, transport),
+      waveform(model, shared.sounds, viewState),
+      actuator(model, shared.actuators, viewState),
+      overview(model, viewState),
+      overlay(std::make_unique<Overlay>(model, viewState))
 {
     setTitle("Clip");
     setFocusContainerType(FocusContainerType::focusContainer);
@@ -143,40 +146,40 @@ ClipView::ClipView(Session& shared)
         if (onCommand)
             onCommand(command);
     };
-    session.listeners.add(this);
+    subscriptions.on({&model.contentChanged, &viewState.lookChanged}, [this] { rebuild(); });
+    subscriptions.on({&model.contentChanged, &shared.actuators.changed},
+                     [this]
+                     {
+                         if (showMarkers() || (actuator.isVisible() && actuator.getHeight() != actuator.wantedHeight()))
+                             resized();
+                     });
+    subscriptions.on({&viewState.lookChanged}, [this] { resized(); });
+    subscriptions.on({&viewState.axisChanged, &transport.changed, &model.contentChanged}, [this] { placePlayhead(); });
     rebuild();
     startTimerHz(60);
 }
 
-ClipView::~ClipView()
-{
-    session.listeners.remove(this);
-}
+ClipView::~ClipView() = default;
 
 juce::Rectangle<int> ClipView::plotArea() const
 {
     return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedRight(scrollBarWidth);
 }
 
-void ClipView::sessionChanged(unsigned changes)
+/// Whether that has changed.
+bool ClipView::showMarkers()
 {
-    if ((changes & (Session::content | Session::look)) != 0)
-        rebuild();
-    const auto clip = session.clip();
-    const bool anyMarkers = clip && !clip->markers.empty();
-    const bool otherMarkers = anyMarkers != markers.isVisible();
-    markers.setVisible(anyMarkers);
-    const bool higher = actuator.isVisible() && actuator.getHeight() != actuator.wantedHeight();
-    if ((changes & Session::look) != 0 || higher || otherMarkers)
-        resized();
-    if ((changes & (Session::view | Session::playback | Session::content)) != 0)
-        placePlayhead();
+    const auto clip = model.clip();
+    const bool any = clip && !clip->markers.empty();
+    const bool others = any != markers.isVisible();
+    markers.setVisible(any);
+    return others;
 }
 
 void ClipView::rebuild()
 {
     std::vector<Lane> wanted;
-    if (const auto clip = session.clip())
+    if (const auto clip = model.clip())
     {
         wanted = {{LaneKind::envelope, 0}, {LaneKind::centroid, 0}};
         for (std::size_t k = clip->bands.size(); k-- > 0;)
@@ -206,11 +209,11 @@ void ClipView::rebuild()
         };
         if (!wanted.empty())
         {
-            add(std::make_unique<EventLane>(session, EventLane::Shows::amplitude));
-            add(std::make_unique<EventLane>(session, EventLane::Shows::sharpness));
+            add(std::make_unique<EventLane>(model, clipSelection, viewState, transport, EventLane::Shows::amplitude));
+            add(std::make_unique<EventLane>(model, clipSelection, viewState, transport, EventLane::Shows::sharpness));
         }
         for (const Lane& lane : wanted)
-            add(std::make_unique<CurveLane>(session, lane));
+            add(std::make_unique<CurveLane>(model, clipSelection, viewState, transport, lane));
     }
     layOut();
 }
@@ -245,21 +248,21 @@ void ClipView::resized()
     selectionBar.setBounds(ruler.getBounds().withTrimmedLeft(laneHeadWidth).withHeight(SelectionBar::height));
     if (markers.isVisible())
         markers.setBounds(area.removeFromTop(MarkerStrip::height).withTrimmedRight(scrollBarWidth));
-    const bool tall = session.viewOptions().sound != SoundView::waveform;
+    const bool tall = viewState.viewOptions().sound != SoundView::waveform;
     waveform.setBounds(area.removeFromTop(tall ? spectrumHeight : waveformHeight).withTrimmedRight(scrollBarWidth));
     overview.setBounds(area.removeFromBottom(overviewHeight).withTrimmedRight(scrollBarWidth));
-    actuator.setVisible(session.viewOptions().actuator);
+    actuator.setVisible(viewState.viewOptions().actuator);
     if (actuator.isVisible())
         actuator.setBounds(area.removeFromBottom(actuator.wantedHeight()).withTrimmedRight(scrollBarWidth));
     viewport.setBounds(area);
-    session.setViewWidth(plotArea().getWidth());
+    viewState.setViewWidth(plotArea().getWidth());
     layOut();
     placePlayhead();
 }
 
 void ClipView::layOut()
 {
-    const int unit = session.laneHeight();
+    const int unit = viewState.laneHeight();
     const int width = getWidth() - scrollBarWidth;
     int y = 0;
     for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -276,25 +279,25 @@ void ClipView::layOut()
 
 void ClipView::placePlayhead()
 {
-    if (!session.clip())
+    if (!model.clip())
         return overlay->setPlayhead(-100);
-    const double time = session.playhead();
-    if (session.isPlaying() && !isMouseButtonDownAnywhere())
-        session.setAxis(followed(session.axis(), time, session.viewWidth(), session.viewOptions().follow));
-    const double x = session.axis().xOf(time);
-    overlay->setPlayhead(x < 0.0 || x > session.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
+    const double time = transport.playhead();
+    if (transport.isPlaying() && !isMouseButtonDownAnywhere())
+        viewState.setAxis(followed(viewState.axis(), time, viewState.viewWidth(), viewState.viewOptions().follow));
+    const double x = viewState.axis().xOf(time);
+    overlay->setPlayhead(x < 0.0 || x > viewState.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
 }
 
 void ClipView::zoomAtPlayhead(double factor)
 {
-    const double x = session.axis().xOf(session.playhead());
-    session.zoom(factor, x >= 0.0 && x <= session.viewWidth() ? x : 0.5 * session.viewWidth());
+    const double x = viewState.axis().xOf(transport.playhead());
+    viewState.zoom(factor, x >= 0.0 && x <= viewState.viewWidth() ? x : 0.5 * viewState.viewWidth());
 }
 
 void ClipView::mouseMagnify(const juce::MouseEvent& event, float factor)
 {
     const auto here = event.getEventRelativeTo(this);
-    session.zoom(static_cast<double>(factor), static_cast<double>(here.position.x) - laneHeadWidth);
+    viewState.zoom(static_cast<double>(factor), static_cast<double>(here.position.x) - laneHeadWidth);
 }
 
 void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details)
@@ -307,7 +310,7 @@ void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWh
         heightWheel += details.deltaY;
         if (std::abs(heightWheel) < wheelForHeight)
             return;
-        session.setLaneHeight(session.laneHeight() + (heightWheel > 0.0f ? 8 : -8));
+        viewState.setLaneHeight(viewState.laneHeight() + (heightWheel > 0.0f ? 8 : -8));
         heightWheel = 0.0f;
         return;
     }
@@ -315,11 +318,11 @@ void ClipView::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWh
     if (!sideways && details.isInertial)
         return; // a trackpad that runs on would zoom away
     if (!sideways)
-        return session.zoom(std::exp2(4.0 * static_cast<double>(details.deltaY)), std::max(0.0, x));
+        return viewState.zoom(std::exp2(4.0 * static_cast<double>(details.deltaY)), std::max(0.0, x));
     const float delta = std::abs(details.deltaX) > std::abs(details.deltaY) ? details.deltaX : details.deltaY;
-    TimeAxis axis = session.axis();
-    axis.start -= static_cast<double>(delta) * session.viewWidth() * axis.secondsPerPixel;
-    session.setAxis(axis);
+    TimeAxis axis = viewState.axis();
+    axis.start -= static_cast<double>(delta) * viewState.viewWidth() * axis.secondsPerPixel;
+    viewState.setAxis(axis);
 }
 
 void ClipView::marquee(PlotLane& from, const juce::MouseEvent& event, bool over)
@@ -330,11 +333,11 @@ void ClipView::marquee(PlotLane& from, const juce::MouseEvent& event, bool over)
     {
         if (!over)
         {
-            beforeMarquee = event.mods.isShiftDown() ? session.selected() : Selection{};
-            session.select(beforeMarquee);
+            beforeMarquee = event.mods.isShiftDown() ? clipSelection.selected() : Selection{};
+            clipSelection.select(beforeMarquee);
         }
         else if (!event.mods.isPopupMenu())
-            session.setPlayhead(session.axis().timeAt(here.position.x - static_cast<float>(laneHeadWidth)));
+            transport.setPlayhead(viewState.axis().timeAt(here.position.x - static_cast<float>(laneHeadWidth)));
         return;
     }
     juce::ignoreUnused(from);
@@ -343,7 +346,7 @@ void ClipView::marquee(PlotLane& from, const juce::MouseEvent& event, bool over)
     Selection now = beforeMarquee;
     for (const auto& lane : lanes)
         lane->addInside(now, lane->getLocalArea(this, area).toFloat());
-    session.select(std::move(now));
+    clipSelection.select(std::move(now));
 }
 
 } // namespace pacini::editor

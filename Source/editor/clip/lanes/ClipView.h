@@ -26,7 +26,7 @@ namespace pacini::editor
 
 /// Ruler, markers (where there are some) and sound stay, the lanes below scroll: transients, their sharpness, envelope,
 /// centroid, the bands with high ones above, noise; what the actuator plays and the overview are at the foot.
-class ClipView final : public juce::Component, private Session::Listener, private juce::Timer
+class ClipView final : public juce::Component, private juce::Timer
 {
 public:
     explicit ClipView(Session& shared);
@@ -69,7 +69,7 @@ private:
         }
     };
 
-    void sessionChanged(unsigned changes) override;
+    bool showMarkers();
     void timerCallback() override { placePlayhead(); }
     void rebuild();
     void layOut();
@@ -78,7 +78,10 @@ private:
     void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details) override;
     [[nodiscard]] juce::Rectangle<int> plotArea() const;
 
-    Session& session;
+    EditorModel& model;
+    ClipSelection& clipSelection;
+    ViewState& viewState;
+    Transport& transport;
     TimeRuler ruler;
     ToolStrip tools;
     SelectionBar selectionBar;
@@ -93,6 +96,7 @@ private:
     std::unique_ptr<Overlay> overlay;
     Selection beforeMarquee;
     float heightWheel = 0.0f; ///< of the wheel since the lanes' height changed
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

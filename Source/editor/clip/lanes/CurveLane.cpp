@@ -35,12 +35,15 @@ std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range
         ++last;
     return {static_cast<std::size_t>(first - curve.begin()), static_cast<std::size_t>(last - curve.begin())};
 }
+
+constexpr double lineReach = 7.0; // pixels
 } // namespace
 
-CurveLane::CurveLane(Session& shared, Lane first)
-    : PlotLane(shared), shown(first), pitchButton("Hz"), soloButton("S"), muteButton("M")
+CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing,
+                     Lane first)
+    : PlotLane(project, selected, sight, playing), shown(first), pitchButton("Hz"), soloButton("S"), muteButton("M")
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     const juce::String name = clip ? laneName(*clip, shown) : juce::String();
     const bool band = shown.kind == LaneKind::amplitude;
     setTitle(band ? "Band at " + name : name);
@@ -66,12 +69,12 @@ CurveLane::CurveLane(Session& shared, Lane first)
     };
     const auto hearing = [this](std::set<std::size_t> Audition::*set, bool on)
     {
-        Audition wanted = session.audition();
+        Audition wanted = transport.audition();
         if (on)
             (wanted.*set).insert(shown.index);
         else
             (wanted.*set).erase(shown.index);
-        session.setAudition(std::move(wanted));
+        transport.setAudition(std::move(wanted));
     };
     soloButton.onClick = [this, hearing]
     {
@@ -82,6 +85,7 @@ CurveLane::CurveLane(Session& shared, Lane first)
         hearing(&Audition::muted, muteButton.getToggleState());
     };
     showHearing();
+    subscriptions.on({&transport.changed}, [this] { showHearing(); });
 }
 
 void CurveLane::resized()
@@ -97,19 +101,13 @@ void CurveLane::resized()
 
 const Curve* CurveLane::curve() const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     return clip ? curveOf(*clip, shown) : nullptr;
-}
-
-void CurveLane::follow(unsigned changes)
-{
-    if ((changes & Session::playback) != 0)
-        showHearing();
 }
 
 void CurveLane::showHearing()
 {
-    const Audition& audition = session.audition();
+    const Audition& audition = transport.audition();
     soloButton.setToggleState(audition.solo.contains(shown.index), juce::dontSendNotification);
     muteButton.setToggleState(audition.muted.contains(shown.index), juce::dontSendNotification);
     const bool silent = shown.kind == LaneKind::amplitude && !audition.hears(shown.index);
@@ -121,7 +119,7 @@ void CurveLane::showHearing()
 
 PlotLane::Style CurveLane::style() const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!clip)
         return {};
     const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
@@ -135,11 +133,11 @@ PlotLane::Style CurveLane::style() const
 
 ValueAxis CurveLane::valueAxis(double height) const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!isFrequency(shown.kind))
     {
         double highest = 1.0;
-        if (!session.amplitudesInDecibels() && shown.kind != LaneKind::envelope)
+        if (!viewState.amplitudesInDecibels() && shown.kind != LaneKind::envelope)
         {
             // Bands are small beside the whole; all have one scale, so that they can be compared.
             highest = 0.05;
@@ -154,7 +152,7 @@ ValueAxis CurveLane::valueAxis(double height) const
         if (const Curve* points = curve())
             for (const Breakpoint& p : *points)
                 highest = std::max(highest, p.value);
-        return amplitudeAxis(session.amplitudesInDecibels(), highest, height);
+        return amplitudeAxis(viewState.amplitudesInDecibels(), highest, height);
     }
     ValueAxis axis{ValueScale::logarithmic, 20.0, 1500.0, height};
     if (shown.kind == LaneKind::pitch && clip && shown.index < clip->bands.size())
@@ -171,8 +169,8 @@ bool CurveLane::showsHandles() const
     const Curve* points = curve();
     if (points == nullptr)
         return false;
-    const auto [first, last] = reaching(*points, session.axis().visible(session.viewWidth()));
-    return static_cast<double>(last - first) * pixelsForHandles <= session.viewWidth() + 2.0 * pixelsForHandles;
+    const auto [first, last] = reaching(*points, viewState.axis().visible(viewState.viewWidth()));
+    return static_cast<double>(last - first) * pixelsForHandles <= viewState.viewWidth() + 2.0 * pixelsForHandles;
 }
 
 void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
@@ -184,12 +182,12 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     const juce::Colour colour = muted ? p.dim.withAlpha(0.5f) : style().colour;
     const ValueAxis values = scale();
     const bool filled = !isFrequency(shown.kind);
-    TimeAxis axis = session.axis();
+    TimeAxis axis = viewState.axis();
     const auto [first, last] =
         reaching(*points, {axis.timeAt(firstColumn - 8.0), axis.timeAt(static_cast<double>(lastColumn) + 8.0)});
     // By the whole view, so that every part of it is drawn alike.
-    const double width = session.viewWidth();
-    const auto [firstSeen, lastSeen] = reaching(*points, session.axis().visible(width));
+    const double width = viewState.viewWidth();
+    const auto [firstSeen, lastSeen] = reaching(*points, viewState.axis().visible(width));
     const bool bars = static_cast<double>(lastSeen - firstSeen) > mostPointsPerColumn * width;
     if (bars || filled)
     {
@@ -234,7 +232,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     const float right = static_cast<float>(plot.getX() + lastColumn) + 4.0f;
     const auto pointAtX = [&](float x)
     {
-        const double time = session.axis().timeAt(static_cast<double>(x) - plot.getX());
+        const double time = viewState.axis().timeAt(static_cast<double>(x) - plot.getX());
         return juce::Point<float>(x, pointOf({time, valueAt(*points, time)}).y);
     };
     if (first == 0 && at(0).x > left)
@@ -299,7 +297,7 @@ std::optional<std::size_t> CurveLane::thingAt(juce::Point<float> place) const
     if (points == nullptr || !showsHandles())
         return std::nullopt;
     const auto plot = plotArea();
-    return pointAt(*points, session.axis(), scale(), static_cast<double>(place.x) - plot.getX(),
+    return pointAt(*points, viewState.axis(), scale(), static_cast<double>(place.x) - plot.getX(),
                    static_cast<double>(place.y) - plot.getY(), static_cast<double>(pickRadius));
 }
 
@@ -330,8 +328,8 @@ void CurveLane::addInside(Selection& selection, juce::Rectangle<float> area) con
     {
         return values.valueAtY(static_cast<double>(y - plot.getY()));
     };
-    const TimeRange times{session.axis().timeAt(static_cast<double>(area.getX() - plot.getX())),
-                          session.axis().timeAt(static_cast<double>(area.getRight() - plot.getX()))};
+    const TimeRange times{viewState.axis().timeAt(static_cast<double>(area.getX() - plot.getX())),
+                          viewState.axis().timeAt(static_cast<double>(area.getRight() - plot.getX()))};
     // Over the edge of the lane means all that lies beyond it.
     const ValueRange range{area.getBottom() >= plot.getBottom() - 1.0f ? -1.0 : valueAt(area.getBottom()),
                            area.getY() <= plot.getY() + 1.0f ? limits::frequency : valueAt(area.getY())};
@@ -364,6 +362,84 @@ SelectionMove CurveLane::move(Breakpoint from, Breakpoint to) const
 juce::String CurveLane::valueText(double value) const
 {
     return isFrequency(shown.kind) ? hertzText(value) : amplitudeText(value);
+}
+
+// Drawing and bending.
+
+template <typename Edit>
+void CurveLane::change(const char* name, Edit edit)
+{
+    const auto start = model.gestureStart(toolGesture);
+    const Curve* before = start ? curveOf(*start, shown) : nullptr;
+    if (before == nullptr)
+        return;
+    EditedCurve edited = edit(*before, limitsOf(*start, shown));
+    EditedClip result{*start, withPoints({}, shown, std::move(edited.selection))};
+    *curveOf(result.clip, shown) = std::move(edited.curve);
+    clipSelection.setEdited(name, std::move(result), toolGesture);
+}
+
+std::optional<std::size_t> CurveLane::lineAt(juce::Point<float> place) const
+{
+    const auto clip = model.clip();
+    const Curve* points = clip ? curveOf(*clip, shown) : nullptr;
+    const auto plot = plotArea();
+    if (points == nullptr || points->size() < 2 || !showsHandles() || !plot.toFloat().contains(place))
+        return std::nullopt;
+    const double x = static_cast<double>(place.x) - plot.getX();
+    const double y = static_cast<double>(place.y) - plot.getY();
+    const double time = viewState.axis().timeAt(x);
+    if (time < points->front().time || time >= points->back().time ||
+        !lineIsAt(*points, viewState.axis(), scale(), x, y, lineReach))
+        return std::nullopt;
+    const auto next = std::upper_bound(points->begin(), points->end(), time,
+                                       [](double t, const Breakpoint& p) { return t < p.time; });
+    return static_cast<std::size_t>(next - points->begin()) - 1;
+}
+
+juce::MouseCursor CurveLane::cursorAt(const juce::MouseEvent& event) const
+{
+    if (viewState.isDrawing())
+        return juce::MouseCursor::CrosshairCursor;
+    if (event.mods.isCommandDown() && lineAt(event.position))
+        return juce::MouseCursor::UpDownResizeCursor;
+    return juce::MouseCursor::NormalCursor;
+}
+
+bool CurveLane::beginTool(const juce::MouseEvent& event)
+{
+    bent.reset();
+    if (viewState.isDrawing())
+    {
+        toolGesture = model.beginGesture();
+        const auto place = event.position - plotArea().getPosition().toFloat();
+        stroke.begin(static_cast<double>(place.x), static_cast<double>(place.y));
+        draw(place);
+        return true;
+    }
+    const auto line = event.mods.isCommandDown() && !thingAt(event.position) ? lineAt(event.position) : std::nullopt;
+    if (!line)
+        return false;
+    toolGesture = model.beginGesture();
+    bent = Bend{*line, placeAt(event.position).time};
+    return true;
+}
+
+void CurveLane::dragTool(const juce::MouseEvent& event)
+{
+    if (!bent)
+        return draw(event.position - plotArea().getPosition().toFloat());
+    const auto offset = static_cast<double>(event.getOffsetFromDragStart().y);
+    change("Bend line", [&](const Curve& curve, const CurveLimits& limits)
+           { return bentLine(curve, bent->first, bent->time, offset, viewState.axis(), scale(), limits); });
+    say(valueText(placeAt(event.position).value));
+}
+
+void CurveLane::draw(juce::Point<float> to)
+{
+    stroke.to(static_cast<double>(to.x), static_cast<double>(to.y));
+    change("Draw", [&](const Curve& curve, const CurveLimits& limits)
+           { return withDrawn(curve, pointsOf(stroke, viewState.axis(), scale(), limits), limits); });
 }
 
 } // namespace pacini::editor

@@ -13,7 +13,7 @@ namespace pacini::editor
 class CurveLane final : public PlotLane
 {
 public:
-    CurveLane(Session& shared, Lane first);
+    CurveLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing, Lane first);
 
     [[nodiscard]] Lane lane() const noexcept { return shown; }
 
@@ -31,14 +31,13 @@ private:
     std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
     std::size_t count() const override;
     Breakpoint place(std::size_t thing) const override;
-    Indices picked() const override { return selectedIn(session.selected(), shown); }
+    Indices picked() const override { return selectedIn(clipSelection.selected(), shown); }
     Selection pick(Selection selection, Indices things) const override;
     EditedClip added(const Clip& clip, Breakpoint where) const override;
     SelectionMove move(Breakpoint from, Breakpoint to) const override;
     juce::String valueText(double value) const override;
     std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const override;
     const char* moveName() const override { return "Move points"; }
-    void follow(unsigned changes) override;
     bool beginTool(const juce::MouseEvent& event) override;
     void dragTool(const juce::MouseEvent& event) override;
     void endTool() override { bent.reset(); }

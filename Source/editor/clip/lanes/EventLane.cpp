@@ -32,7 +32,9 @@ juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
 }
 } // namespace
 
-EventLane::EventLane(Session& shared, Shows wanted) : PlotLane(shared), shows(wanted)
+EventLane::EventLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing,
+                     Shows wanted)
+    : PlotLane(project, selected, sight, playing), shows(wanted)
 {
     setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
     setDescription(
@@ -55,11 +57,11 @@ ValueAxis EventLane::valueAxis(double height) const
         // A margin, so that heads at the ends can be seen.
         return {ValueScale::linear, -0.1, 1.1, height};
     double highest = 1.0;
-    if (const auto clip = session.clip())
+    if (const auto clip = model.clip())
         for (const Transient& event : clip->transients)
             highest = std::max(highest, event.amplitude);
     // Room for the heads of the strongest: a tenth of the height on either scale.
-    const bool decibels = session.amplitudesInDecibels();
+    const bool decibels = viewState.amplitudesInDecibels();
     return amplitudeAxis(decibels, (decibels ? 2.0 : 1.12) * highest, height);
 }
 
@@ -70,10 +72,10 @@ std::optional<TimeRange> EventLane::changedTime(const Clip& before, const Clip& 
 
 void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firstColumn, int lastColumn)
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     const Palette& p = paletteFor(*this);
     const auto& events = clip->transients;
-    const TimeAxis axis = session.axis();
+    const TimeAxis axis = viewState.axis();
     const auto less = [](const Transient& event, double time)
     {
         return event.time < time;
@@ -119,13 +121,13 @@ std::optional<std::size_t> EventLane::thingAt(juce::Point<float> position) const
 
 std::size_t EventLane::count() const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     return clip ? clip->transients.size() : 0;
 }
 
 Breakpoint EventLane::place(std::size_t thing) const
 {
-    const Transient event = session.clip()->transients[thing];
+    const Transient event = model.clip()->transients[thing];
     return {event.time, shows == Shows::amplitude ? event.amplitude : event.sharpness};
 }
 

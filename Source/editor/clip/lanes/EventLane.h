@@ -16,7 +16,7 @@ public:
         amplitude,
         sharpness
     };
-    EventLane(Session& shared, Shows wanted);
+    EventLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing, Shows wanted);
 
     void addInside(Selection& selection, juce::Rectangle<float> area) const override;
 
@@ -27,7 +27,7 @@ private:
     std::optional<std::size_t> thingAt(juce::Point<float> place) const override;
     std::size_t count() const override;
     Breakpoint place(std::size_t thing) const override;
-    Indices picked() const override { return session.selected().transients; }
+    Indices picked() const override { return clipSelection.selected().transients; }
     Selection pick(Selection selection, Indices things) const override;
     EditedClip added(const Clip& clip, Breakpoint where) const override;
     SelectionMove move(Breakpoint from, Breakpoint to) const override;

@@ -23,23 +23,13 @@ constexpr int leastText = 14;
 const char* const help = "Click: playhead. Drag: moves a marker; Alt: no snapping. Double-click: rename. M adds one";
 } // namespace
 
-MarkerStrip::MarkerStrip(Session& shared) : session(shared)
+MarkerStrip::MarkerStrip(EditorModel& project, const ViewState& sight, Transport& playing)
+    : model(project), viewState(sight), transport(playing)
 {
     setOpaque(true);
     setTitle("Markers");
     setTooltip(help);
-    session.listeners.add(this);
-}
-
-MarkerStrip::~MarkerStrip()
-{
-    session.listeners.remove(this);
-}
-
-void MarkerStrip::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::view | Session::content)) != 0)
-        repaint();
+    subscriptions.on({&viewState.axisChanged, &model.contentChanged}, [this] { repaint(); });
 }
 
 void MarkerStrip::paint(juce::Graphics& g)
@@ -53,11 +43,11 @@ void MarkerStrip::paint(juce::Graphics& g)
     g.drawText(tr("Markers"), head.withTrimmedLeft(grid + 3), juce::Justification::centredLeft, true);
     g.setColour(p.line);
     g.fillRect(getLocalBounds().removeFromBottom(1));
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!clip)
         return;
     g.reduceClipRegion(plot);
-    for (const MarkerLabel& label : markerLabels(clip->markers, session.axis(), plot.getWidth(), mostWidth))
+    for (const MarkerLabel& label : markerLabels(clip->markers, viewState.axis(), plot.getWidth(), mostWidth))
     {
         const auto x = static_cast<float>(plot.getX() + label.x);
         juce::Path flag;
@@ -78,11 +68,12 @@ void MarkerStrip::paint(juce::Graphics& g)
 std::optional<std::size_t> MarkerStrip::markerAt(juce::Point<float> place) const
 {
     std::optional<std::size_t> found;
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     const double x = static_cast<double>(place.x) - laneHeadWidth;
     if (!clip || x < -pickBefore)
         return found;
-    for (const MarkerLabel& label : markerLabels(clip->markers, session.axis(), getWidth() - laneHeadWidth, mostWidth))
+    for (const MarkerLabel& label :
+         markerLabels(clip->markers, viewState.axis(), getWidth() - laneHeadWidth, mostWidth))
         if (x >= label.x - pickBefore && x <= label.x + std::max(label.width - pickBefore, flagWidth))
             found = label.marker;
     return found;
@@ -92,7 +83,7 @@ void MarkerStrip::mouseMove(const juce::MouseEvent& event)
 {
     const auto marker = markerAt(event.position);
     setMouseCursor(marker ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
-    if (const auto clip = session.clip(); clip && marker)
+    if (const auto clip = model.clip(); clip && marker)
         setTooltip(toText(clip->markers[*marker].name) + ", " + juce::String(clip->markers[*marker].time, 3) + " s");
     else
         setTooltip(help);
@@ -106,15 +97,15 @@ void MarkerStrip::ask(Command command)
 
 void MarkerStrip::mouseDown(const juce::MouseEvent& event)
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     dragged = markerAt(event.position);
     if (!clip || !dragged)
         return;
     grabbed = clip->markers[*dragged].time;
-    session.setPlayhead(grabbed);
+    transport.setPlayhead(grabbed);
     if (!event.mods.isPopupMenu())
     {
-        gesture = session.beginGesture();
+        gesture = model.beginGesture();
         return;
     }
     dragged.reset();
@@ -136,21 +127,21 @@ void MarkerStrip::mouseDown(const juce::MouseEvent& event)
 
 void MarkerStrip::mouseDrag(const juce::MouseEvent& event)
 {
-    const auto start = session.gestureStart(gesture);
+    const auto start = model.gestureStart(gesture);
     if (!dragged || !start || *dragged >= start->markers.size() || !event.mouseWasDraggedSinceMouseDown())
         return;
-    double time = grabbed + event.getDistanceFromDragStartX() * session.axis().secondsPerPixel;
+    double time = grabbed + event.getDistanceFromDragStartX() * viewState.axis().secondsPerPixel;
     if (!event.mods.isAltDown())
     {
         Snapping snapping;
         snapping.clip = start.get();
         snapping.marker = dragged;
-        snapping.playhead = session.isPlaying(); // else it moves along
-        time = snapTime(session, time, snapping);
+        snapping.playhead = transport.isPlaying(); // else it moves along
+        time = snapTime(model, viewState, transport, time, snapping);
     }
-    session.edit("Move marker", MarkersEdit{movedMarker(start->markers, *dragged, time, start->duration)}, gesture);
-    if (!session.isPlaying())
-        session.setPlayhead(time);
+    model.edit("Move marker", MarkersEdit{movedMarker(start->markers, *dragged, time, start->duration)}, gesture);
+    if (!transport.isPlaying())
+        transport.setPlayhead(time);
 }
 
 void MarkerStrip::mouseUp(const juce::MouseEvent&)

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "editor/clip/commands/Command.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -14,13 +15,12 @@ namespace pacini::editor
 {
 
 /// The markers of the clip with their names, below the ruler. A click brings the playhead there, a drag moves one.
-class MarkerStrip final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class MarkerStrip final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
     static constexpr int height = 20; ///< pixels
 
-    explicit MarkerStrip(Session& shared);
-    ~MarkerStrip() override;
+    MarkerStrip(EditorModel& project, const ViewState& sight, Transport& playing);
 
     /// For the marker at the playhead.
     std::function<void(Command)> onCommand;
@@ -33,14 +33,16 @@ public:
     void mouseDoubleClick(const juce::MouseEvent& event) override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     [[nodiscard]] std::optional<std::size_t> markerAt(juce::Point<float> place) const;
     void ask(Command command);
 
-    Session& session;
+    EditorModel& model;
+    const ViewState& viewState;
+    Transport& transport;
     std::optional<std::size_t> dragged; ///< of the clip that the gesture began with
     Gesture gesture = 0;
     double grabbed = 0.0; ///< s, of the marker when it was
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

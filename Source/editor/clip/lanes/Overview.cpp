@@ -14,35 +14,24 @@
 namespace pacini::editor
 {
 
-Overview::Overview(Session& shared) : session(shared)
+Overview::Overview(const EditorModel& project, ViewState& sight) : model(project), viewState(sight)
 {
     setOpaque(true);
     setTitle("Overview");
     setTooltip("The whole clip. Drag the frame to scroll, its edges to zoom; double-click shows everything");
-    session.listeners.add(this);
-}
-
-Overview::~Overview()
-{
-    session.listeners.remove(this);
-}
-
-void Overview::sessionChanged(unsigned changes)
-{
-    if ((changes & Session::content) != 0)
-    {
-        const auto last = std::exchange(drawn, session.clip());
-        const bool same = last && drawn && last->duration == drawn->duration && last->envelope == drawn->envelope;
-        if (!same)
-            repaint();
-    }
-    if ((changes & Session::view) != 0)
-        repaint();
+    subscriptions.on({&viewState.axisChanged}, [this] { repaint(); });
+    subscriptions.on({&model.contentChanged},
+                     [this]
+                     {
+                         const auto last = std::exchange(drawn, model.clip());
+                         if (!last || !drawn || last->duration != drawn->duration || last->envelope != drawn->envelope)
+                             repaint();
+                     });
 }
 
 TimeAxis Overview::whole() const
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     return TimeAxis::showing({0.0, clip ? std::max(1e-3, clip->duration) : 1.0}, getWidth() - laneHeadWidth);
 }
 
@@ -50,7 +39,7 @@ juce::Rectangle<float> Overview::frame() const
 {
     const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth).toFloat();
     const TimeAxis axis = whole();
-    const TimeRange shown = session.axis().visible(session.viewWidth());
+    const TimeRange shown = viewState.axis().visible(viewState.viewWidth());
     const float left = plot.getX() + static_cast<float>(axis.xOf(shown.from));
     const float right = std::min(plot.getRight(), plot.getX() + static_cast<float>(axis.xOf(shown.to)));
     return plot.withLeft(left).withRight(std::max(left + 4.0f, right)).reduced(0.0f, 1.0f);
@@ -67,7 +56,7 @@ void Overview::paint(juce::Graphics& g)
                juce::Justification::centredLeft);
     g.setColour(p.well);
     g.fillRect(plot);
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!clip)
         return;
     std::vector<Column> columns(static_cast<std::size_t>(std::max(0, plot.getWidth())));
@@ -93,18 +82,18 @@ void Overview::mouseDown(const juce::MouseEvent& event)
 {
     constexpr float edge = 6.0f;
     const auto shown = frame();
-    before = session.axis().visible(session.viewWidth());
+    before = viewState.axis().visible(viewState.viewWidth());
     drag = std::abs(event.position.x - shown.getX()) < edge       ? Drag::left
            : std::abs(event.position.x - shown.getRight()) < edge ? Drag::right
                                                                   : Drag::frame;
     if (drag != Drag::frame || shown.contains(event.position))
         return;
     // A click beside the frame brings it there.
-    TimeAxis axis = session.axis();
+    TimeAxis axis = viewState.axis();
     axis.start =
         whole().timeAt(static_cast<double>(event.position.x) - laneHeadWidth) - 0.5 * (before.to - before.from);
-    session.setAxis(axis);
-    before = session.axis().visible(session.viewWidth());
+    viewState.setAxis(axis);
+    before = viewState.axis().visible(viewState.viewWidth());
 }
 
 void Overview::mouseDrag(const juce::MouseEvent& event)
@@ -117,17 +106,17 @@ void Overview::mouseDrag(const juce::MouseEvent& event)
         wanted.to += shift;
     if (drag == Drag::frame)
     {
-        TimeAxis axis = session.axis();
+        TimeAxis axis = viewState.axis();
         axis.start = wanted.from;
-        session.setAxis(axis);
+        viewState.setAxis(axis);
         return;
     }
-    session.showRange(wanted);
+    viewState.showRange(wanted);
 }
 
 void Overview::mouseDoubleClick(const juce::MouseEvent&)
 {
-    session.fit();
+    viewState.fit();
 }
 
 } // namespace pacini::editor

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -11,11 +11,10 @@ namespace pacini::editor
 {
 
 /// The envelope of the whole clip with a frame around what is visible, which can be dragged and resized.
-class Overview final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class Overview final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    explicit Overview(Session& shared);
-    ~Overview() override;
+    Overview(const EditorModel& project, ViewState& sight);
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& event) override;
@@ -23,11 +22,11 @@ public:
     void mouseDoubleClick(const juce::MouseEvent& event) override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     [[nodiscard]] TimeAxis whole() const;
     [[nodiscard]] juce::Rectangle<float> frame() const;
 
-    Session& session;
+    const EditorModel& model;
+    ViewState& viewState;
     enum class Drag
     {
         frame,
@@ -37,6 +36,7 @@ private:
     Drag drag = Drag::frame;
     std::shared_ptr<const Clip> drawn;
     TimeRange before; // the visible range when a drag began
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -4,7 +4,8 @@
 // One row of the clip view: a head with its name, and a plot over time whose things can be picked, moved and added.
 
 #include "document/view/ValueAxis.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -23,11 +24,10 @@ inline constexpr int laneHeadWidth = 144; ///< pixels, of all rows alike
 
 /// What mouse and keys do in a lane is the same for all kinds; the kinds say where their things are and what moving
 /// them means. Paints only the part that is to be drawn anew.
-class PlotLane : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class PlotLane : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    explicit PlotLane(Session& shared);
-    ~PlotLane() override;
+    PlotLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing);
 
     [[nodiscard]] juce::Rectangle<int> plotArea() const noexcept
     {
@@ -72,9 +72,6 @@ protected:
     [[nodiscard]] virtual SelectionMove move(Breakpoint from, Breakpoint to) const = 0;
     [[nodiscard]] virtual juce::String valueText(double value) const = 0;
     [[nodiscard]] virtual const char* moveName() const = 0;
-    /// What to redraw for.
-    [[nodiscard]] virtual bool concerns(unsigned changes) const;
-    virtual void follow(unsigned) {}
     /// A drag that is for a tool and not for things; false: there is none for it.
     virtual bool beginTool(const juce::MouseEvent&) { return false; }
     virtual void dragTool(const juce::MouseEvent&) {}
@@ -99,11 +96,15 @@ protected:
     [[nodiscard]] static ValueAxis amplitudeAxis(bool decibels, double highest, double height);
     [[nodiscard]] static SelectionMove amplitudeMove(double from, double to);
 
-    Session& session;
+    EditorModel& model;
+    ClipSelection& clipSelection;
+    ViewState& viewState;
+    Transport& transport;
+    Subscriptions subscriptions;
 
 private:
-    void sessionChanged(unsigned changes) final;
     bool repaintChanged();
+    void repaintAll();
     void paintHead(juce::Graphics& g);
     void nudge(double pixels, double steps);
     void scaleByKeys(double pixels, double steps);
@@ -120,7 +121,7 @@ private:
     };
     mutable std::optional<ValueAxis> scaleNow;
     std::shared_ptr<const Clip> drawn; ///< the content of the last repaint
-    Indices drawnPicked;
+    std::optional<Indices> drawnPicked;
     juce::String drawnNote;
     Drag drag = Drag::none;
     Gesture gesture = 0;

@@ -16,35 +16,30 @@ namespace
 constexpr float handleReach = 5.0f; // pixels
 }
 
-SelectionBar::SelectionBar(Session& shared) : session(shared)
+SelectionBar::SelectionBar(EditorModel& project, ClipSelection& selected, const ViewState& sight,
+                           const Transport& playing)
+    : model(project), clipSelection(selected), viewState(sight), transport(playing)
 {
     setTitle("Time of the selection");
     setTooltip("Drag an end: stretches what is selected in time, in all lanes; Alt: no snapping");
     setMouseCursor(juce::MouseCursor::LeftRightResizeCursor);
-    session.listeners.add(this);
+    subscriptions.on({&clipSelection.changed, &model.contentChanged}, [this] { follow(); });
+    subscriptions.on({&viewState.axisChanged}, [this] { repaint(); });
 }
 
-SelectionBar::~SelectionBar()
+void SelectionBar::follow()
 {
-    session.listeners.remove(this);
-}
-
-void SelectionBar::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::selection | Session::content | Session::view)) == 0)
-        return;
-    const auto clip = session.clip();
-    auto wanted = clip ? timeOf(session.selected(), *clip) : std::nullopt;
+    const auto clip = model.clip();
+    auto wanted = clip ? timeOf(clipSelection.selected(), *clip) : std::nullopt;
     if (wanted && !(wanted->to > wanted->from))
         wanted.reset();
-    if (wanted != range || (range && (changes & Session::view) != 0))
+    if (wanted != std::exchange(range, wanted))
         repaint();
-    range = wanted;
 }
 
 float SelectionBar::xOf(double time) const
 {
-    return static_cast<float>(std::clamp(session.axis().xOf(time), -100.0, getWidth() + 100.0));
+    return static_cast<float>(std::clamp(viewState.axis().xOf(time), -100.0, getWidth() + 100.0));
 }
 
 void SelectionBar::paint(juce::Graphics& g)
@@ -70,30 +65,30 @@ void SelectionBar::mouseDown(const juce::MouseEvent& event)
     if (!range)
         return;
     before = *range;
-    grabbed = session.selected();
-    gesture = session.beginGesture();
+    grabbed = clipSelection.selected();
+    gesture = model.beginGesture();
     dragsEnd = std::abs(event.position.x - xOf(range->to)) <= std::abs(event.position.x - xOf(range->from));
 }
 
 void SelectionBar::mouseDrag(const juce::MouseEvent& event)
 {
-    const auto start = session.gestureStart(gesture);
+    const auto start = model.gestureStart(gesture);
     if (!start || gesture == 0 || !event.mouseWasDraggedSinceMouseDown())
         return;
-    const double perPixel = session.axis().secondsPerPixel;
+    const double perPixel = viewState.axis().secondsPerPixel;
     double time = (dragsEnd ? before.to : before.from) + event.getDistanceFromDragStartX() * perPixel;
     if (!event.mods.isAltDown())
     {
         Snapping snapping;
         snapping.clip = start.get();
         snapping.moving = &grabbed;
-        time = snapTime(session, time, snapping);
+        time = snapTime(model, viewState, transport, time, snapping);
     }
     SelectionScale wanted;
     wanted.pivot = dragsEnd ? before.from : before.to;
     wanted.timeFactor =
         std::max(perPixel, dragsEnd ? time - before.from : before.to - time) / (before.to - before.from);
-    session.setEdited("Stretch selection", scaleSelected(*start, grabbed, wanted), gesture);
+    clipSelection.setEdited("Stretch selection", scaleSelected(*start, grabbed, wanted), gesture);
 }
 
 } // namespace pacini::editor

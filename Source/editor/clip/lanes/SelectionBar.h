@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -12,13 +13,12 @@ namespace pacini::editor
 
 /// The time of what is selected as a bar in the ruler, whose ends can be dragged: everything selected, in all lanes, is
 /// stretched about the other end. Lets the mouse through elsewhere.
-class SelectionBar final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class SelectionBar final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
     static constexpr int height = 10; ///< pixels
 
-    explicit SelectionBar(Session& shared);
-    ~SelectionBar() override;
+    SelectionBar(EditorModel& project, ClipSelection& selected, const ViewState& sight, const Transport& playing);
 
     void paint(juce::Graphics& g) override;
     bool hitTest(int x, int y) override;
@@ -26,15 +26,19 @@ public:
     void mouseDrag(const juce::MouseEvent& event) override;
 
 private:
-    void sessionChanged(unsigned changes) override;
+    void follow();
     [[nodiscard]] float xOf(double time) const;
 
-    Session& session;
+    EditorModel& model;
+    ClipSelection& clipSelection;
+    const ViewState& viewState;
+    const Transport& transport;
     std::optional<TimeRange> range; ///< of the selection, where it has a length
     Selection grabbed;
     TimeRange before; ///< when a drag began
     bool dragsEnd = false;
     Gesture gesture = 0;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -31,29 +31,20 @@ juce::String timeText(double time, double step)
 }
 } // namespace
 
-TimeRuler::TimeRuler(Session& shared) : session(shared)
+TimeRuler::TimeRuler(const EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing)
+    : model(project), clipSelection(selected), viewState(sight), transport(playing)
 {
     setOpaque(true);
     setTitle("Time ruler");
     setTooltip("Click: playhead. Drag: time range for loops and edits, or an end of it; Alt: no snapping. "
                "Double-click: no range");
-    session.listeners.add(this);
-}
-
-TimeRuler::~TimeRuler()
-{
-    session.listeners.remove(this);
-}
-
-void TimeRuler::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::view | Session::range)) != 0)
-        repaint();
+    subscriptions.on({&viewState.axisChanged, &clipSelection.rangeChanged, &transport.loopChanged},
+                     [this] { repaint(); });
 }
 
 double TimeRuler::timeAt(float x) const
 {
-    return session.axis().timeAt(static_cast<double>(x) - laneHeadWidth);
+    return viewState.axis().timeAt(static_cast<double>(x) - laneHeadWidth);
 }
 
 void TimeRuler::paint(juce::Graphics& g)
@@ -61,16 +52,16 @@ void TimeRuler::paint(juce::Graphics& g)
     const Palette& p = paletteFor(*this);
     g.fillAll(p.card);
     const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth);
-    const TimeAxis& axis = session.axis();
+    const TimeAxis& axis = viewState.axis();
     const juce::Graphics::ScopedSaveState saved(g);
     g.reduceClipRegion(plot);
     const auto xOf = [&](double time)
     {
         return static_cast<float>(plot.getX() + axis.xOf(time));
     };
-    if (const auto& range = session.timeRange())
+    if (const auto& range = clipSelection.timeRange())
     {
-        g.setColour(session.isLooping() ? p.accent : p.accent.withAlpha(0.45f));
+        g.setColour(transport.isLooping() ? p.accent : p.accent.withAlpha(0.45f));
         g.fillRect(juce::Rectangle<float>(xOf(range->from), static_cast<float>(plot.getBottom() - 6),
                                           std::max(1.0f, xOf(range->to) - xOf(range->from)), 6.0f));
     }
@@ -95,12 +86,12 @@ void TimeRuler::paint(juce::Graphics& g)
 /// The end of the time range that stays when the one at x is dragged.
 std::optional<double> TimeRuler::otherEdge(float x) const
 {
-    const auto& range = session.timeRange();
+    const auto& range = clipSelection.timeRange();
     if (!range)
         return std::nullopt;
     const auto distance = [&](double time)
     {
-        return std::abs(x - static_cast<float>(laneHeadWidth + session.axis().xOf(time)));
+        return std::abs(x - static_cast<float>(laneHeadWidth + viewState.axis().xOf(time)));
     };
     const float toFrom = distance(range->from);
     const float toEnd = distance(range->to);
@@ -121,7 +112,7 @@ void TimeRuler::mouseDown(const juce::MouseEvent& event)
     anchorIsEdge = fixed.has_value();
     anchor = fixed.value_or(timeAt(event.position.x));
     if (event.getNumberOfClicks() == 1 && !anchorIsEdge)
-        session.setPlayhead(anchor);
+        transport.setPlayhead(anchor);
 }
 
 void TimeRuler::mouseDrag(const juce::MouseEvent& event)
@@ -134,16 +125,16 @@ void TimeRuler::mouseDrag(const juce::MouseEvent& event)
     const bool freely = event.mods.isAltDown();
     const auto placed = [&](double time)
     {
-        return freely ? time : snapTime(session, time, snapping);
+        return freely ? time : snapTime(model, viewState, transport, time, snapping);
     };
     const double from = anchorIsEdge ? anchor : placed(anchor);
     const double now = placed(timeAt(event.position.x));
-    session.setTimeRange(TimeRange{std::min(from, now), std::max(from, now)});
+    clipSelection.setTimeRange(TimeRange{std::min(from, now), std::max(from, now)});
 }
 
 void TimeRuler::mouseDoubleClick(const juce::MouseEvent&)
 {
-    session.setTimeRange(std::nullopt);
+    clipSelection.setTimeRange(std::nullopt);
 }
 
 } // namespace pacini::editor

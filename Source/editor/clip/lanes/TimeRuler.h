@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -11,11 +12,10 @@ namespace pacini::editor
 {
 
 /// Times. A click puts the playhead there, a drag selects a range or moves an end of it.
-class TimeRuler final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class TimeRuler final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    explicit TimeRuler(Session& shared);
-    ~TimeRuler() override;
+    TimeRuler(const EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing);
 
     void paint(juce::Graphics& g) override;
     void mouseMove(const juce::MouseEvent& event) override;
@@ -24,14 +24,17 @@ public:
     void mouseDoubleClick(const juce::MouseEvent& event) override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     [[nodiscard]] double timeAt(float x) const;
 
-    Session& session;
+    const EditorModel& model;
+    ClipSelection& clipSelection;
+    const ViewState& viewState;
+    Transport& transport;
     [[nodiscard]] std::optional<double> otherEdge(float x) const;
 
     double anchor = 0.0; // s, where a drag began, or the end of the range that stays
     bool anchorIsEdge = false;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -4,7 +4,8 @@
 namespace pacini::editor
 {
 
-ToolStrip::ToolStrip(Session& shared) : session(shared), drawButton("Draw"), snapButton("Snap"), versionButton("A")
+ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
+    : model(project), viewState(sight), drawButton("Draw"), snapButton("Snap"), versionButton("A")
 {
     setTitle("Tools");
     const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help)
@@ -20,39 +21,28 @@ ToolStrip::ToolStrip(Session& shared) : session(shared), drawButton("Draw"), sna
     prepare(versionButton, "Version A", "Shows and plays the version that was kept as A in the clip menu (C)");
     drawButton.onClick = [this]
     {
-        session.setDrawing(!session.isDrawing());
+        viewState.setDrawing(!viewState.isDrawing());
     };
     snapButton.onClick = [this]
     {
-        SnapTargets wanted = session.snapTargets();
+        SnapTargets wanted = viewState.snapTargets();
         wanted.on = !wanted.on;
-        session.setSnapTargets(wanted);
+        viewState.setSnapTargets(wanted);
     };
     versionButton.onClick = [this]
     {
-        session.setComparing(!session.isComparing());
+        model.setComparing(!model.isComparing());
     };
-    session.listeners.add(this);
+    subscriptions.on({&viewState.lookChanged, &model.contentChanged, &model.versionChanged}, [this] { showState(); });
     showState();
-}
-
-ToolStrip::~ToolStrip()
-{
-    session.listeners.remove(this);
-}
-
-void ToolStrip::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::look | Session::playback | Session::content | Session::project)) != 0)
-        showState();
 }
 
 void ToolStrip::showState()
 {
-    drawButton.setToggleState(session.isDrawing(), juce::dontSendNotification);
-    snapButton.setToggleState(session.snapTargets().on, juce::dontSendNotification);
-    versionButton.setToggleState(session.isComparing(), juce::dontSendNotification);
-    versionButton.setEnabled(session.keptVersion() != nullptr);
+    drawButton.setToggleState(viewState.isDrawing(), juce::dontSendNotification);
+    snapButton.setToggleState(viewState.snapTargets().on, juce::dontSendNotification);
+    versionButton.setToggleState(model.isComparing(), juce::dontSendNotification);
+    versionButton.setEnabled(model.keptVersion() != nullptr);
 }
 
 void ToolStrip::resized()

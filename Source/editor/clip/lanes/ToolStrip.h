@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -9,20 +9,20 @@ namespace pacini::editor
 {
 
 /// What the mouse does in lanes, beside the ruler: drawing, snapping, and which version is seen and heard.
-class ToolStrip final : public juce::Component, private Session::Listener
+class ToolStrip final : public juce::Component
 {
 public:
-    explicit ToolStrip(Session& shared);
-    ~ToolStrip() override;
+    ToolStrip(EditorModel& project, ViewState& sight);
 
     void resized() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void showState();
 
-    Session& session;
+    EditorModel& model;
+    ViewState& viewState;
     juce::ToggleButton drawButton, snapButton, versionButton;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

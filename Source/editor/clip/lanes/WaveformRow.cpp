@@ -25,23 +25,24 @@ bool isDark(const juce::Component& component)
 }
 } // namespace
 
-WaveformRow::WaveformRow(Session& shared) : session(shared)
+WaveformRow::WaveformRow(const EditorModel& project, const ProjectSounds& projectSounds, ViewState& sight)
+    : model(project), sounds(projectSounds), viewState(sight)
 {
     setOpaque(true);
     setTitle("Sound");
     viewButton.setTooltip("Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)");
     viewButton.onClick = [this]
     {
-        ViewOptions wanted = session.viewOptions();
+        ViewOptions wanted = viewState.viewOptions();
         wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
-        session.setViewOptions(wanted);
+        viewState.setViewOptions(wanted);
     };
     rangeButton.setTooltip("The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)");
     rangeButton.onClick = [this]
     {
-        ViewOptions wanted = session.viewOptions();
+        ViewOptions wanted = viewState.viewOptions();
         wanted.wholeSpectrum = !wanted.wholeSpectrum;
-        session.setViewOptions(wanted);
+        viewState.setViewOptions(wanted);
     };
     spectrum.onChanged = [this]
     {
@@ -49,13 +50,21 @@ WaveformRow::WaveformRow(Session& shared) : session(shared)
     };
     addAndMakeVisible(viewButton);
     addChildComponent(rangeButton);
-    session.listeners.add(this);
+    subscriptions.on({&viewState.axisChanged}, [this] { repaint(plotArea()); });
+    subscriptions.on({&viewState.lookChanged, &sounds.changed},
+                     [this]
+                     {
+                         showOptions();
+                         repaint();
+                     });
+    subscriptions.on({&model.contentChanged},
+                     [this]
+                     {
+                         showOptions();
+                         if (const auto sound = sounds.soundOfClip(); std::exchange(drawn, sound) != sound)
+                             repaint();
+                     });
     showOptions();
-}
-
-WaveformRow::~WaveformRow()
-{
-    session.listeners.remove(this);
 }
 
 juce::Rectangle<int> WaveformRow::plotArea() const
@@ -63,21 +72,9 @@ juce::Rectangle<int> WaveformRow::plotArea() const
     return getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedBottom(1);
 }
 
-void WaveformRow::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::look | Session::content | Session::sound)) != 0)
-        showOptions();
-    const auto sound = session.soundOfClip();
-    if ((changes & (Session::sound | Session::look)) != 0 || sound != drawn)
-        repaint();
-    else if ((changes & Session::view) != 0)
-        repaint(plotArea());
-    drawn = sound;
-}
-
 void WaveformRow::showOptions()
 {
-    const ViewOptions& options = session.viewOptions();
+    const ViewOptions& options = viewState.viewOptions();
     const bool spectral = options.sound != SoundView::waveform;
     const juce::String name = options.sound == SoundView::waveform   ? "Waveform"
                               : options.sound == SoundView::spectrum ? "Spectrum"
@@ -87,7 +84,7 @@ void WaveformRow::showOptions()
     rangeButton.setButtonText(options.wholeSpectrum ? tr("All") : juce::String("2 kHz"));
     rangeButton.setTitle(juce::String("Highest frequency: ") + (options.wholeSpectrum ? "all" : "2 kHz"));
     rangeButton.setVisible(spectral);
-    spectrum.show(spectral ? session.soundOfClip() : nullptr, options.wholeSpectrum);
+    spectrum.show(spectral ? sounds.soundOfClip() : nullptr, options.wholeSpectrum);
     setTooltip(spectral
                    ? "The frequencies of the sound over time, Hz; bright is loud in dark colours, dark in light ones"
                    : "The sound that the clip was made from, mean of its channels, -1 to 1");
@@ -105,9 +102,9 @@ void WaveformRow::resized()
 void WaveformRow::mouseMove(const juce::MouseEvent& event)
 {
     const auto plot = plotArea();
-    if (session.viewOptions().sound == SoundView::waveform || !plot.contains(event.getPosition()))
+    if (viewState.viewOptions().sound == SoundView::waveform || !plot.contains(event.getPosition()))
         return showOptions();
-    const double time = session.axis().timeAt(event.position.x - static_cast<float>(plot.getX()));
+    const double time = viewState.axis().timeAt(event.position.x - static_cast<float>(plot.getX()));
     const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
     const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
     const double level = spectrum.levelAt(time, frequency);
@@ -121,7 +118,7 @@ void WaveformRow::paint(juce::Graphics& g)
     const Palette& p = paletteFor(*this);
     g.fillAll(p.card);
     const auto plot = plotArea();
-    const auto sound = session.soundOfClip();
+    const auto sound = sounds.soundOfClip();
     if (g.getClipBounds().getX() < plot.getX())
         paintHead(g, sound.get());
     g.setColour(p.line);
@@ -141,7 +138,7 @@ void WaveformRow::paint(juce::Graphics& g)
     }
     const juce::Graphics::ScopedSaveState saved(g);
     g.reduceClipRegion(visible);
-    const SoundView shown = session.viewOptions().sound;
+    const SoundView shown = viewState.viewOptions().sound;
     if (shown != SoundView::waveform)
         paintSpectrum(g, plot);
     if (shown != SoundView::spectrum)
@@ -149,9 +146,9 @@ void WaveformRow::paint(juce::Graphics& g)
     if (shown == SoundView::waveform)
         return;
     // Windows reach over the end.
-    if (const auto clip = session.clip())
+    if (const auto clip = model.clip())
     {
-        const int end = plot.getX() + juce::roundToInt(std::min(1e6, session.axis().xOf(clip->duration)));
+        const int end = plot.getX() + juce::roundToInt(std::min(1e6, viewState.axis().xOf(clip->duration)));
         g.setColour(p.background);
         g.fillRect(plot.withLeft(std::clamp(end, plot.getX(), plot.getRight())));
     }
@@ -199,7 +196,7 @@ void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
 
 void WaveformRow::paintSpectrum(juce::Graphics& g, juce::Rectangle<int> plot)
 {
-    const auto& image = spectrum.picture(session.axis(), plot.getWidth(), plot.getHeight(), isDark(*this));
+    const auto& image = spectrum.picture(viewState.axis(), plot.getWidth(), plot.getHeight(), isDark(*this));
     g.drawImageAt(image, plot.getX(), plot.getY());
 }
 
@@ -207,7 +204,7 @@ void WaveformRow::paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, co
 {
     const Palette& p = paletteFor(*this);
     const auto visible = g.getClipBounds().getIntersection(plot);
-    TimeAxis axis = session.axis();
+    TimeAxis axis = viewState.axis();
     axis.start = axis.timeAt(visible.getX() - plot.getX());
     std::vector<Column> columns(static_cast<std::size_t>(visible.getWidth()));
     sound.peaks.columns(axis, columns);

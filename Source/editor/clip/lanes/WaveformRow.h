@@ -2,7 +2,8 @@
 #pragma once
 
 #include "editor/clip/lanes/SpectrogramPicture.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ProjectSounds.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -12,11 +13,10 @@ namespace pacini::editor
 {
 
 /// The sound that the clip was made from, as its waveform, its spectrogram or both over each other.
-class WaveformRow final : public juce::Component, public juce::SettableTooltipClient, private Session::Listener
+class WaveformRow final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
-    explicit WaveformRow(Session& shared);
-    ~WaveformRow() override;
+    WaveformRow(const EditorModel& project, const ProjectSounds& projectSounds, ViewState& sight);
 
     /// Whether all of the spectrogram that is visible has been computed.
     [[nodiscard]] bool isComplete() const { return spectrum.isComplete(); }
@@ -26,17 +26,19 @@ public:
     void mouseMove(const juce::MouseEvent& event) override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void showOptions();
     [[nodiscard]] juce::Rectangle<int> plotArea() const;
     void paintHead(juce::Graphics& g, const Sound* sound);
     void paintSpectrum(juce::Graphics& g, juce::Rectangle<int> plot);
     void paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, const Sound& sound, bool overSpectrum);
 
-    Session& session;
+    const EditorModel& model;
+    const ProjectSounds& sounds;
+    ViewState& viewState;
     SpectrogramPicture spectrum;
     std::shared_ptr<const Sound> drawn;
     juce::TextButton viewButton, rangeButton;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

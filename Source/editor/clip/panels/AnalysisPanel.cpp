@@ -24,12 +24,13 @@ constexpr double leastWidth = 5.0; // Hz between the ends of the bands
 
 AnalysisPanel::AnalysisPanel(EditorView& shown)
     : view(shown),
-      session(shown.session()),
+      model(shown.session().model),
+      sounds(shown.session().sounds),
       replaceButton("Replace sound" + toText("…")),
       findButton("Find it" + toText("…")),
       resetButton("Reset"),
       normalise("Scale to full drive"),
-      edits(session)
+      edits(shown.session().model, shown.session().viewState, shown.session().transport)
 {
     setTitle("Analysis");
     const auto label = [this](juce::Label& one, const juce::String& text)
@@ -83,18 +84,18 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     replaceButton.setTooltip("Puts another sound file under the edits of this clip");
     replaceButton.onClick = [this]
     {
-        const auto item = session.item();
-        const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr;
+        const auto item = model.item();
+        const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
         view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
-                                 [this](const std::filesystem::path& file) { session.replaceSound(file); });
+                                 [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
     };
     findButton.setTooltip("Shows Pacini where the sound is now, or another missing sound beside it");
     findButton.onClick = [this]
     {
-        const auto item = session.item();
-        if (const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr)
+        const auto item = model.item();
+        if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
             view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
-                                     [this](const std::filesystem::path& file) { session.findSounds(file); });
+                                     [this](const std::filesystem::path& file) { sounds.findSounds(file); });
     };
     for (juce::Component* one : std::initializer_list<juce::Component*>{&replaceButton, &findButton, &preset,
                                                                         &resetButton, &spacing, &normalise, &edits})
@@ -132,14 +133,16 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
         edited();
     };
     setSize(200, preferredHeight);
-    session.listeners.add(this);
+    subscriptions.on({&sounds.workChanged},
+                     [this]
+                     {
+                         // The wish was carried out, or was stopped.
+                         if (!sounds.workNow() && !isTimerRunning())
+                             waiting.reset();
+                     });
+    subscriptions.on({&model.projectChanged, &sounds.changed, &sounds.workChanged}, [this] { show(); });
     lookAndFeelChanged();
     show();
-}
-
-AnalysisPanel::~AnalysisPanel()
-{
-    session.listeners.remove(this);
 }
 
 void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help)
@@ -166,7 +169,7 @@ void AnalysisPanel::prepare(Which which, const juce::String& name, const juce::S
 EncoderParams AnalysisPanel::params() const
 {
     // What has no control stays as it is.
-    const auto item = session.item();
+    const auto item = model.item();
     EncoderParams wanted = item ? item->encoder : EncoderParams{};
     wanted.bands = juce::roundToInt(knob(bands).getValue());
     wanted.lowFrequency = knob(low).getValue();
@@ -212,38 +215,29 @@ void AnalysisPanel::edited()
 void AnalysisPanel::carryOut()
 {
     stopTimer();
-    const auto item = session.item();
+    const auto item = model.item();
     if (!waiting || !item)
         return;
     if (*waiting == item->encoder)
         waiting.reset();
     else
-        session.reanalyse(*waiting);
-}
-
-void AnalysisPanel::sessionChanged(unsigned changes)
-{
-    // The wish was carried out, or was stopped.
-    if ((changes & Session::work) != 0 && !session.workNow() && !isTimerRunning())
-        waiting.reset();
-    if ((changes & (Session::content | Session::project | Session::sound | Session::work)) != 0)
-        show();
+        sounds.reanalyse(*waiting);
 }
 
 void AnalysisPanel::show()
 {
-    const auto item = session.item();
-    if (shownClip != session.activeId())
+    const auto item = model.item();
+    if (shownClip != model.activeId())
     {
         stopTimer();
         waiting.reset();
-        shownClip = session.activeId();
+        shownClip = model.activeId();
     }
-    const AudioReference* source = item ? session.document().project().findSource(item->source) : nullptr;
-    const auto sound = item ? session.soundOfClip() : nullptr;
-    const bool missing = source != nullptr && session.isMissing(source->id);
+    const AudioReference* source = item ? model.document().project().findSource(item->source) : nullptr;
+    const auto sound = item ? sounds.soundOfClip() : nullptr;
+    const bool missing = source != nullptr && sounds.isMissing(source->id);
     juce::String text;
-    if (session.isShowingUnanalysed())
+    if (model.isShowingUnanalysed())
         text = "The sound is being analysed.";
     else if (!item)
         text = "There is no clip.";

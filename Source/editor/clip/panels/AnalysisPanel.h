@@ -4,7 +4,7 @@
 // How the sound of the clip is analysed, and the hand edits that found no place over the analysis.
 
 #include "editor/clip/panels/UnfittingList.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ProjectSounds.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -17,11 +17,10 @@ namespace pacini::editor
 class EditorView;
 
 /// A change is carried out when the controls have been still for a moment.
-class AnalysisPanel final : public juce::Component, private Session::Listener, private juce::Timer
+class AnalysisPanel final : public juce::Component, private juce::Timer
 {
 public:
     explicit AnalysisPanel(EditorView& shown);
-    ~AnalysisPanel() override;
 
     /// What the controls say.
     [[nodiscard]] EncoderParams params() const;
@@ -50,7 +49,6 @@ private:
         knobCount
     };
 
-    void sessionChanged(unsigned changes) override;
     void timerCallback() override { carryOut(); }
     void prepare(Which which, const juce::String& name, const juce::String& unit, const juce::String& help);
     void set(const EncoderParams& wanted);
@@ -61,7 +59,8 @@ private:
     [[nodiscard]] const juce::Slider& knob(Which which) const { return knobs[which].slider; }
 
     EditorView& view;
-    Session& session;
+    const EditorModel& model;
+    ProjectSounds& sounds;
     juce::Rectangle<int> soundCard, settingsCard, editsCard;
     juce::Label state; ///< of the sound, or why nothing can be set
     juce::TextButton replaceButton, findButton, resetButton;
@@ -72,6 +71,7 @@ private:
     UnfittingList edits;
     std::optional<EncoderParams> waiting; ///< for the end of the pause, or of the analysis under way
     int shownClip = 0;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -4,7 +4,7 @@
 // The clips of the project under their groups: chosen, renamed, ordered, grouped by mouse and keys.
 
 #include "document/view/ClipRows.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/EditorModel.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -21,11 +21,10 @@ class ClipList final : public juce::Component,
                        public juce::DragAndDropContainer,
                        public juce::DragAndDropTarget,
                        private juce::ListBoxModel,
-                       private juce::KeyListener,
-                       private Session::Listener
+                       private juce::KeyListener
 {
 public:
-    explicit ClipList(Session& shared);
+    explicit ClipList(EditorModel& project);
     ~ClipList() override;
 
     [[nodiscard]] const std::vector<ClipRow>& rows() const noexcept { return rowsNow; }
@@ -53,7 +52,6 @@ public:
     void resized() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void refresh();
     void showMenu(int row, juce::Rectangle<int> beside);
     [[nodiscard]] juce::String nameOf(const ClipRow& row) const;
@@ -77,11 +75,12 @@ private:
     void itemDropped(const SourceDetails& details) override;
     [[nodiscard]] int gapAt(const SourceDetails& details) const;
 
-    Session& session;
+    EditorModel& model;
     std::vector<ClipRow> rowsNow;
     juce::ListBox list{{}, this};
     std::unique_ptr<juce::TextEditor> nameField; ///< over a row while it is renamed
     std::optional<int> gap;                      ///< of a drag
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -52,7 +52,8 @@ std::optional<FirstThing> firstOf(const Selection& selection, const Clip& clip)
 
 Inspector::Inspector(EditorView& shown)
     : view(shown),
-      session(shown.session()),
+      model(shown.session().model),
+      clipSelection(shown.session().clipSelection),
       fadeInButton("Fade in"),
       fadeOutButton("Fade out"),
       reverseButton("Reverse clip")
@@ -94,18 +95,18 @@ Inspector::Inspector(EditorView& shown)
           "0 % dull to 100 % crisp, of the first transient selected; the others follow");
     timeField.onTextChange = [this]
     {
-        const auto clip = session.clip();
-        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        const auto clip = model.clip();
+        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
         if (!first)
             return;
         SelectionMove move;
         move.time = timeField.getText().getDoubleValue() - first->time;
-        session.setEdited("Move points", moveSelected(*clip, session.selected(), move));
+        clipSelection.setEdited("Move points", moveSelected(*clip, clipSelection.selected(), move));
     };
     valueField.onTextChange = [this]
     {
-        const auto clip = session.clip();
-        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        const auto clip = model.clip();
+        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
         if (!first)
             return;
         SelectionMove move;
@@ -116,17 +117,17 @@ Inspector::Inspector(EditorView& shown)
             move.amplitudeFactor = std::pow(10.0, number / 20.0) / first->value;
         else
             move.amplitudeOffset = std::pow(10.0, number / 20.0);
-        session.setEdited("Change value", moveSelected(*clip, session.selected(), move));
+        clipSelection.setEdited("Change value", moveSelected(*clip, clipSelection.selected(), move));
     };
     sharpField.onTextChange = [this]
     {
-        const auto clip = session.clip();
-        const auto first = clip ? firstOf(session.selected(), *clip) : std::nullopt;
+        const auto clip = model.clip();
+        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
         if (!first || !first->sharpness)
             return;
         SelectionMove move;
         move.sharpness = 0.01 * sharpField.getText().getDoubleValue() - *first->sharpness;
-        session.setEdited("Change sharpness", moveSelected(*clip, session.selected(), move));
+        clipSelection.setEdited("Change sharpness", moveSelected(*clip, clipSelection.selected(), move));
     };
     const auto slider = [this](juce::Slider& one, const juce::String& title, const juce::String& help)
     {
@@ -137,7 +138,7 @@ Inspector::Inspector(EditorView& shown)
         one.setWantsKeyboardFocus(true);
         one.onDragStart = [this]
         {
-            gesture = session.beginGesture();
+            gesture = model.beginGesture();
         };
         addAndMakeVisible(one);
     };
@@ -183,15 +184,12 @@ Inspector::Inspector(EditorView& shown)
     button(reverseButton, reverse, "Plays the whole clip from its end");
     setSize(200, inspectorPreferredHeight);
     addChildComponent(chip);
-    session.listeners.add(this);
+    subscriptions.on({&model.contentChanged, &clipSelection.changed, &clipSelection.rangeChanged},
+                     [this] { showSelection(); });
+    subscriptions.on({&model.contentChanged}, [this] { showFacts(); });
     lookAndFeelChanged();
     showSelection();
     showFacts();
-}
-
-Inspector::~Inspector()
-{
-    session.listeners.remove(this);
 }
 
 void Inspector::lookAndFeelChanged()
@@ -206,18 +204,10 @@ void Inspector::lookAndFeelChanged()
         one->setColour(juce::Label::textColourId, p.dim);
 }
 
-void Inspector::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::content | Session::selection | Session::range)) != 0)
-        showSelection();
-    if ((changes & (Session::content | Session::project)) != 0)
-        showFacts();
-}
-
 void Inspector::showSelection()
 {
-    const auto clip = session.clip();
-    const Selection& selection = session.selected();
+    const auto clip = model.clip();
+    const Selection& selection = clipSelection.selected();
     const auto first = clip ? firstOf(selection, *clip) : std::nullopt;
     const auto set = [](juce::Label& label, juce::Label& field, bool shown, const juce::String& text)
     {
@@ -243,7 +233,7 @@ void Inspector::showSelection()
         if (count > 1)
             scope << "\n" << stretchText(range) << ", " << tr("their lanes");
     }
-    else if (const auto& range = session.timeRange())
+    else if (const auto& range = clipSelection.timeRange())
         scope = tr("Range") + " " + stretchText(*range) + ",\n" + tr("all lanes");
     else
         scope = tr("Nothing selected:") + "\n" + tr("edits are for the whole clip");
@@ -252,51 +242,51 @@ void Inspector::showSelection()
 
 void Inspector::showFacts()
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     if (!clip)
         return;
     juce::String text;
     text << juce::String(clip->duration, 2) << " s, " << counted(clip->bands.size(), "band", "bands") << "\n"
          << counted(breakpointCount(*clip), "point", "points") << ", "
          << counted(clip->transients.size(), "transient", "transients");
-    if (const auto item = session.item(); item && !item->unfitting.empty())
+    if (const auto item = model.item(); item && !item->unfitting.empty())
         text << "\n"
              << counted(item->unfitting.size(), "edit waits for another analysis", "edits wait for another analysis");
     facts.setText(text, juce::dontSendNotification);
     chip.show(*clip,
               [this]
               {
-                  const auto dragged = session.clip();
+                  const auto dragged = model.clip();
                   const auto written = dragged ? writeForDragging(*dragged) : Result<juce::File>(juce::File());
                   if (!written)
-                      session.onError("The clip cannot be dragged", toText(written.error().text()));
+                      model.onError("The clip cannot be dragged", toText(written.error().text()));
                   return written ? *written : juce::File();
               });
 }
 
 std::vector<Lane> Inspector::scopeLanes() const
 {
-    const auto clip = session.clip();
-    const EditScope scope = session.scope();
+    const auto clip = model.clip();
+    const EditScope scope = clipSelection.scope();
     return scope.allLanes ? lanesOf(*clip) : scope.lanes;
 }
 
 void Inspector::gainMoved()
 {
     const bool single = gesture == 0; // typed, or by keys
-    if (session.clip() && gain.getValue() != 0.0)
-        session.edit("Gain", GainEdit{session.scope(), gain.getValue()}, single ? session.beginGesture() : gesture);
+    if (model.clip() && gain.getValue() != 0.0)
+        model.edit("Gain", GainEdit{clipSelection.scope(), gain.getValue()}, single ? model.beginGesture() : gesture);
     if (single)
         gain.setValue(0.0, juce::dontSendNotification);
 }
 
 void Inspector::simplifyMoved()
 {
-    if (!session.clip())
+    if (!model.clip())
         return;
     const bool single = gesture == 0;
-    const Gesture own = single ? session.beginGesture() : gesture;
-    const auto start = session.gestureStart(own);
+    const Gesture own = single ? model.beginGesture() : gesture;
+    const auto start = model.gestureStart(own);
     const auto lanes = scopeLanes();
     auto simplified = keepShare(*start, lanes, keep.getValue() / 100.0);
     if (!simplified)
@@ -308,7 +298,7 @@ void Inspector::simplifyMoved()
     if (found.frequencyError > 0.0)
         text << ", " << juce::String(found.frequencyError, 1) << " Hz";
     cost.setText(text, juce::dontSendNotification);
-    session.setEdited("Simplify", {std::move(simplified->clip), {}}, own);
+    clipSelection.setEdited("Simplify", {std::move(simplified->clip), {}}, own);
     if (single)
         keep.setValue(100.0, juce::dontSendNotification);
 }

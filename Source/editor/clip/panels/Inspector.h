@@ -4,7 +4,7 @@
 // What is selected, in numbers, and edits of stretches: level, fades, simplifying.
 
 #include "editor/ClipChip.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ClipSelection.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -13,18 +13,16 @@ namespace pacini::editor
 
 class EditorView;
 
-class Inspector final : public juce::Component, private Session::Listener
+class Inspector final : public juce::Component
 {
 public:
     explicit Inspector(EditorView& shown);
-    ~Inspector() override;
 
     void paint(juce::Graphics& g) override;
     void resized() override;
     void lookAndFeelChanged() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void showSelection();
     void showFacts();
     void gainMoved();
@@ -32,7 +30,8 @@ private:
     [[nodiscard]] std::vector<Lane> scopeLanes() const;
 
     EditorView& view;
-    Session& session;
+    EditorModel& model;
+    ClipSelection& clipSelection;
     juce::Rectangle<int> selectionCard, levelCard, simplifyCard, factsCard;
     juce::Label scopeText, timeLabel, timeField, valueLabel, valueField, sharpLabel, sharpField;
     juce::Label gainLabel, keepLabel, cost, facts;
@@ -40,6 +39,7 @@ private:
     juce::TextButton fadeInButton, fadeOutButton, reverseButton;
     ClipChip chip;
     Gesture gesture = 0;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

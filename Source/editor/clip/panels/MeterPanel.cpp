@@ -16,8 +16,10 @@ constexpr int fallCalls = 5 * rate; // until all bars are down
 constexpr double leastShown = 0.05; // dB
 } // namespace
 
-MeterPanel::MeterPanel(Session& shared)
-    : session(shared),
+MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, Player& played)
+    : actuators(profiles),
+      transport(playing),
+      player(played),
       output("Output", "Peak of the drive signal in dB; 0 dB is full drive",
              {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
       reduction("Gain reduction", "What the protection of the actuator takes away, dB",
@@ -30,22 +32,15 @@ MeterPanel::MeterPanel(Session& shared)
     for (juce::Component* meter : std::initializer_list<juce::Component*>{&output, &reduction, &felt})
         addAndMakeVisible(meter);
     felt.show(-std::numeric_limits<double>::infinity());
-    session.listeners.add(this);
-    sessionChanged(Session::playback);
+    subscriptions.on({&transport.changed, &actuators.changed}, [this] { follow(); });
+    follow();
 }
 
-MeterPanel::~MeterPanel()
+void MeterPanel::follow()
 {
-    session.listeners.remove(this);
-}
-
-void MeterPanel::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::playback | Session::project)) == 0)
-        return;
-    felt.setEnabled(session.profile() != nullptr);
+    felt.setEnabled(actuators.profile() != nullptr);
     felt.setAlpha(felt.isEnabled() ? 1.0f : 0.45f);
-    if (session.isPlaying() && !isTimerRunning())
+    if (transport.isPlaying() && !isTimerRunning())
     {
         quiet = 0;
         startTimerHz(rate);
@@ -54,13 +49,13 @@ void MeterPanel::sessionChanged(unsigned changes)
 
 void MeterPanel::timerCallback()
 {
-    const auto reading = session.player.takeMeters();
+    const auto reading = player.takeMeters();
     const double level = 20.0 * std::log10(reading.peak);
-    const auto profile = session.profile();
+    const auto profile = actuators.profile();
     output.show(level);
     reduction.show(reading.gainReduction > leastShown ? reading.gainReduction : -1.0);
     felt.show(profile ? level + profile->range.dynamicRange : -std::numeric_limits<double>::infinity());
-    quiet = session.isPlaying() ? 0 : quiet + 1;
+    quiet = transport.isPlaying() ? 0 : quiet + 1;
     if (quiet > fallCalls)
         stopTimer();
 }

@@ -4,7 +4,7 @@
 // What the actuator gets while playing.
 
 #include "editor/Meters.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -12,24 +12,26 @@ namespace pacini::editor
 {
 
 /// Output level, gain reduction and level above the threshold of touch, which is known of a chosen actuator only.
-class MeterPanel final : public juce::Component, private Session::Listener, private juce::Timer
+class MeterPanel final : public juce::Component, private juce::Timer
 {
 public:
     static constexpr int height = 3 * 30 + 12;
 
-    explicit MeterPanel(Session& shared);
-    ~MeterPanel() override;
+    MeterPanel(const Actuators& profiles, const Transport& playing, Player& played);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
+    void follow();
     void timerCallback() override;
 
-    Session& session;
+    const Actuators& actuators;
+    const Transport& transport;
+    Player& player;
     LevelMeter output, reduction, felt;
     int quiet = 0; ///< calls of the timer since something played
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -23,8 +23,9 @@ juce::String sizeText(std::uint64_t bytes)
 } // namespace
 
 ProjectPanel::ProjectPanel(EditorView& shown)
-    : session(shown.session()),
-      list(session),
+    : model(shown.session().model),
+      sounds(shown.session().sounds),
+      list(shown.session().model),
       duplicateButton("Duplicate"),
       removeButton("Remove"),
       groupButton("Group" + toText("…")),
@@ -50,11 +51,11 @@ ProjectPanel::ProjectPanel(EditorView& shown)
     keepCopy.setTooltip("The project file then holds the whole sound of this clip and can go anywhere without it");
     keepCopy.onClick = [this]
     {
-        const auto item = session.item();
+        const auto item = model.item();
         const bool wanted = keepCopy.getToggleState();
         show();
         if (item)
-            session.keepSound(item->source, wanted);
+            sounds.keepSound(item->source, wanted);
     };
     addAndMakeVisible(keepCopy);
     const auto label = [this](juce::Label& one, const juce::String& text)
@@ -91,14 +92,9 @@ ProjectPanel::ProjectPanel(EditorView& shown)
     notes(clipNotes, "Notes of the clip", "Notes of the clip, saved with the project");
     notes(projectNotes, "Notes of the project", "Notes of the project, saved with it");
     setSize(200, projectPreferredHeight);
-    session.listeners.add(this);
+    subscriptions.on({&model.projectChanged, &sounds.changed}, [this] { show(); });
     lookAndFeelChanged();
     show();
-}
-
-ProjectPanel::~ProjectPanel()
-{
-    session.listeners.remove(this);
 }
 
 void ProjectPanel::keepNotes()
@@ -109,10 +105,10 @@ void ProjectPanel::keepNotes()
     const std::string ofClip = clipNotes.getText().toStdString();
     const std::string ofProject = projectNotes.getText().toStdString();
     const int id = notesOf;
-    if (const auto item = session.document().clip(id); item && item->notes != ofClip)
-        session.change([&](Document& document) { return document.setNotes(id, ofClip, "Notes of the clip"); });
-    if (session.document().project().notes != ofProject)
-        session.change(
+    if (const auto item = model.document().clip(id); item && item->notes != ofClip)
+        model.change([&](Document& document) { return document.setNotes(id, ofClip, "Notes of the clip"); });
+    if (model.document().project().notes != ofProject)
+        model.change(
             [&](Document& document) -> Result<void>
             {
                 document.setProjectNotes(ofProject, "Notes of the project");
@@ -120,36 +116,30 @@ void ProjectPanel::keepNotes()
             });
 }
 
-void ProjectPanel::sessionChanged(unsigned changes)
-{
-    if ((changes & (Session::project | Session::content | Session::sound)) != 0)
-        show();
-}
-
 void ProjectPanel::show()
 {
     // What was typed belongs to the clip before.
-    if (notesOf != session.activeId() && typed)
+    if (notesOf != model.activeId() && typed)
         keepNotes();
-    const auto item = session.item();
-    notesOf = session.activeId();
+    const auto item = model.item();
+    notesOf = model.activeId();
     const auto put = [this](juce::TextEditor& field, const std::string& text)
     {
         if (!typed && field.getText() != toText(text))
             field.setText(toText(text), false);
     };
     put(clipNotes, item ? item->notes : std::string());
-    put(projectNotes, session.document().project().notes);
+    put(projectNotes, model.document().project().notes);
     clipNotes.setEnabled(item != nullptr);
     duplicateButton.setEnabled(item != nullptr);
     removeButton.setEnabled(!list.rows().empty());
-    const AudioReference* sound = item ? session.document().project().findSource(item->source) : nullptr;
+    const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
     keepCopy.setEnabled(sound != nullptr);
     keepCopy.setToggleState(sound != nullptr && sound->embedded != nullptr, juce::dontSendNotification);
     juce::String note = "This clip has no sound.";
     if (sound != nullptr)
         note = pathText(sound->path.filename()) + ", " + sizeText(sound->bytes) +
-               (session.isMissing(sound->id) && !sound->embedded ? ", missing" : "");
+               (sounds.isMissing(sound->id) && !sound->embedded ? ", missing" : "");
     copyNote.setText(note, juce::dontSendNotification);
     copyNote.setTooltip(sound != nullptr ? pathText(sound->path) : juce::String());
 }

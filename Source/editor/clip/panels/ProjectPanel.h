@@ -4,7 +4,7 @@
 // The clips of the project, notes, and whether sounds go with it.
 
 #include "editor/clip/panels/ClipList.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ProjectSounds.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -14,11 +14,10 @@ namespace pacini::editor
 class EditorView;
 
 /// What is typed becomes a step when it has not changed for a moment, or the keyboard goes elsewhere.
-class ProjectPanel final : public juce::Component, private Session::Listener, private juce::Timer
+class ProjectPanel final : public juce::Component, private juce::Timer
 {
 public:
     explicit ProjectPanel(EditorView& shown);
-    ~ProjectPanel() override;
 
     [[nodiscard]] ClipList& clips() noexcept { return list; }
     /// Takes over at once what has been typed.
@@ -29,11 +28,11 @@ public:
     void lookAndFeelChanged() override;
 
 private:
-    void sessionChanged(unsigned changes) override;
     void timerCallback() override { keepNotes(); }
     void show();
 
-    Session& session;
+    EditorModel& model;
+    ProjectSounds& sounds;
     juce::Rectangle<int> clipsCard, soundCard, notesCard;
     ClipList list;
     juce::TextButton duplicateButton, removeButton, groupButton;
@@ -42,6 +41,7 @@ private:
     juce::TextEditor clipNotes, projectNotes;
     int notesOf = 0; ///< the clip whose notes are shown
     bool typed = false;
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

@@ -74,7 +74,8 @@ private:
     juce::TextButton show{"Show"}, remove{"Remove"};
 };
 
-UnfittingList::UnfittingList(Session& shared) : session(shared)
+UnfittingList::UnfittingList(EditorModel& project, ViewState& sight, Transport& playing)
+    : model(project), viewState(sight), transport(playing)
 {
     list.setRowHeight(unfittingRowHeight);
     list.setColour(juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
@@ -98,7 +99,7 @@ void UnfittingList::refresh()
 
 juce::String UnfittingList::heading() const
 {
-    const auto item = session.item();
+    const auto item = model.item();
     const int count = item ? static_cast<int>(item->unfitting.size()) : 0;
     return count == 0 ? juce::String("Edits")
                       : juce::String(count) + (count == 1 ? " edit does" : " edits do") + " not fit";
@@ -106,13 +107,13 @@ juce::String UnfittingList::heading() const
 
 int UnfittingList::getNumRows()
 {
-    const auto item = session.item();
+    const auto item = model.item();
     return item ? static_cast<int>(item->unfitting.size()) : 0;
 }
 
 std::shared_ptr<const Edit> UnfittingList::editOf(int row) const
 {
-    const auto item = session.item();
+    const auto item = model.item();
     if (!item || row < 0 || row >= static_cast<int>(item->unfitting.size()))
         return nullptr;
     const std::size_t index = item->unfitting[static_cast<std::size_t>(row)].edit;
@@ -122,7 +123,7 @@ std::shared_ptr<const Edit> UnfittingList::editOf(int row) const
 
 juce::String UnfittingList::reasonOf(int row) const
 {
-    const auto item = session.item();
+    const auto item = model.item();
     return item && row >= 0 && row < static_cast<int>(item->unfitting.size())
                ? toText(item->unfitting[static_cast<std::size_t>(row)].reason)
                : juce::String();
@@ -156,16 +157,16 @@ void UnfittingList::showEdit(int row)
         return;
     const auto time = editTime(*edit);
     if (!time)
-        return session.fit();
-    const double middle = std::clamp(0.5 * (time->from + time->to), 0.0, session.duration());
+        return viewState.fit();
+    const double middle = std::clamp(0.5 * (time->from + time->to), 0.0, model.duration());
     const double half = std::max(least, time->to - time->from);
-    session.setPlayhead(std::min(time->from, session.duration()));
-    session.showRange({std::max(0.0, middle - half), middle + half});
+    transport.setPlayhead(std::min(time->from, model.duration()));
+    viewState.showRange({std::max(0.0, middle - half), middle + half});
 }
 
 void UnfittingList::removeEdit(int row)
 {
-    const auto item = session.item();
+    const auto item = model.item();
     if (!editOf(row))
         return;
     const std::size_t index = item->unfitting[static_cast<std::size_t>(row)].edit;
@@ -174,8 +175,8 @@ void UnfittingList::removeEdit(int row)
         [self = juce::Component::SafePointer<UnfittingList>(this), id = item->id, index]
         {
             if (self)
-                self->session.change([&](Document& document)
-                                     { return document.removeEdits(id, "Remove edit", {index}); });
+                self->model.change([&](Document& document)
+                                   { return document.removeEdits(id, "Remove edit", {index}); });
         });
 }
 
@@ -185,7 +186,7 @@ void UnfittingList::paint(juce::Graphics& g)
         return;
     g.setColour(paletteFor(*this).dim);
     g.setFont(smallFont());
-    const auto item = session.item();
+    const auto item = model.item();
     const std::size_t count = item ? item->edits.size() : 0;
     constexpr auto hint = "Hand edits stay when the sound is analysed again. Those that no longer fit are listed here.";
     g.drawFittedText(tr(count == 0 ? hint : "All hand edits have a place over this analysis."), getLocalBounds(),

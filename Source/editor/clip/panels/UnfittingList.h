@@ -3,7 +3,8 @@
 
 // The hand edits of a clip that wait for another analysis, each with its reason.
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -13,7 +14,7 @@ namespace pacini::editor
 class UnfittingList final : public juce::Component, private juce::ListBoxModel
 {
 public:
-    explicit UnfittingList(Session& shared);
+    UnfittingList(EditorModel& project, ViewState& sight, Transport& playing);
     ~UnfittingList() override;
 
     /// The clip has changed.
@@ -39,7 +40,9 @@ private:
     [[nodiscard]] std::shared_ptr<const Edit> editOf(int row) const;
     [[nodiscard]] juce::String reasonOf(int row) const;
 
-    Session& session;
+    EditorModel& model;
+    ViewState& viewState;
+    Transport& transport;
     juce::ListBox list{{}, this};
 };
 

@@ -14,16 +14,14 @@ constexpr int blocksOfFade = 8; // more than the fade of a stop in blocks of 64 
 HostedSession::~HostedSession()
 {
     cancelPendingUpdate();
-    if (open)
-        open->listeners.remove(this);
 }
 
 Session& HostedSession::session()
 {
     if (!open)
     {
-        auto made = std::make_unique<Session>(Session::Folders{}, listProfiles());
-        made->listeners.add(this);
+        auto made = std::make_unique<Session>(EditorModel::Folders{}, listProfiles());
+        subscriptions.on({&made->model.projectChanged}, [this] { keep(); });
         {
             const juce::SpinLock::ScopedLockType lock(playing);
             open = std::move(made);
@@ -63,7 +61,7 @@ void HostedSession::update()
         project.swap(brought);
     }
     if (project)
-        open->openProject(std::move(*project));
+        open->model.openProject(std::move(*project));
 }
 
 bool HostedSession::process(std::span<float> haptic, std::span<const std::span<float>> sound) noexcept
@@ -81,12 +79,10 @@ bool HostedSession::process(std::span<float> haptic, std::span<const std::span<f
     return true;
 }
 
-void HostedSession::sessionChanged(unsigned changes)
+void HostedSession::keep()
 {
-    if ((changes & (Session::project | Session::content)) == 0)
-        return;
     const std::lock_guard lock(mutex);
-    kept = open->document().project();
+    kept = open->model.document().project();
 }
 
 std::string HostedSession::text() const

@@ -19,7 +19,7 @@ namespace pacini::editor
 {
 
 /// There is no session, and so no thread of its own, before anyone asks for it.
-class HostedSession final : private Session::Listener, private juce::AsyncUpdater
+class HostedSession final : private juce::AsyncUpdater
 {
 public:
     using ProfileList = std::function<std::vector<NamedProfile>()>;
@@ -46,7 +46,7 @@ public:
     Result<void> setText(const std::string& text);
 
 private:
-    void sessionChanged(unsigned changes) override;
+    void keep();
     void handleAsyncUpdate() override;
     void update();
 
@@ -61,6 +61,7 @@ private:
     mutable std::mutex mutex; ///< guards what follows
     Project kept;
     std::optional<Project> brought; ///< by the host, for the message thread to open
+    Subscriptions subscriptions;
 };
 
 } // namespace pacini::editor

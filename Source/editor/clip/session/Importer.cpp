@@ -3,7 +3,7 @@
 
 #include "document/FolderFiles.h"
 #include "editor/Text.h"
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/ProjectSounds.h"
 
 #include <utility>
 
@@ -40,8 +40,8 @@ void Importer::stop()
         return;
     task->stopped = true;
     task.reset();
-    if (session.isShowingUnanalysed())
-        session.endUnanalysed();
+    if (model.isShowingUnanalysed())
+        model.endUnanalysed();
     finish();
 }
 
@@ -58,7 +58,7 @@ std::optional<WorkState> Importer::state() const
 
 void Importer::tellWork()
 {
-    session.changed(Session::work);
+    sounds.workChanged.emit();
 }
 
 void Importer::next()
@@ -115,7 +115,7 @@ void Importer::read(const std::filesystem::path& file)
 void Importer::analyseSound(Imported imported)
 {
     if (!anyShown)
-        session.showUnanalysed(imported.sound);
+        model.showUnanalysed(imported.sound);
     doing = "Analysing " + pathText(imported.reference.path.filename());
     task->progress = 0.0;
     jobs.run(
@@ -143,20 +143,20 @@ void Importer::put(Imported imported)
     for (const auto& warning : imported.warnings)
         gaps.add(name + ": " + toText(warning));
     // A sound was shown unless the user has turned to another clip since.
-    const bool shown = !anyShown && (!imported.sound || session.isShowingUnanalysed());
-    const auto id = session.insert(std::move(imported));
+    const bool shown = !anyShown && (!imported.sound || model.isShowingUnanalysed());
+    const auto id = sounds.insert(std::move(imported));
     if (!id)
         failures.add(name + ": " + toText(id.error().text()));
     else if (shown)
-        session.show(*id);
+        model.show(*id);
     anyShown = true;
     next();
 }
 
 void Importer::fail(const std::filesystem::path& file, const Error& error)
 {
-    if (session.isShowingUnanalysed())
-        session.endUnanalysed();
+    if (model.isShowingUnanalysed())
+        model.endUnanalysed();
     failures.add(pathText(file.filename()) + ": " + toText(error.message));
     next();
 }
@@ -168,7 +168,7 @@ void Importer::finish()
     const std::size_t all = std::exchange(begun, 0);
     anyShown = false;
     tellWork();
-    if (!session.onError || (failed.isEmpty() && missed.isEmpty()))
+    if (!model.onError || (failed.isEmpty() && missed.isEmpty()))
         return;
     juce::String title = "Read with gaps", text;
     if (!failed.isEmpty())
@@ -180,7 +180,7 @@ void Importer::finish()
     }
     if (!missed.isEmpty())
         text << (failed.isEmpty() ? "" : "\n\nRead with gaps:\n") << shortened(missed);
-    session.onError(title, text);
+    model.onError(title, text);
 }
 
 } // namespace pacini::editor

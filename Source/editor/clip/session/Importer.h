@@ -4,10 +4,10 @@
 // Sounds, clips and folders on their way into the project.
 
 #include "editor/clip/session/Sound.h"
-#include "editor/clip/session/Task.h"
 
 #include <juce_core/juce_core.h>
 
+#include <atomic>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -18,8 +18,31 @@
 namespace pacini::editor
 {
 
+class EditorModel;
 class Jobs;
-class Session;
+class ProjectSounds;
+
+/// Work in the background that can be watched and stopped; shared by its thread and the message thread.
+struct Task
+{
+    std::atomic<double> progress{-1.0}; ///< 0 to 1; below 0: nobody knows
+    std::atomic<bool> stopped{false};
+
+    /// For analyse(). [worker]
+    bool goOn(double done) noexcept
+    {
+        progress = done;
+        return !stopped;
+    }
+};
+
+/// What is going on, for a bar.
+struct WorkState
+{
+    juce::String text;
+    double progress = -1.0; ///< as in Task
+    bool operator==(const WorkState&) const = default;
+};
 
 /// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a waveform.
 /// The others come into the project without taking the place of what is looked at. What failed is told once, when all
@@ -27,7 +50,10 @@ class Session;
 class Importer
 {
 public:
-    Importer(Session& wanted, Jobs& worker) : session(wanted), jobs(worker) {}
+    Importer(EditorModel& project, ProjectSounds& projectSounds, Jobs& worker)
+        : model(project), sounds(projectSounds), jobs(worker)
+    {
+    }
 
     /// Folders stand for all openableFiles() in them.
     void add(const std::vector<std::filesystem::path>& files);
@@ -48,7 +74,8 @@ private:
     void finish();
     void tellWork();
 
-    Session& session;
+    EditorModel& model;
+    ProjectSounds& sounds;
     Jobs& jobs;
     std::deque<std::filesystem::path> waiting;
     std::shared_ptr<Task> task; ///< of what is being done; null: nothing

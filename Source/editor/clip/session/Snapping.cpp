@@ -9,10 +9,11 @@
 namespace pacini::editor
 {
 
-double snapTime(const Session& session, double time, const Snapping& snapping)
+double snapTime(const EditorModel& model, const ViewState& view, const Transport& transport, double time,
+                const Snapping& snapping)
 {
-    const SnapTargets& targets = session.snapTargets();
-    const auto shown = session.clip();
+    const SnapTargets& targets = view.snapTargets();
+    const auto shown = model.clip();
     const Clip* clip = snapping.clip != nullptr ? snapping.clip : shown.get();
     if (!targets.on || clip == nullptr)
         return time;
@@ -27,12 +28,12 @@ double snapTime(const Session& session, double time, const Snapping& snapping)
             if (snapping.marker != i)
                 candidates.push_back(clip->markers[i].time);
     if (targets.playhead && snapping.playhead)
-        candidates.push_back(session.playhead());
+        candidates.push_back(transport.playhead());
     std::sort(candidates.begin(), candidates.end());
     std::optional<TimeGrid> lines;
     if (targets.grid)
-        lines = rulerGrid(session.axis().secondsPerPixel);
-    return snapped(time, session.axis(), snapReach, candidates, lines);
+        lines = rulerGrid(view.axis().secondsPerPixel);
+    return snapped(time, view.axis(), snapReach, candidates, lines);
 }
 
 } // namespace pacini::editor

@@ -3,7 +3,8 @@
 
 // What a dragged point, transient, marker or edge sticks to.
 
-#include "editor/clip/session/Session.h"
+#include "editor/clip/session/Transport.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <cstddef>
 #include <optional>
@@ -22,7 +23,8 @@ struct Snapping
     bool playhead = true;                   ///< whether it counts where it is switched on
 };
 
-/// The time that is meant by `time`, by what is switched on for the session.
-[[nodiscard]] double snapTime(const Session& session, double time, const Snapping& snapping = {});
+/// The time that is meant by `time`, by what is switched on in `view`.
+[[nodiscard]] double snapTime(const EditorModel& model, const ViewState& view, const Transport& transport, double time,
+                              const Snapping& snapping = {});
 
 } // namespace pacini::editor

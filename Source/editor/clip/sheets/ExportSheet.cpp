@@ -36,8 +36,8 @@ juce::String lossText(const FormatLoss& loss)
 }
 } // namespace
 
-ExportSheet::ExportSheet(Session& shared)
-    : Sheet("Export", 680, 520), session(shared), browseButton("Browse" + toText("…"))
+ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
+    : Sheet("Export", 680, 520), model(project), actuators(profiles), browseButton("Browse" + toText("…"))
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -69,7 +69,7 @@ ExportSheet::ExportSheet(Session& shared)
     {
         showLosses();
     };
-    const auto count = session.document().project().clips.size();
+    const auto count = model.document().project().clips.size();
     all.setButtonText(count > 1 ? "All " + juce::String(static_cast<int>(count)) + " clips of the project"
                                 : juce::String("All clips of the project"));
     all.setTitle("Export all clips");
@@ -109,7 +109,7 @@ ExportSheet::ExportSheet(Session& shared)
         child->setExplicitFocusOrder(order++);
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
-    const auto& path = session.document().path();
+    const auto& path = model.document().path();
     const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
                                            : juce::File(toText(path.parent_path().string()));
     target.setText(folder.getFullPathName(), false);
@@ -127,14 +127,14 @@ ExportChoice ExportSheet::choice() const
     result.format = chosenFormat().name;
     if (chosenFormat().rendered && rate.getSelectedId() != sourceRate)
         result.sampleRate = rate.getSelectedId();
-    result.profile = session.profile();
+    result.profile = actuators.profile();
     return result;
 }
 
 /// Keeps the folder; the file follows the format.
 void ExportSheet::formatChanged()
 {
-    const auto clip = session.clip();
+    const auto clip = model.clip();
     juce::File now(juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()));
     const juce::File folder = now.isDirectory() ? now : now.getParentDirectory();
     targetLabel.setText(all.getToggleState() ? "Folder" : "File", juce::dontSendNotification);
@@ -152,7 +152,7 @@ void ExportSheet::showLosses()
     const juce::String kept = toText(whatIsKept(chosenFormat().name));
     losses.setText(kept + "\n", false);
     const int number = ++asked;
-    jobs.run([clip = session.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },
+    jobs.run([clip = model.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },
              [this, kept, number](Result<std::vector<FormatLoss>> found)
              {
                  if (number != asked)
@@ -200,13 +200,13 @@ void ExportSheet::run()
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     if (all.getToggleState())
     {
-        for (const auto& item : session.document().project().clips)
+        for (const auto& item : model.document().project().clips)
             clips.push_back(item->clip);
         wanted.folder = pathOf(place);
     }
     else
     {
-        clips.push_back(session.clip());
+        clips.push_back(model.clip());
         wanted.folder = pathOf(place.getParentDirectory());
         wanted.file = place.getFileName().toStdString();
         if (!place.hasFileExtension(toText(chosenFormat().extension)))

@@ -4,8 +4,8 @@
 // Clips for use elsewhere: which, in what format, with what losses, and where to.
 
 #include "document/ExportBatch.h"
+#include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
-#include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -18,7 +18,7 @@ namespace pacini::editor
 class ExportSheet final : public Sheet
 {
 public:
-    explicit ExportSheet(Session& shared);
+    ExportSheet(const EditorModel& project, const Actuators& profiles);
 
 private:
     void layOut(juce::Rectangle<int> area) override;
@@ -30,7 +30,8 @@ private:
     [[nodiscard]] const ExportFormat& chosenFormat() const;
     [[nodiscard]] ExportChoice choice() const;
 
-    Session& session;
+    const EditorModel& model;
+    const Actuators& actuators;
     juce::Label formatLabel, rateLabel, targetLabel, lossLabel;
     juce::ComboBox format, rate;
     juce::ToggleButton all;

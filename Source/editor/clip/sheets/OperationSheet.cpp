@@ -172,12 +172,13 @@ OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_
     : Sheet(wanted.name, sheetWidth,
             around + 2 * textHeight + static_cast<int>(wanted.fields.size()) * (operationRowHeight + grid)),
       view(shown),
-      session(shown.session()),
+      model(shown.session().model),
+      clipSelection(shown.session().clipSelection),
       operation(std::move(wanted)),
       remembered(std::move(last)),
-      start(session.item()->clip)
+      start(model.item()->clip)
 {
-    session.setComparing(false);
+    model.setComparing(false);
     for (const OperationField& field : operation.fields)
         now.push_back(field.value);
     if (remembered && remembered->size() == now.size())
@@ -222,7 +223,7 @@ OperationSheet::OperationSheet(EditorView& shown, Operation wanted, std::shared_
 
 OperationSheet::~OperationSheet()
 {
-    session.setPreview(nullptr);
+    model.setPreview(nullptr);
 }
 
 juce::Component* OperationSheet::firstFocus()
@@ -237,12 +238,12 @@ juce::String OperationSheet::scopeText() const
 {
     if (operation.wholeClip)
         return "For the whole clip";
-    const EditScope scope = session.scope();
+    const EditScope scope = clipSelection.scope();
     const auto times = juce::String(scope.range.from, 3) + " to " + juce::String(scope.range.to, 3) + " s";
     if (!scope.allLanes)
         return "For what is selected: " + times;
-    return session.timeRange() ? "For the time range, all lanes: " + times
-                               : juce::String("For the whole clip, all lanes");
+    return clipSelection.timeRange() ? "For the time range, all lanes: " + times
+                                     : juce::String("For the whole clip, all lanes");
 }
 
 void OperationSheet::setValue(std::size_t field, double value)
@@ -288,23 +289,23 @@ void OperationSheet::show(Result<Clip> made)
     setAnswerEnabled(possible);
     problem.setText(possible ? juce::String() : toText(made.error().text()), juce::dontSendNotification);
     if (!possible)
-        return session.setPreview(nullptr);
+        return model.setPreview(nullptr);
     changes = !(*made == *start);
-    session.setPreview(changes ? std::make_shared<const Clip>(std::move(made).value()) : nullptr);
+    model.setPreview(changes ? std::make_shared<const Clip>(std::move(made).value()) : nullptr);
 }
 
 void OperationSheet::apply()
 {
     if (!possible)
         return;
-    session.setPreview(nullptr);
+    model.setPreview(nullptr);
     if (remembered)
         *remembered = now;
     // An edit that fails puts its message in place of this sheet.
     const auto wanted = operation.make(now);
     const char* const name = operation.name;
     const bool any = changes || running;
-    Session& target = session;
+    EditorModel& target = model;
     close();
     if (any)
         target.edit(name, wanted);

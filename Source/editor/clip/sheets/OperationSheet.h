@@ -3,8 +3,8 @@
 
 // The arguments of an edit, with the clip changing while they do.
 
+#include "editor/clip/session/ClipSelection.h"
 #include "editor/clip/session/Jobs.h"
-#include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -68,7 +68,8 @@ private:
     [[nodiscard]] juce::String scopeText() const;
 
     EditorView& view;
-    Session& session;
+    EditorModel& model;
+    const ClipSelection& clipSelection;
     const Operation operation;
     std::shared_ptr<OperationValues> remembered;
     OperationValues now;

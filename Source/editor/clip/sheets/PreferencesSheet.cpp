@@ -32,7 +32,7 @@ int nearest(const Values& values, double wanted)
 
 PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 520), view(shown)
 {
-    Session& session = view.session();
+    ViewState& viewState = view.session().viewState;
     if (view.surroundings().chooseLanguage)
         addLanguages();
     addChoice("Colours", "Light text on dark ground, or dark on light", {"Dark", "Light"}, view.isDark() ? 0 : 1,
@@ -42,18 +42,19 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
         sizes.add(juce::String(juce::roundToInt(100.0 * scale)) + " %");
     addChoice("Size of everything", "For high resolutions and tired eyes", sizes, nearest(scales, view.scale()),
               [this](int i) { view.setScale(scales[static_cast<std::size_t>(i)]); });
-    addChoice("Levels", "The scale of all lanes of levels", {"In dB", "Linear"}, session.amplitudesInDecibels() ? 0 : 1,
-              [&session](int i) { session.setAmplitudesInDecibels(i == 0); });
+    addChoice("Levels", "The scale of all lanes of levels", {"In dB", "Linear"},
+              viewState.amplitudesInDecibels() ? 0 : 1,
+              [&viewState](int i) { viewState.setAmplitudesInDecibels(i == 0); });
     addChoice("Lanes", "The height of a band", {"Low", "Usual", "Tall", "Very tall"},
-              nearest(laneHeights, session.laneHeight()),
-              [&session](int i) { session.setLaneHeight(laneHeights[static_cast<std::size_t>(i)]); });
-    const auto option = [&session](auto member, auto value)
+              nearest(laneHeights, viewState.laneHeight()),
+              [&viewState](int i) { viewState.setLaneHeight(laneHeights[static_cast<std::size_t>(i)]); });
+    const auto option = [&viewState](auto member, auto value)
     {
-        ViewOptions options = session.viewOptions();
+        ViewOptions options = viewState.viewOptions();
         options.*member = value;
-        session.setViewOptions(options);
+        viewState.setViewOptions(options);
     };
-    const ViewOptions options = session.viewOptions();
+    const ViewOptions options = viewState.viewOptions();
     addChoice("Sound", "How the sound is drawn", {"Waveform", "Spectrogram", "Both"}, static_cast<int>(options.sound),
               [option](int i) { option(&ViewOptions::sound, static_cast<SoundView>(i)); });
     addChoice("While playing", "Whether the view goes along with the playhead",
@@ -61,13 +62,13 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
               [option](int i) { option(&ViewOptions::follow, static_cast<Follow>(i)); });
     addSwitch("What the actuator plays", "Rows below the lanes: the drive of the actuator and what is lost",
               options.actuator, [option](bool on) { option(&ViewOptions::actuator, on); });
-    const auto target = [&session](bool SnapTargets::*member, bool on)
+    const auto target = [&viewState](bool SnapTargets::*member, bool on)
     {
-        SnapTargets targets = session.snapTargets();
+        SnapTargets targets = viewState.snapTargets();
         targets.*member = on;
-        session.setSnapTargets(targets);
+        viewState.setSnapTargets(targets);
     };
-    const SnapTargets targets = session.snapTargets();
+    const SnapTargets targets = viewState.snapTargets();
     for (const auto& [member, name] :
          {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
           std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})

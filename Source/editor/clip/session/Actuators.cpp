@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/Actuators.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pacini::editor
+{
+
+Actuators::Actuators(EditorModel& project, std::vector<NamedProfile> profiles)
+    : model(project), list(std::move(profiles))
+{
+    subscriptions.on({&model.projectChanged}, [this] { follow(); });
+}
+
+void Actuators::follow()
+{
+    if (known == model.document().project().profile)
+        return;
+    known = model.document().project().profile;
+    changed.emit();
+}
+
+void Actuators::addProfile(NamedProfile added, bool use)
+{
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const NamedProfile& entry) { return entry.own && entry.name == added.name; });
+    const std::string name = added.name;
+    if (same != list.end())
+        *same = std::move(added);
+    else
+        list.push_back(std::move(added));
+    listChanged.emit();
+    if (use)
+        choose(name); // perhaps another content under its name
+}
+
+void Actuators::setProfile(const std::string& name)
+{
+    if (name != profileName())
+        choose(name);
+}
+
+void Actuators::choose(const std::string& name)
+{
+    ProjectProfile wanted;
+    wanted.name = name;
+    for (const NamedProfile& entry : list)
+        if (entry.name == name && entry.own)
+            wanted.embedded = *entry.profile;
+    model.change([&](Document& document) { return document.setProfile(std::move(wanted), "Choose actuator"); });
+}
+
+std::shared_ptr<const Profile> Actuators::profile() const
+{
+    const ProjectProfile& chosen = model.document().project().profile;
+    if (chosen.embedded)
+        return std::make_shared<const Profile>(*chosen.embedded);
+    for (const NamedProfile& entry : list)
+        if (entry.name == chosen.name)
+            return entry.profile;
+    return nullptr;
+}
+
+} // namespace pacini::editor

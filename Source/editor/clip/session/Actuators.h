@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The actuators that can be chosen, and the one of the project.
+
+#include "editor/clip/session/EditorModel.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// An actuator that can be chosen.
+struct NamedProfile
+{
+    std::string name; ///< such as l5-wristband
+    std::shared_ptr<const Profile> profile;
+    bool own = false; ///< not one of those that come with Pacini: projects carry it with them
+};
+
+/// [message]
+class Actuators
+{
+public:
+    Actuators(EditorModel& project, std::vector<NamedProfile> profiles);
+
+    Signal changed; ///< which one the project has, or what it is
+    Signal listChanged;
+
+    [[nodiscard]] const std::vector<NamedProfile>& profiles() const noexcept { return list; }
+    /// In the place of one of its name that is not Pacini's, or behind the others; `use` chooses it at once.
+    void addProfile(NamedProfile added, bool use);
+    /// Of the project; empty: the plain drive signal.
+    [[nodiscard]] const std::string& profileName() const noexcept { return model.document().project().profile.name; }
+    void setProfile(const std::string& name);
+    [[nodiscard]] std::shared_ptr<const Profile> profile() const;
+
+private:
+    void choose(const std::string& name);
+    void follow();
+
+    EditorModel& model;
+    std::vector<NamedProfile> list;
+    ProjectProfile known; ///< to see when the project has another
+    Subscriptions subscriptions;
+};
+
+} // namespace pacini::editor

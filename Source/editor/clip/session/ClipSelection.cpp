@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/ClipSelection.h"
+
+#include <utility>
+
+namespace pacini::editor
+{
+
+ClipSelection::ClipSelection(EditorModel& project) : model(project)
+{
+    subscriptions.on({&model.shownChanged}, [this] { reset(); });
+    subscriptions.on({&model.contentChanged}, [this] { follow(); });
+}
+
+void ClipSelection::put(Selection wanted, std::optional<TimeRange> range)
+{
+    const bool others = wanted != selectionNow;
+    const bool otherRange = range != rangeNow;
+    selectionNow = std::move(wanted);
+    rangeNow = range;
+    if (others)
+        changed.emit();
+    if (otherRange)
+        rangeChanged.emit();
+}
+
+void ClipSelection::reset()
+{
+    beforePreview.reset();
+    put({}, {});
+}
+
+void ClipSelection::follow()
+{
+    Selection wanted = edited ? *std::exchange(edited, std::nullopt) : selectionNow;
+    if (model.isPreviewing() && !beforePreview)
+        beforePreview = wanted;
+    else if (beforePreview)
+        wanted = *beforePreview;
+    if (!model.isPreviewing())
+        beforePreview.reset();
+    const auto clip = model.clip();
+    auto range = rangeNow;
+    if (range && clip)
+        range = withinClip(*range, clip->duration);
+    if (range && range->to <= range->from)
+        range.reset();
+    put(clip ? withinClip(wanted, *clip) : Selection{}, range);
+}
+
+void ClipSelection::select(Selection wanted)
+{
+    put(std::move(wanted), rangeNow);
+}
+
+void ClipSelection::setTimeRange(std::optional<TimeRange> wanted)
+{
+    if (const auto clip = model.clip(); wanted && clip)
+        wanted = withinClip(*wanted, clip->duration);
+    if (wanted && wanted->to <= wanted->from)
+        wanted.reset();
+    put(selectionNow, wanted);
+}
+
+EditScope ClipSelection::scope() const
+{
+    const auto clip = model.clip();
+    return clip ? scopeOf(selectionNow, *clip, rangeNow) : EditScope{};
+}
+
+bool ClipSelection::setEdited(const char* name, EditedClip wanted, Gesture gesture)
+{
+    edited = std::move(wanted.selection);
+    const bool done = model.setClip(name, std::move(wanted.clip), gesture);
+    edited.reset();
+    return done;
+}
+
+void ClipSelection::deleteSelection()
+{
+    if (const auto clip = model.clip(); clip && !isEmpty(selectionNow))
+        setEdited("Delete points", {deleteSelected(*clip, selectionNow), {}});
+}
+
+void ClipSelection::copy()
+{
+    if (const auto clip = model.clip())
+        clipboard = copyOf(*clip, scope());
+    changed.emit(); // paste may have become possible
+}
+
+void ClipSelection::cut()
+{
+    copy();
+    if (!isEmpty(selectionNow))
+        deleteSelection();
+    else if (rangeNow)
+    {
+        const auto cutRange = *rangeNow;
+        setTimeRange(std::nullopt);
+        model.edit("Cut", CutEdit{cutRange});
+    }
+}
+
+void ClipSelection::paste(double time, const std::optional<Lane>& into)
+{
+    const auto clip = model.clip();
+    if (!clip || !clipboard)
+        return;
+    auto pasted = pasteInto(*clip, *clipboard, time, into);
+    if (!pasted)
+        return model.report("Not pasted", pasted.error());
+    if (rangeNow)
+        pasted->selection = {}; // what follows is for the time range
+    const auto leftOut = static_cast<int>(pasted->leftOut);
+    if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && model.onError)
+        model.onError("Pasted with gaps",
+                      "This clip has no band near " + juce::String(leftOut) + " of the lanes that were copied.");
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/EditorModel.h"
+
+#include "editor/Text.h"
+
+#include <utility>
+
+namespace pacini::editor
+{
+
+EditorModel::EditorModel(const Folders& folders) : recoveryFolder(folders.recovery), recent(folders.recentList)
+{
+    if (!recoveryFolder.empty())
+        autosave = std::make_unique<Autosave>(recoveryFolder);
+}
+
+EditorModel::~EditorModel()
+{
+    // What was not saved can be restored the next time.
+    if (autosave)
+        autosave->flush();
+}
+
+void EditorModel::report(const std::string& title, const Error& error) const
+{
+    if (onError)
+        onError(toText(title), toText(error.text()));
+}
+
+bool EditorModel::take(Result<void> result)
+{
+    if (!result)
+        report("That is not possible", result.error());
+    return result.ok();
+}
+
+// The project.
+
+void EditorModel::take(Document document)
+{
+    unanalysed.reset();
+    *open = std::move(document);
+    preview = nullptr;
+    comparing = false;
+    versions.clear();
+    active = isEmpty() ? 0 : open->project().clips.front()->id;
+    opened.emit();
+    follow(-1);
+    contentChanged.emit();
+    projectChanged.emit();
+}
+
+void EditorModel::newProject()
+{
+    take(Document{});
+}
+
+Result<void> EditorModel::openProject(const std::filesystem::path& file)
+{
+    auto read = Document::open(file);
+    if (!read)
+        return read.error();
+    take(std::move(read).value());
+    (void)recent.add(file);
+    return {};
+}
+
+void EditorModel::openProject(Project made)
+{
+    take(Document(std::move(made)));
+}
+
+Result<void> EditorModel::recover(const Recoverable& entry)
+{
+    auto recovered = Document::recover(entry.file);
+    if (!recovered)
+        return recovered.error();
+    take(std::move(recovered).value());
+    if (autosave)
+        autosave->flush();
+    discardRecoverable(entry);
+    return {};
+}
+
+Result<void> EditorModel::saved(Result<void> result)
+{
+    if (result)
+        (void)recent.add(open->path());
+    follow(active);
+    projectChanged.emit();
+    return result;
+}
+
+Result<void> EditorModel::save()
+{
+    return saved(open->save());
+}
+
+Result<void> EditorModel::saveAs(const std::filesystem::path& file)
+{
+    return saved(open->saveAs(file));
+}
+
+void EditorModel::discardAutosave()
+{
+    if (autosave)
+        autosave->discard();
+}
+
+std::vector<Recoverable> EditorModel::recoverable() const
+{
+    return recoveryFolder.empty() ? std::vector<Recoverable>{} : listRecoverable(recoveryFolder);
+}
+
+// What is shown.
+
+std::shared_ptr<const Clip> EditorModel::clip() const
+{
+    if (preview)
+        return preview;
+    if (comparing)
+        return keptVersion();
+    const auto shown = item();
+    return shown ? shown->clip : nullptr;
+}
+
+double EditorModel::duration() const
+{
+    if (const auto now = clip())
+        return now->duration;
+    return unanalysed ? unanalysed->duration() : 0.0;
+}
+
+void EditorModel::show(int clipId)
+{
+    const int before = std::exchange(active, clipId);
+    comparing = comparing && active == before;
+    unanalysed.reset();
+    follow(before);
+    contentChanged.emit();
+    projectChanged.emit();
+}
+
+void EditorModel::showUnanalysed(std::shared_ptr<const Sound> read)
+{
+    if (!unanalysed)
+        beforeUnanalysed = active;
+    unanalysed = std::move(read);
+    comparing = false;
+    active = 0;
+    follow(-1);
+    contentChanged.emit();
+    projectChanged.emit();
+}
+
+void EditorModel::endUnanalysed()
+{
+    unanalysed.reset();
+    const bool there = open->clip(beforeUnanalysed) != nullptr;
+    show(there || isEmpty() ? beforeUnanalysed : open->project().clips.front()->id);
+}
+
+/// After any change of the document or of what is shown; whether that is another clip than `before`.
+bool EditorModel::follow(int before)
+{
+    std::erase_if(versions, [this](const auto& kept) { return !open->clip(kept.first); });
+    comparing = comparing && keptVersion() != nullptr;
+    if (!item() && !isEmpty() && !unanalysed)
+        active = open->project().clips.front()->id;
+    if (autosave)
+    {
+        const auto failure = autosave->lastError();
+        if (failure && !autosaveFailed)
+            report("Changes are not kept safe at the moment. Save the project", *failure);
+        autosaveFailed = failure.has_value();
+        autosave->update(open->snapshot());
+    }
+    if (active != before)
+        shownChanged.emit();
+    return active != before;
+}
+
+void EditorModel::documentChanged()
+{
+    follow(active);
+    contentChanged.emit();
+    projectChanged.emit();
+}
+
+// Previews and versions.
+
+void EditorModel::setPreview(std::shared_ptr<const Clip> wanted)
+{
+    if (!wanted && !preview)
+        return;
+    if (!preview)
+        setComparing(false);
+    preview = std::move(wanted);
+    contentChanged.emit();
+}
+
+void EditorModel::keepVersion()
+{
+    const auto shown = item();
+    if (!shown || preview)
+        return;
+    versions[active] = clip();
+    setComparing(false);
+    versionChanged.emit();
+}
+
+std::shared_ptr<const Clip> EditorModel::keptVersion() const
+{
+    const auto found = versions.find(active);
+    return found != versions.end() ? found->second : nullptr;
+}
+
+void EditorModel::setComparing(bool wanted)
+{
+    if (wanted == comparing || preview || (wanted && !keptVersion()))
+        return;
+    comparing = wanted;
+    contentChanged.emit();
+    versionChanged.emit();
+}
+
+/// The kept version is only looked at. Of gestures, which come many times a second, nothing is said.
+bool EditorModel::mayEdit(Gesture gesture) const
+{
+    if (comparing && gesture == 0 && onError)
+        onError("This is version A", "It is kept to compare with. Go back to the clip to edit it, or take version A.");
+    return !comparing;
+}
+
+// Edits.
+
+std::shared_ptr<const Clip> EditorModel::gestureStart(Gesture gesture) const
+{
+    return open->gestureStart(active, gesture);
+}
+
+bool EditorModel::edit(const char* name, EditOperation operation, Gesture gesture)
+{
+    return mayEdit(gesture) &&
+           change([&](Document& document) { return document.edit(active, name, std::move(operation), gesture); });
+}
+
+bool EditorModel::setClip(const char* name, Clip edited, Gesture gesture)
+{
+    return mayEdit(gesture) &&
+           change([&](Document& document) { return document.setClip(active, name, std::move(edited), gesture); });
+}
+
+void EditorModel::undo()
+{
+    step(&Document::undo);
+}
+
+void EditorModel::redo()
+{
+    step(&Document::redo);
+}
+
+void EditorModel::step(bool (Document::*through)())
+{
+    setComparing(false);
+    const int before = active;
+    if (!(open.get()->*through)())
+        return;
+    follow(before);
+    contentChanged.emit();
+    projectChanged.emit();
+}
+
+bool EditorModel::change(const std::function<Result<void>(Document&)>& step)
+{
+    if (!take(step(*open)))
+        return false;
+    documentChanged();
+    return true;
+}
+
+Result<int> EditorModel::insert(const std::function<Result<int>(Document&)>& step)
+{
+    auto id = step(*open);
+    if (!id)
+        return id;
+    if (follow(active))
+        contentChanged.emit();
+    projectChanged.emit();
+    return id;
+}
+
+void EditorModel::duplicate()
+{
+    const auto id = open->duplicateClip(active, "Duplicate clip");
+    if (!id)
+        return report("Not duplicated", id.error());
+    show(*id);
+}
+
+void EditorModel::removeClip()
+{
+    if (take(open->removeClip(active, "Remove clip")))
+        show(isEmpty() ? 0 : open->project().clips.front()->id);
+}
+
+bool EditorModel::splitAt(double time)
+{
+    const auto right = open->splitClipAt(active, time, "Split");
+    if (!right)
+        report("Not split", right.error());
+    else
+        documentChanged();
+    return right.ok();
+}
+
+int EditorModel::nextClipId() const
+{
+    const auto& items = open->project().clips;
+    for (std::size_t i = 0; i + 1 < items.size(); ++i)
+        if (items[i]->id == active)
+            return items[i + 1]->id;
+    return 0;
+}
+
+void EditorModel::joinNext()
+{
+    if (mayEdit(0))
+        change([this](Document& document) { return document.joinClip(active, nextClipId(), "Join"); });
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The open project and the clip of it that is edited.
+
+#include "document/Autosave.h"
+#include "document/Document.h"
+#include "document/RecentFiles.h"
+#include "editor/clip/session/Signal.h"
+#include "editor/clip/session/Sound.h"
+
+#include <juce_core/juce_core.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// Document, files, recovery and undo, and which clip is shown. Everything that changes the document goes through here,
+/// so that autosave and views follow. [message]
+class EditorModel
+{
+public:
+    struct Folders
+    {
+        std::filesystem::path recovery; ///< empty: no autosave
+        std::filesystem::path recentList;
+    };
+
+    explicit EditorModel(const Folders& folders);
+    ~EditorModel();
+
+    /// Another project is open; the signals below follow.
+    Signal opened;
+    /// Another clip is shown: what belonged to the one before is over. contentChanged follows.
+    Signal shownChanged;
+    /// The clip that is shown, or which one that is. Where the document has changed, projectChanged follows.
+    Signal contentChanged;
+    /// Which clips there are, names, file, dirty state, undo, or anything else of the document.
+    Signal projectChanged;
+    /// What is kept to compare with, or whether it is shown.
+    Signal versionChanged;
+
+    std::function<void(const juce::String& title, const juce::String& text)> onError;
+    void report(const std::string& title, const Error& error) const;
+
+    // The project.
+
+    [[nodiscard]] const Document& document() const noexcept { return *open; }
+    [[nodiscard]] bool isEmpty() const noexcept { return open->project().clips.empty(); }
+
+    void newProject();
+    Result<void> openProject(const std::filesystem::path& file);
+    /// One that has no file; a host keeps it.
+    void openProject(Project made);
+    Result<void> recover(const Recoverable& entry);
+    Result<void> save();
+    Result<void> saveAs(const std::filesystem::path& file);
+    /// The user does not want what is not saved.
+    void discardAutosave();
+    [[nodiscard]] RecentFiles& recentFiles() noexcept { return recent; }
+    [[nodiscard]] std::vector<Recoverable> recoverable() const;
+
+    // What is shown.
+
+    [[nodiscard]] int activeId() const noexcept { return active; }
+    [[nodiscard]] std::shared_ptr<const ClipItem> item() const { return open->clip(active); }
+    /// Null when there is none.
+    [[nodiscard]] std::shared_ptr<const Clip> clip() const;
+    /// s: of the clip, or of the sound that is being analysed; 0: nothing is shown.
+    [[nodiscard]] double duration() const;
+    void show(int clipId);
+
+    /// Shows a sound whose analysis is under way, as a clip without curves, until a clip is shown in its place.
+    void showUnanalysed(std::shared_ptr<const Sound> read);
+    /// Null when a clip is shown, or nothing.
+    [[nodiscard]] const std::shared_ptr<const Sound>& unanalysedSound() const noexcept { return unanalysed; }
+    [[nodiscard]] bool isShowingUnanalysed() const noexcept { return unanalysed != nullptr; }
+    /// Goes back to the clip that was shown before.
+    void endUnanalysed();
+
+    // What is shown and heard in place of the clip; the document stays as it is, and undo does not know of it.
+
+    /// What an edit would make of the clip, until null. Selection and view are as before then.
+    void setPreview(std::shared_ptr<const Clip> wanted);
+    [[nodiscard]] bool isPreviewing() const noexcept { return preview != nullptr; }
+
+    /// Keeps the clip as it is now to compare it with what it becomes.
+    void keepVersion();
+    /// Null when none was kept of the clip that is shown.
+    [[nodiscard]] std::shared_ptr<const Clip> keptVersion() const;
+    /// The kept version is shown and heard, which cannot be edited, or the clip again; playing goes on.
+    void setComparing(bool wanted);
+    [[nodiscard]] bool isComparing() const noexcept { return comparing; }
+
+    // Edits. What fails is told by onError and changes nothing.
+
+    [[nodiscard]] Gesture beginGesture() noexcept { return open->beginGesture(); }
+    [[nodiscard]] std::shared_ptr<const Clip> gestureStart(Gesture gesture) const;
+    bool edit(const char* name, EditOperation operation, Gesture gesture = 0);
+    bool setClip(const char* name, Clip edited, Gesture gesture = 0);
+    void undo();
+    void redo();
+    /// Any other step of the document: what clips are called, their order, groups, notes.
+    bool change(const std::function<Result<void>(Document&)>& step);
+    /// A step that adds a clip, which is not shown for it: its id.
+    Result<int> insert(const std::function<Result<int>(Document&)>& step);
+    void duplicate();
+    void removeClip();
+    /// Two clips of one.
+    bool splitAt(double time);
+    /// The next clip of the project is put behind this one.
+    void joinNext();
+    [[nodiscard]] int nextClipId() const; ///< 0: none
+
+private:
+    bool take(Result<void> result);
+    void take(Document document);
+    void step(bool (Document::*through)());
+    bool follow(int before);
+    void documentChanged();
+    [[nodiscard]] bool mayEdit(Gesture gesture) const;
+    Result<void> saved(Result<void> result);
+
+    std::unique_ptr<Document> open = std::make_unique<Document>();
+    std::unique_ptr<Autosave> autosave;
+    bool autosaveFailed = false; ///< and it has been told
+    const std::filesystem::path recoveryFolder;
+    RecentFiles recent;
+    int active = 0;
+    std::shared_ptr<const Sound> unanalysed; ///< shown in place of a clip: active is 0
+    int beforeUnanalysed = 0;
+    std::shared_ptr<const Clip> preview;
+    std::map<int, std::shared_ptr<const Clip>> versions; ///< that were kept, by id of the clip
+    bool comparing = false;
+};
+
+} // namespace pacini::editor

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/session/Transport.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pacini::editor
+{
+
+Transport::Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
+                     const ClipSelection& selected, Player& played)
+    : model(project), sounds(projectSounds), actuators(profiles), selection(selected), player(played)
+{
+    subscriptions.on({&model.shownChanged}, [this] { reset(); });
+    subscriptions.on({&model.contentChanged, &model.versionChanged, &selection.rangeChanged}, [this] { send(); });
+    subscriptions.on({&model.contentChanged, &sounds.changed}, [this] { player.setSound(sounds.soundOfClip()); });
+    subscriptions.on({&actuators.changed}, [this] { player.setProfile(actuators.profile()); });
+}
+
+/// For another clip.
+void Transport::reset()
+{
+    player.stop();
+    auditionNow = {};
+    startTime = 0.0;
+    changed.emit();
+}
+
+void Transport::send()
+{
+    Playback wanted;
+    wanted.source = hear != Heard::haptic;
+    wanted.haptic = hear != Heard::sound;
+    const auto clip = model.clip();
+    if (looping && clip)
+        wanted.loop = selection.timeRange().value_or(TimeRange{0.0, clip->duration});
+    const auto item = model.item();
+    wanted.a = model.isPreviewing() ? clip : item ? item->clip : nullptr;
+    wanted.b = model.keptVersion();
+    wanted.take = model.isComparing() ? Take::b : Take::a;
+    wanted.audition = auditionNow;
+    player.set(std::move(wanted));
+}
+
+void Transport::setLooping(bool wanted)
+{
+    looping = wanted;
+    send();
+    loopChanged.emit();
+}
+
+void Transport::setHeard(Heard wanted)
+{
+    hear = wanted;
+    send();
+    changed.emit();
+}
+
+void Transport::setAudition(Audition wanted)
+{
+    auditionNow = std::move(wanted);
+    send();
+    changed.emit();
+}
+
+void Transport::play()
+{
+    const auto clip = model.clip();
+    if (!clip)
+        return;
+    if (startTime >= clip->duration - 1e-3)
+        startTime = 0.0;
+    if (const auto& range = selection.timeRange();
+        looping && range && (startTime < range->from || startTime >= range->to))
+        startTime = range->from;
+    player.play(startTime);
+    changed.emit();
+}
+
+void Transport::stop()
+{
+    player.stop();
+    changed.emit();
+}
+
+double Transport::playhead() const
+{
+    return player.isPlaying() ? player.position() : startTime;
+}
+
+void Transport::setPlayhead(double time)
+{
+    const auto clip = model.clip();
+    startTime = clip ? std::clamp(time, 0.0, clip->duration) : 0.0;
+    if (player.isPlaying())
+        player.play(startTime);
+    changed.emit();
+}
+
+bool Transport::canSplit() const
+{
+    const auto clip = model.clip();
+    return clip && playhead() > 0.0 && playhead() < clip->duration;
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Transport: what is heard and felt of the clip that is shown, and from where.
+
+#include "editor/clip/session/Actuators.h"
+#include "editor/clip/session/ClipSelection.h"
+#include "editor/clip/session/Player.h"
+#include "editor/clip/session/ProjectSounds.h"
+
+namespace pacini::editor
+{
+
+enum class Heard
+{
+    haptic,
+    sound,
+    both
+};
+
+/// Tells the player what to play, and follows what is shown, selected and chosen. [message]
+class Transport
+{
+public:
+    Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
+              const ClipSelection& selected, Player& player);
+
+    Signal changed;     ///< what is heard, playing or not, the playhead when it jumps
+    Signal loopChanged; ///< whether the time range is looped
+
+    [[nodiscard]] bool isLooping() const noexcept { return looping; }
+    void setLooping(bool wanted);
+    [[nodiscard]] Heard heard() const noexcept { return hear; }
+    void setHeard(Heard wanted);
+    [[nodiscard]] const Audition& audition() const noexcept { return auditionNow; }
+    void setAudition(Audition wanted);
+
+    void play();
+    void stop();
+    [[nodiscard]] bool isPlaying() const noexcept { return player.isPlaying(); }
+    /// s: of what plays, or where playing will begin.
+    [[nodiscard]] double playhead() const;
+    void setPlayhead(double time);
+    /// Whether it is inside of the clip.
+    [[nodiscard]] bool canSplit() const;
+
+private:
+    void reset();
+    void send();
+
+    const EditorModel& model;
+    const ProjectSounds& sounds;
+    const Actuators& actuators;
+    const ClipSelection& selection;
+    Player& player;
+    bool looping = false;
+    Heard hear = Heard::haptic;
+    Audition auditionNow;
+    double startTime = 0.0;
+    Subscriptions subscriptions;
+};
+
+} // namespace pacini::editor
