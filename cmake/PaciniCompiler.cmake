@@ -24,7 +24,7 @@ if(PACINI_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Which sources are compiled as one where the preset asks for it: at most `most` of one folder, in alphabetical order. Files
-# of different folders, and of different foreign formats, share names of helpers.
+# of different folders share names of helpers.
 set(PACINI_UNITY_BUILD ${CMAKE_UNITY_BUILD})
 function(pacini_compile_as_one target most)
     set_target_properties(${target} PROPERTIES UNITY_BUILD "${PACINI_UNITY_BUILD}" UNITY_BUILD_MODE GROUP)
@@ -35,9 +35,6 @@ function(pacini_compile_as_one target most)
         endif()
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE path)
         cmake_path(GET path PARENT_PATH group)
-        if(path MATCHES "/formats/(Ahap|Android|Csv|Haps|Haptic|Hjif|OpenXr|Pcm|Tact)")
-            string(APPEND group "_${CMAKE_MATCH_1}")
-        endif()
         string(MAKE_C_IDENTIFIER "${group}" group)
         math(EXPR batch "0${count_${group}} / ${most}")
         math(EXPR count_${group} "0${count_${group}} + 1")

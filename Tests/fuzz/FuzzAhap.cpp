@@ -1,7 +1,7 @@
 // See fuzzForeign().
 
 #include "FuzzForeign.h"
-#include "io/formats/AhapFormat.h"
+#include "io/formats/ahap/AhapFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

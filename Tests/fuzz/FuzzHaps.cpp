@@ -1,7 +1,7 @@
 // Any bytes are refused or are a .haps file, which comes back when it is written.
 
 #include "FuzzShortForeign.h"
-#include "io/formats/HapsFormat.h"
+#include "io/formats/haps/HapsFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

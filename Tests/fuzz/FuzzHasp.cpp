@@ -1,7 +1,7 @@
 // Any bytes are refused or are a .hasp file, whose clip is valid.
 
 #include "FuzzShortForeign.h"
-#include "io/formats/HaspFormat.h"
+#include "io/formats/hasp/HaspFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,7 +1,7 @@
 // Any bytes are refused or are a .tact file, which comes back when it is written.
 
 #include "FuzzShortForeign.h"
-#include "io/formats/TactFormat.h"
+#include "io/formats/tact/TactFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,7 +1,7 @@
 // Any bytes are refused or are a .vij file, whose clip is valid.
 
 #include "FuzzShortForeign.h"
-#include "io/formats/VijFormat.h"
+#include "io/formats/vij/VijFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,15 +1,15 @@
 #include "io/formats/ForeignFormat.h"
 
-#include "io/formats/AhapFormat.h"
-#include "io/formats/AndroidFormat.h"
-#include "io/formats/CsvFormat.h"
-#include "io/formats/HapsFormat.h"
-#include "io/formats/HapticFormat.h"
-#include "io/formats/HaspFormat.h"
-#include "io/formats/HjifFormat.h"
-#include "io/formats/PcmFormat.h"
-#include "io/formats/TactFormat.h"
-#include "io/formats/VijFormat.h"
+#include "io/formats/ahap/AhapFormat.h"
+#include "io/formats/android/AndroidFormat.h"
+#include "io/formats/csv/CsvFormat.h"
+#include "io/formats/haps/HapsFormat.h"
+#include "io/formats/haptic/HapticFormat.h"
+#include "io/formats/hasp/HaspFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
+#include "io/formats/samples/PcmFormat.h"
+#include "io/formats/tact/TactFormat.h"
+#include "io/formats/vij/VijFormat.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "io/formats/AhapFormat.h"
+#include "io/formats/ahap/AhapFormat.h"
 
 #include "io/formats/EventsBeyond.h"
-#include "io/formats/HapticFormat.h"
-#include "io/formats/SumLimit.h"
+#include "io/formats/ahap/SumLimit.h"
+#include "io/formats/haptic/HapticFormat.h"
 #include "io/formats/players/AhapPlayer.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"

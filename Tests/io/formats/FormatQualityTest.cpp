@@ -1,21 +1,21 @@
 // What is exported sounds as Pacini itself does within the format's model. Prints a table, for all demo sounds and, if
 // PACINI_SOUNDS names a folder, for the sounds there: pacini_tests "[formatquality]"
 
-#include "io/formats/AhapFormat.h"
-#include "io/formats/AndroidFormat.h"
 #include "io/formats/DemoSounds.h"
-#include "io/formats/HapsFormat.h"
-#include "io/formats/HapticFormat.h"
-#include "io/formats/HjifFormat.h"
-#include "io/formats/PcmFormat.h"
 #include "io/formats/PlayedClip.h"
-#include "io/formats/TactFormat.h"
+#include "io/formats/ahap/AhapFormat.h"
+#include "io/formats/android/AndroidFormat.h"
+#include "io/formats/haps/HapsFormat.h"
+#include "io/formats/haptic/HapticFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/players/AhapPlayer.h"
 #include "io/formats/players/AndroidPlayer.h"
 #include "io/formats/players/HapsPlayer.h"
 #include "io/formats/players/HapticPlayer.h"
 #include "io/formats/players/HjifPlayer.h"
 #include "io/formats/players/TactPlayer.h"
+#include "io/formats/samples/PcmFormat.h"
+#include "io/formats/tact/TactFormat.h"
 
 #include <pacini/actuator/LevelLimiter.h>
 

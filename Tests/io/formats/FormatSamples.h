@@ -2,12 +2,12 @@
 
 // Formats under test, and files with everything in them.
 
-#include "io/formats/AndroidFormat.h"
-#include "io/formats/CsvFormat.h"
-#include "io/formats/HapsFormat.h"
-#include "io/formats/HjifFormat.h"
-#include "io/formats/PcmFormat.h"
-#include "io/formats/TactFormat.h"
+#include "io/formats/android/AndroidFormat.h"
+#include "io/formats/csv/CsvFormat.h"
+#include "io/formats/haps/HapsFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
+#include "io/formats/samples/PcmFormat.h"
+#include "io/formats/tact/TactFormat.h"
 
 #include <array>
 #include <string>

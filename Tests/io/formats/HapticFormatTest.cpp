@@ -1,4 +1,4 @@
-#include "io/formats/HapticFormat.h"
+#include "io/formats/haptic/HapticFormat.h"
 
 #include "io/formats/EventsBeyond.h"
 #include "support/Catch.h"

@@ -1,7 +1,7 @@
 // Events of a clip are events of its HJIF file, and sound no louder there.
 
 #include "io/formats/DemoSounds.h"
-#include "io/formats/HjifFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/players/HjifPlayer.h"
 
 #include <nlohmann/json.hpp>

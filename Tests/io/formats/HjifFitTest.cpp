@@ -1,8 +1,8 @@
 // Keyframes of HJIF stand where they are needed, and their waves are near what they were.
 
-#include "io/formats/HjifFit.h"
+#include "io/formats/hjif/HjifFit.h"
 
-#include "io/formats/HjifFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
 #include "support/Catch.h"
 
 #include <pacini/synthesis/Decoder.h>

@@ -1,11 +1,11 @@
 // WaveletWave bands of HJIF are what they say: blocks of samples.
 
-#include "io/formats/HjifWavelet.h"
+#include "io/formats/hjif/HjifWavelet.h"
 
 #include "io/formats/DemoSounds.h"
 #include "io/formats/FormatSamples.h"
 #include "io/formats/HjifEncoder.h"
-#include "io/formats/HjifStream.h"
+#include "io/formats/hjif/HjifStream.h"
 #include "support/Catch.h"
 
 #include <pacini/foundation/Random.h>

@@ -2,8 +2,8 @@
 
 #include "io/AnyClip.h"
 #include "io/formats/ForeignFormat.h"
-#include "io/formats/HapticFormat.h"
 #include "io/formats/NormalisedFrequency.h"
+#include "io/formats/haptic/HapticFormat.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/TempFolder.h"

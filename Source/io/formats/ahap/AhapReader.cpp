@@ -1,0 +1,335 @@
+#include "io/JsonTree.h"
+#include "io/formats/FormatJson.h"
+#include "io/formats/ImportedClip.h"
+#include "io/formats/NormalisedFrequency.h"
+#include "io/formats/RootCurve.h"
+#include "io/formats/ahap/AhapFormat.h"
+#include "io/formats/ahap/SumLimit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr std::size_t mostPoints = 4'000'000;
+
+struct HapticEvent
+{
+    double time = 0.0;
+    double end = 0.0; ///< of a continuous one; at most its time: no end given
+    double intensity = 1.0;
+    double sharpness = 0.5;
+};
+
+/// All controls of one dynamic parameter, one after another, from the value it has without any.
+Curve joined(std::vector<Curve> controls, double initial)
+{
+    std::stable_sort(controls.begin(), controls.end(),
+                     [](const Curve& a, const Curve& b) { return a.front().time < b.front().time; });
+    Curve curve{{0.0, initial}};
+    for (const Curve& control : controls)
+    {
+        const double start = control.front().time;
+        cutAfter(curve, start);
+        if (curve.back().time < start)
+            curve.push_back({start, curve.back().value});
+        for (const Breakpoint& point : control)
+            if (point != curve.back())
+                curve.push_back(point);
+    }
+    return curve;
+}
+
+/// The value just before `time`: at a step its first one.
+double valueBefore(const Curve& curve, double time)
+{
+    const auto next = std::lower_bound(curve.begin(), curve.end(), time,
+                                       [](const Breakpoint& point, double t) { return point.time < t; });
+    return next != curve.end() && next->time == time ? next->value : valueAt(curve, time);
+}
+
+/// The part of `curve` from `from` to `to`, with points at both ends.
+Curve part(const Curve& curve, double from, double to)
+{
+    Curve result{{from, valueAt(curve, from)}};
+    auto next = std::upper_bound(curve.begin(), curve.end(), from,
+                                 [](double time, const Breakpoint& point) { return time < point.time; });
+    for (; next != curve.end() && next->time < to; ++next)
+        result.push_back(*next);
+    result.push_back({to, valueBefore(curve, to)});
+    return result;
+}
+
+class Reader
+{
+public:
+    explicit Reader(const nlohmann::json& tree) : root(&tree, "", error) {}
+
+    Result<ImportedClip> read()
+    {
+        if (const JsonEntry version = root.optional("Version"); version.exists() && version.number() > 1.0)
+            version.fail(fmt::format("is {}, but only version 1 is read", version.number()),
+                         ErrorCode::unsupportedVersion);
+        if (const JsonEntry metadata = root.optional("Metadata"); metadata.exists())
+            if (const JsonEntry project = metadata.optional("Project"); project.exists())
+                clip.name = project.text();
+        root.required("Pattern").forEach([&](const JsonEntry& entry, std::size_t) { readEntry(entry); });
+        if (!error)
+            finish();
+        if (error)
+            return *error;
+        if (auto valid = validate(clip); !valid)
+            return valid.error();
+        for (const std::string& what : ignored)
+            warnings.push_back(what);
+        return ImportedClip{std::move(clip), std::move(warnings)};
+    }
+
+private:
+    void readEntry(const JsonEntry& entry)
+    {
+        const JsonEntry event = entry.optional("Event");
+        const JsonEntry parameter = entry.optional("Parameter");
+        const JsonEntry curve = entry.optional("ParameterCurve");
+        if (event.exists())
+            readEvent(event);
+        else if (parameter.exists())
+            addControl(parameter, {{timeOf(parameter), parameter.required("ParameterValue").number()}});
+        else if (curve.exists())
+            readCurve(curve);
+        else
+            entry.fail("is neither an Event, a Parameter nor a ParameterCurve");
+    }
+
+    double timeOf(const JsonEntry& object) const
+    {
+        const JsonEntry entry = object.required("Time");
+        return checkedTime(entry, entry.number());
+    }
+
+    static double checkedTime(const JsonEntry& entry, double time)
+    {
+        if (time < 0.0)
+            entry.fail("is before 0");
+        else if (time > limits::duration)
+            entry.fail("is later than 24 hours", ErrorCode::tooLarge);
+        return time;
+    }
+
+    /// A value moved into its range, as Core Haptics does.
+    double limited(const JsonEntry& entry, double low, double high)
+    {
+        const double value = entry.number();
+        constexpr std::size_t mostWarnings = 20;
+        if ((value < low || value > high) && warnings.size() < mostWarnings)
+            warnings.push_back(fmt::format("{}: is outside of {} to {} and becomes its end", entry.path(), low, high));
+        return std::clamp(value, low, high);
+    }
+
+    void readEvent(const JsonEntry& entry)
+    {
+        const std::string type = entry.required("EventType").text();
+        HapticEvent event;
+        event.time = timeOf(entry);
+        const JsonEntry duration = entry.optional("EventDuration");
+        event.end = checkedTime(duration, std::round((event.time + std::max(duration.number(), 0.0)) * 1e9) / 1e9);
+        if (duration.number() < 0.0)
+            duration.fail("is below 0");
+        entry.optional("EventParameters")
+            .forEach([&](const JsonEntry& parameter, std::size_t) { readParameter(parameter, event); });
+        if (type == "HapticTransient")
+            transients.push_back(event);
+        else if (type == "HapticContinuous")
+            continuous.push_back(event);
+        else if (type == "AudioContinuous" || type == "AudioCustom")
+            ignored.insert("Pattern: audio events are not kept");
+        else if (!type.empty())
+            entry.optional("EventType").fail("is no type of event: '" + shownText(type) + "'");
+    }
+
+    void readParameter(const JsonEntry& parameter, HapticEvent& event)
+    {
+        const JsonEntry value = parameter.required("ParameterValue");
+        const std::string id = parameter.required("ParameterID").text();
+        if (id == "HapticIntensity")
+            event.intensity = limited(value, 0.0, 1.0);
+        else if (id == "HapticSharpness")
+            event.sharpness = limited(value, 0.0, 1.0);
+        else if (!id.empty() && (value.number() != 0.0 || id == "Sustained") &&
+                 !(id == "Sustained" && value.number() == 1.0))
+            ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
+    }
+
+    void readCurve(const JsonEntry& entry)
+    {
+        const double start = timeOf(entry);
+        Curve points;
+        double before = 0.0;
+        entry.required("ParameterCurveControlPoints")
+            .forEach(
+                [&](const JsonEntry& point, std::size_t)
+                {
+                    const JsonEntry offset = point.required("Time");
+                    const double relative = checkedTime(offset, offset.number());
+                    checkedTime(offset, start + relative);
+                    if (relative < before)
+                        offset.fail("is earlier than the point before it");
+                    before = relative;
+                    // Sums of decimals that are the same time as an event's must be it.
+                    const double time = std::round((start + relative) * 1e9) / 1e9;
+                    points.push_back({time, point.required("ParameterValue").number()});
+                });
+        if (points.empty() && !error)
+            return entry.optional("ParameterCurveControlPoints").fail("has no point");
+        addControl(entry, std::move(points));
+    }
+
+    /// `points` may still have values outside of what the parameter can be.
+    void addControl(const JsonEntry& entry, Curve points)
+    {
+        const std::string id = entry.required("ParameterID").text();
+        if (error)
+            return;
+        const bool intensity = id == "HapticIntensityControl";
+        if (!intensity && id != "HapticSharpnessControl")
+        {
+            ignored.insert(fmt::format("Pattern: the parameter {} is not kept", shownText(id)));
+            return;
+        }
+        const double low = intensity ? 0.0 : -1.0;
+        for (Breakpoint& point : points)
+        {
+            if (point.value < low || point.value > 1.0)
+                ignored.insert(fmt::format("Pattern: values of {} outside of {} to 1 become its ends", id, low));
+            point.value = std::clamp(point.value, low, 1.0);
+        }
+        pointCount += points.size();
+        if (pointCount > mostPoints)
+            return entry.fail("is beyond 4 million points", ErrorCode::tooLarge);
+        (intensity ? intensityControls : sharpnessControls).push_back(std::move(points));
+    }
+
+    void finish()
+    {
+        const Curve intensity = joined(std::move(intensityControls), 1.0);
+        const Curve sharpness = joined(std::move(sharpnessControls), 0.0);
+        const auto earlier = [](const HapticEvent& a, const HapticEvent& b)
+        {
+            return a.time < b.time;
+        };
+        std::stable_sort(transients.begin(), transients.end(), earlier);
+        std::stable_sort(continuous.begin(), continuous.end(), earlier);
+        CurveReader scale(intensity), shift(sharpness);
+        for (const HapticEvent& event : transients)
+        {
+            const double strength = event.intensity * scale.at(event.time);
+            clip.transients.push_back(
+                {event.time, strength * strength, std::clamp(event.sharpness + shift.at(event.time), 0.0, 1.0)});
+            clip.duration = std::max(clip.duration, event.time);
+        }
+        for (const HapticEvent& event : continuous)
+            clip.duration = std::max(clip.duration, event.end);
+        clip.duration = std::max({clip.duration, intensity.back().time, sharpness.back().time});
+        lastUntilSounded(clip);
+        const double patternEnd = clip.duration;
+        for (HapticEvent& event : continuous)
+        {
+            if (event.end <= event.time)
+            {
+                ignored.insert("Pattern: continuous events without a duration last to the end of the pattern, but at "
+                               "most 30 s");
+                const double latest = std::min(event.time + longestAhapEvent, limits::duration);
+                event.end = event.time < patternEnd ? std::min(patternEnd, latest) : latest;
+                clip.duration = std::max(clip.duration, event.end);
+            }
+            addContinuous(event, intensity, sharpness);
+            if (error)
+                return;
+        }
+        for (Band& band : clip.bands)
+            if (band.amplitude.back().time < clip.duration)
+                band.amplitude.push_back({band.amplitude.back().time, 0.0});
+        const auto limited = limitSum(clip.bands, 1.0, mostPoints);
+        if (!limited)
+            return root.optional("Pattern").fail(limited.error().message, limited.error().code);
+        if (*limited)
+            ignored.insert("Pattern: continuous events that sound together are weaker where they add up to more than "
+                           "full drive");
+    }
+
+    /// The first band that is silent by then goes on with the event.
+    void addContinuous(const HapticEvent& event, const Curve& intensity, const Curve& sharpness)
+    {
+        constexpr double touching = 1e-6; // s; times are written with six decimals
+        auto band = std::find_if(clip.bands.begin(), clip.bands.end(),
+                                 [&](const Band& b) { return b.amplitude.back().time <= event.time + touching; });
+        if (band == clip.bands.end())
+        {
+            if (clip.bands.size() == limits::bands)
+                return root.optional("Pattern").fail("has more than 256 continuous events at a time",
+                                                     ErrorCode::tooLarge);
+            const NormalisedRange& range = sharpnessRange;
+            clip.bands.push_back(
+                {range.low, range.hertzOf(0.5), range.high, static_cast<int>(clip.bands.size()), {}, {}});
+            band = std::prev(clip.bands.end());
+        }
+        Curve level = part(intensity, event.time, event.end);
+        Curve pitch = part(sharpness, event.time, event.end);
+        for (Breakpoint& point : level)
+            point.value *= event.intensity;
+        for (Breakpoint& point : pitch)
+            point.value = sharpnessRange.hertzOf(std::clamp(event.sharpness + point.value, 0.0, 1.0));
+        level = squareOf(level);
+        pointCount += level.size() + pitch.size();
+        if (pointCount > mostPoints)
+            return root.optional("Pattern").fail("is beyond 4 million points", ErrorCode::tooLarge);
+        const bool goesOn = !band->amplitude.empty() && band->amplitude.back().time >= event.time - touching;
+        if (!goesOn)
+        {
+            if (!band->amplitude.empty())
+                band->amplitude.push_back({band->amplitude.back().time, 0.0});
+            if (event.time > 0.0)
+                band->amplitude.push_back({event.time, 0.0});
+        }
+        append(band->amplitude, level, 1e-4);
+        append(band->pitch, pitch, 0.1);
+    }
+
+    /// Where the curves meet, two points that differ only by rounding are one.
+    static void append(Curve& curve, const Curve& more, double rounding)
+    {
+        for (Breakpoint point : more)
+        {
+            if (!curve.empty())
+                point.time = std::max(point.time, curve.back().time);
+            if (curve.empty() || point.time > curve.back().time ||
+                std::abs(point.value - curve.back().value) > rounding)
+                curve.push_back(point);
+        }
+    }
+
+    std::optional<Error> error;
+    JsonEntry root;
+    Clip clip;
+    std::vector<HapticEvent> transients, continuous;
+    std::vector<Curve> intensityControls, sharpnessControls;
+    std::size_t pointCount = 0;
+    std::set<std::string> ignored; ///< warnings that are given once
+    std::vector<std::string> warnings;
+};
+} // namespace
+
+Result<ImportedClip> readAhap(std::string_view text)
+{
+    const auto tree = readJsonTree(text, largestAhapText);
+    if (!tree)
+        return tree.error();
+    return Reader(*tree).read();
+}
+
+} // namespace pacini

@@ -1,0 +1,242 @@
+#include "io/formats/android/AndroidEffects.h"
+
+#include "io/formats/ForeignText.h"
+#include "io/formats/LossList.h"
+#include "io/formats/NormalisedFrequency.h"
+#include "io/formats/PlayedClip.h"
+#include "io/formats/android/AndroidWaveform.h"
+
+#include <pacini/synthesis/TransientPulse.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr double steepest = 0.020;     // s: a segment that every device plays
+constexpr double usualPoints = 60.0;   // per second
+constexpr std::int64_t longest = 1000; // ms: likewise
+
+struct Peaks
+{
+    Curve amplitude; ///< the voice with events as peaks
+    Curve frequency; ///< Hz at the top of each
+};
+
+/// Events as peaks as long as the pulse that the decoder plays, with its frequency at the top. Peaks of the 20 ms that
+/// every device plays to each side lost up to 16 points of HTS in fast trains, peaks at the voice's frequency up to 10.
+/// Peaks that meet share their valley.
+Peaks withPeaks(const SingleVoice& voice)
+{
+    Peaks peaks{voice.amplitude, {}};
+    Curve& curve = peaks.amplitude;
+    for (std::size_t i = 0; i < voice.events.size(); ++i)
+    {
+        const Transient& event = voice.events[i];
+        const double last = i > 0 ? voice.events[i - 1].time : -limits::duration;
+        const double next = i + 1 < voice.events.size() ? voice.events[i + 1].time : limits::duration;
+        constexpr double fs = 48000.0;
+        const Pulse pulse = makePulse({}, event.sharpness, std::min(event.time - last, next - event.time), fs, 1.0);
+        const double from = event.time;
+        const double to =
+            std::min({event.time + static_cast<double>(pulse.frames) / fs, 0.5 * (event.time + next), voice.duration});
+        const double top = 0.5 * (from + to);
+        const double level = std::min(std::hypot(valueAt(voice.amplitude, top), event.amplitude), 1.0);
+        const Breakpoint before{from, valueAt(curve, from)}, after{to, valueAt(voice.amplitude, to)};
+        std::erase_if(curve, [&](const Breakpoint& point) { return point.time >= from && point.time <= to; });
+        const auto place = std::upper_bound(curve.begin(), curve.end(), from,
+                                            [](double t, const Breakpoint& point) { return t < point.time; });
+        curve.insert(place, {before, {top, level}, after});
+        peaks.frequency.push_back({top, pulse.cyclesPerFrame * fs});
+    }
+    return peaks;
+}
+
+struct Target
+{
+    double amplitude = 0.0, frequency = 0.0;
+};
+
+/// Both curves at the ms at which either bends; a step takes one ms.
+std::map<std::int64_t, Target> targetsOf(const Peaks& peaks, const Curve& frequency, bool keepsPoints)
+{
+    std::map<std::int64_t, Target> targets;
+    std::int64_t last = -1;
+    for (const Breakpoint& point : peaks.amplitude)
+    {
+        const std::int64_t tick = std::max(androidTick(point.time), last + 1);
+        targets[tick] = {point.value, valueAt(frequency, point.time)};
+        last = tick;
+    }
+    const std::int64_t room = keepsPoints ? 1 : androidTick(steepest);
+    for (const Breakpoint& point : frequency)
+    {
+        const std::int64_t tick = androidTick(point.time);
+        const auto next = targets.lower_bound(tick);
+        if ((next == targets.end() || next->first >= tick + room) &&
+            (next == targets.begin() || std::prev(next)->first + room <= tick))
+            targets[tick] = {valueAt(peaks.amplitude, point.time), point.value};
+    }
+    for (const Breakpoint& top : peaks.frequency)
+        if (const auto at = targets.find(androidTick(top.time)); at != targets.end())
+            at->second.frequency = top.value;
+    return targets;
+}
+
+/// Control points from 0 to 0; none is nearer than 1 ms or further than 1 s.
+AndroidEnvelope envelopeOf(const std::map<std::int64_t, Target>& targets, std::int64_t end)
+{
+    AndroidEnvelope envelope;
+    envelope.initialFrequency = targets.begin()->second.frequency;
+    std::int64_t at = 0;
+    Target before{0.0, envelope.initialFrequency};
+    const auto moveTo = [&](std::int64_t tick, const Target& target)
+    {
+        const std::int64_t length = tick - at;
+        const std::int64_t pieces = (length + longest - 1) / longest;
+        for (std::int64_t i = 1; i <= pieces; ++i)
+        {
+            const std::int64_t until = at + (length * i) / pieces;
+            const double place = static_cast<double>(i) / static_cast<double>(pieces);
+            const std::int64_t from = at + (length * (i - 1)) / pieces;
+            envelope.points.push_back({until - from, before.amplitude + place * (target.amplitude - before.amplitude),
+                                       before.frequency + place * (target.frequency - before.frequency)});
+        }
+        at = tick;
+        before = target;
+    };
+    for (const auto& [tick, target] : targets)
+        if (tick > 0 || target.amplitude > 0.0)
+            moveTo(std::max(tick, at + 1), target);
+    if (before.amplitude > 0.0 || envelope.points.empty())
+        moveTo(std::max(end, at + 1), {0.0, before.frequency});
+    return envelope;
+}
+
+double largestRounding(const SingleVoice& voice)
+{
+    double worst = 0.0;
+    const auto look = [&](double time)
+    {
+        worst = std::max(worst, std::abs(androidTime(androidTick(time)) - time));
+    };
+    for (const Breakpoint& point : voice.amplitude)
+        look(point.time);
+    for (const Transient& event : voice.events)
+        look(event.time);
+    return worst;
+}
+} // namespace
+
+AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
+{
+    LossList losses;
+    SingleVoice voice = oneVoice(clip, params.profile, androidMotorFrequency);
+    losses.addOneVoice(clip, voice);
+    losses.addText(clip, true);
+    losses.limit(voice.amplitude, 1.0);
+    losses.limit(voice.events, 1.0);
+    losses.addCrowding(voice.events, 2.0 * steepest);
+    for (const Transient& event : voice.events)
+        losses.add(LossKind::event, event.time, 0.0, 0.0,
+                   "events become bursts in the waveform and peaks in the envelopes");
+
+    AndroidExport result;
+    const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
+    const double rate = params.amplitudePoints.value_or(usualPoints);
+    const auto end = std::max<std::int64_t>(1, androidTick(voice.duration));
+    result.effects.waveform = androidWaveformOf(voice, params.amplitudePoints, keepsPoints);
+    addStepLosses(losses, voice, result.effects.waveform);
+    if (const double moved = largestRounding(voice); moved > 1e-9)
+        losses.add(LossKind::timeStep, 0.0, voice.duration, moved, "times are rounded to milliseconds");
+    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
+
+    if (!keepsPoints)
+    {
+        const Curve before = voice.amplitude;
+        voice.amplitude = thinned(voice.amplitude, rate, voice.duration);
+        voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(20.0), voice.duration);
+        losses.addThinned(before, voice.amplitude);
+    }
+    const auto targets = targetsOf(withPeaks(voice), voice.frequency, keepsPoints);
+    result.effects.envelope = envelopeOf(targets, end);
+    result.effects.basic = result.effects.envelope;
+    const NormalisedRange range = normalisedRangeOf(params.profile, sharpnessRange);
+    double bent = 0.0;
+    const auto sharpnessOf = [&](double hertz)
+    {
+        const double sharpness = range.normalisedOf(hertz);
+        bent = std::max(bent, std::abs(std::log2(range.hertzOf(sharpness) / hertz)));
+        return sharpness;
+    };
+    result.effects.basic.initialFrequency = sharpnessOf(result.effects.basic.initialFrequency);
+    for (AndroidPoint& point : result.effects.basic.points)
+        point.frequency = sharpnessOf(point.frequency);
+    if (bent > 1e-9)
+        losses.add(LossKind::frequency, 0.0, voice.duration, bent,
+                   fmt::format("basic envelope: frequencies outside {} to {} Hz become the ends of the range",
+                               decimal(range.low, 0), decimal(range.high, 0)));
+    constexpr std::size_t advised = 16;
+    const auto& points = result.effects.envelope.points;
+    if (points.size() > advised)
+        losses.add(LossKind::points, 0.0, voice.duration, 0.0,
+                   fmt::format("envelopes: {} control points; devices need not play more than 16 at once, Android "
+                               "splits the effect",
+                               points.size()));
+    std::int64_t at = 0;
+    for (const AndroidPoint& point : points)
+    {
+        if (androidTime(point.duration) < steepest - 1e-9)
+            losses.add(LossKind::crowding, androidTime(at), androidTime(point.duration), 0.0,
+                       "envelopes: segments of less than 20 ms, which some devices do not play");
+        at += point.duration;
+    }
+    result.losses = std::move(losses).sorted();
+    return result;
+}
+
+Clip clipOfWaveform(const std::vector<AndroidStep>& steps)
+{
+    SingleVoice voice;
+    std::int64_t at = 0;
+    for (const AndroidStep& step : steps)
+    {
+        const double level = step.amplitude / 255.0;
+        voice.amplitude.push_back({androidTime(at), level});
+        at += step.duration;
+        voice.amplitude.push_back({androidTime(at), level});
+    }
+    voice.duration = androidTime(at);
+    voice.frequency = {{0.0, androidMotorFrequency}};
+    return clipOfVoice(std::move(voice));
+}
+
+Clip clipOfEnvelope(const AndroidEnvelope& envelope, bool isBasic)
+{
+    const auto hertz = [&](double said)
+    {
+        return isBasic ? sharpnessRange.hertzOf(said) : said;
+    };
+    SingleVoice voice;
+    std::int64_t at = 0;
+    voice.amplitude = {{0.0, 0.0}};
+    voice.frequency = {{0.0, hertz(envelope.initialFrequency)}};
+    for (const AndroidPoint& point : envelope.points)
+    {
+        at += point.duration;
+        voice.amplitude.push_back({androidTime(at), point.amplitude});
+        voice.frequency.push_back({androidTime(at), hertz(point.frequency)});
+    }
+    voice.duration = androidTime(at);
+    return clipOfVoice(std::move(voice));
+}
+
+} // namespace pacini

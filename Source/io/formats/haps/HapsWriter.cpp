@@ -1,0 +1,122 @@
+#include "io/formats/ForeignText.h"
+#include "io/formats/LossList.h"
+#include "io/formats/PlayedClip.h"
+#include "io/formats/haps/HapsFormat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr int timeDigits = 5, levelDigits = 5, frequencyDigits = 2;
+constexpr double usualAmplitudePoints = 60.0, usualFrequencyPoints = 20.0;
+
+std::string keyframes(const Curve& curve, int digits)
+{
+    std::string text;
+    for (const Breakpoint& point : curve)
+        text += fmt::format("{}\n                  {{\"m_time\": {}, \"m_value\": {}}}", text.empty() ? "" : ",",
+                            decimal(point.time, timeDigits), decimal(point.value, digits));
+    return text;
+}
+
+std::string perception(const char* name, const std::string& melodies)
+{
+    return fmt::format(R"(  "{}": {{
+    "m_loop": 0,
+    "m_maximum": 1,
+    "m_gain": 1,
+    "m_signalEvaluationMethod": 3,
+    "m_melodies": [{}]
+  }})",
+                       name, melodies);
+}
+
+std::string melody(const std::string& notes)
+{
+    return fmt::format(
+        "\n      {{\n        \"m_mute\": 0,\n        \"m_gain\": 1,\n        \"m_notes\": [{}]\n      }}", notes);
+}
+
+bool isHaps(std::string_view bytes)
+{
+    return bytes.find("\"m_vibration\"") != std::string_view::npos;
+}
+} // namespace
+
+Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
+{
+    SingleVoice voice = oneVoice(clip, params.profile, hapsMotorFrequency);
+    LossList losses;
+    losses.addOneVoice(clip, voice);
+    losses.addText(clip, true);
+    losses.limit(voice.amplitude, 1.0); // players take gains of notes above 1
+    if (!isSingleVoice(clip) || params.amplitudePoints)
+    {
+        const Curve before = voice.amplitude;
+        voice.amplitude = thinned(before, params.amplitudePoints.value_or(usualAmplitudePoints), voice.duration);
+        losses.addThinned(before, voice.amplitude);
+    }
+    if (!isSingleVoice(clip) || params.frequencyPoints)
+        voice.frequency =
+            thinned(voice.frequency, params.frequencyPoints.value_or(usualFrequencyPoints), voice.duration);
+    std::string transients;
+    for (const Transient& event : voice.events)
+    {
+        losses.add(LossKind::event, event.time, 0.0, 0.0, "events have no sharpness");
+        transients += fmt::format(R"({}
+          {{"m_startingPoint": {}, "m_length": {}, "m_priority": 0, "m_gain": {}, "m_hapticEffect": {{"m_type": 0}}}})",
+                                  transients.empty() ? "" : ",", decimal(event.time, timeDigits), hapsTransientLength,
+                                  decimal(event.amplitude, levelDigits));
+    }
+    const std::string note = fmt::format(R"(
+          {{
+            "m_startingPoint": 0, "m_length": {}, "m_priority": 1, "m_gain": 1,
+            "m_hapticEffect": {{
+              "m_amplitudeModulation": {{
+                "m_extrapolationStrategy": 0,
+                "m_keyframes": [{}
+                ]
+              }},
+              "m_frequencyModulation": {{
+                "m_extrapolationStrategy": 0,
+                "m_keyframes": [{}
+                ]
+              }}
+            }}
+          }}
+        )",
+                                         decimal(voice.duration, timeDigits), keyframes(voice.amplitude, levelDigits),
+                                         keyframes(voice.frequency, frequencyDigits));
+    const std::string melodies = melody(transients) + "," + melody(note) + "\n    ";
+    ExportedClip result;
+    result.files.push_back(
+        {"", fmt::format(R"({{
+  "m_version": "5",
+  "m_description": {},
+  "m_HDFlag": 0,
+  "m_time_unit": 0,
+  "m_length_unit": 7,
+  "m_gain": 1,
+{},
+{},
+{}
+}}
+)",
+                         inQuotes(nameOfClip(clip, params.name)), perception("m_vibration", melodies),
+                         perception("m_texture", ""), perception("m_stiffness", ""))});
+    result.losses = std::move(losses).sorted();
+    return result;
+}
+
+const ForeignFormat& hapsFormat()
+{
+    static constexpr ForeignFormat format{"haps", "Interhaptics, version 5", ".haps", isHaps, readHaps, writeHaps};
+    return format;
+}
+
+} // namespace pacini

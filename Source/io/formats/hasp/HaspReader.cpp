@@ -1,0 +1,101 @@
+#include "io/JsonText.h"
+#include "io/formats/ForeignText.h"
+#include "io/formats/haptic/HapticFormat.h"
+#include "io/formats/hasp/HaspFormat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+/// A clip of a project that says something.
+struct ProjectClip
+{
+    std::string name;
+    std::size_t index = 0;
+    const nlohmann::json* haptic = nullptr;
+};
+
+std::vector<ProjectClip> clipsOf(const nlohmann::json& clips)
+{
+    std::vector<ProjectClip> found;
+    for (std::size_t i = 0; i < clips.size(); ++i)
+    {
+        if (!clips[i].is_object())
+            continue;
+        const auto haptic = clips[i].find("haptic");
+        if (haptic == clips[i].end() || !haptic->is_object())
+            continue;
+        const auto name = clips[i].find("name");
+        found.push_back(
+            {name != clips[i].end() && name->is_string() ? name->get<std::string>() : std::string(), i, &*haptic});
+    }
+    return found;
+}
+
+std::string namesOf(const std::vector<ProjectClip>& clips)
+{
+    constexpr std::size_t mostNamed = 5;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(clips.size(), mostNamed); ++i)
+        names += fmt::format("{}'{}'", i > 0 ? ", " : "", shownText(clips[i].name));
+    return names + (clips.size() > mostNamed ? ", ..." : "");
+}
+
+bool isHasp(std::string_view bytes)
+{
+    return bytes.find("\"clips\"") != std::string_view::npos && bytes.find("\"clipId\"") != std::string_view::npos;
+}
+} // namespace
+
+Result<ImportedClip> readHasp(std::string_view bytes)
+{
+    ImportedClip result;
+    const auto tree = readForeignTree(bytes, result.warnings);
+    if (!tree)
+        return tree.error();
+    const auto list = tree->find("clips");
+    if (list == tree->end() || !list->is_array())
+        return Error{ErrorCode::invalidData, "clips",
+                     list == tree->end() ? "is missing, which a project of Haptics Studio has"
+                                         : "must be a list in brackets"};
+    const auto clips = clipsOf(*list);
+    constexpr const char* advice = "export them from Haptics Studio as .haptic files";
+    if (clips.empty())
+        return Error{ErrorCode::invalidData, "clips",
+                     fmt::format("has no clip with haptics: this is a project of Haptics Studio; {}", advice)};
+    if (clips.size() > 1)
+        return Error{ErrorCode::invalidData, "clips",
+                     fmt::format("has {} clips ({}): this is a project of Haptics Studio and not one clip; {}",
+                                 clips.size(), namesOf(clips), advice)};
+    const std::string where = fmt::format("clips[{}].haptic", clips[0].index);
+    auto haptic = readHaptic(clips[0].haptic->dump());
+    if (!haptic)
+    {
+        Error error = haptic.error();
+        error.where = error.where.empty() ? where : where + "." + error.where;
+        return error;
+    }
+    result.clip = std::move(haptic->clip);
+    if (!clips[0].name.empty())
+        result.clip.name = clips[0].name.substr(0, limits::text / 2);
+    for (const std::string& warning : haptic->warnings)
+        result.warnings.push_back(where + "." + warning);
+    return result;
+}
+
+const ForeignFormat& haspFormat()
+{
+    static const ForeignFormat format{"hasp", "Meta Haptics Studio, projects of one clip", ".hasp", isHasp, readHasp,
+                                      nullptr};
+    return format;
+}
+
+} // namespace pacini

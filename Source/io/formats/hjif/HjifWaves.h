@@ -1,0 +1,45 @@
+#pragma once
+
+// The effects of an HJIF file as parts of a clip.
+
+#include "io/formats/ImportedClip.h"
+#include "io/formats/hjif/HjifFile.h"
+
+#include <pacini/clip/Clip.h>
+
+#include <optional>
+#include <string>
+
+namespace pacini
+{
+
+/// How the numbers of an effect become those of a clip.
+struct HjifScale
+{
+    double ticks = 1000.0; ///< per second
+    double level = 1.0;    ///< amplitude of 1
+};
+
+/// An effect of a band, looked up, and where it stands.
+struct HjifPlaced
+{
+    const HjifEffect* effect = nullptr;
+    double position = 0.0; ///< ticks
+};
+
+/// The event that a short wave of one frequency stands for, which rises from 0 and falls back to it; none for others.
+/// Its sharpness is the one that the decoder plays with this frequency: pulses in fast trains have more periods.
+/// `position` in ticks.
+[[nodiscard]] std::optional<Transient> hjifPulse(const HjifEffect& effect, double position, const HjifScale& scale);
+
+/// Puts a wave at `position` ticks behind what is in `lane`. What is changed is said to `report` at `where`.
+void appendHjifWave(Band& lane, const HjifEffect& effect, double position, const HjifBand& band, const HjifScale& scale,
+                    ImportReport& report, const std::string& where);
+
+/// Likewise a waveform that is drawn through its extrema: between two of them lies half a period.
+void appendHjifCurve(Band& lane, const HjifEffect& effect, double position, const HjifScale& scale);
+
+/// Gives a band that holds all its waves the frequencies of `band` and of its pitch, which goes where it stands still.
+void setHjifFrequencies(Band& lane, const HjifBand& band);
+
+} // namespace pacini

@@ -1,0 +1,44 @@
+#include "io/formats/samples/DriveSamples.h"
+
+#include "io/formats/FormatLosses.h"
+#include "io/formats/PlayedClip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pacini
+{
+
+Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, int usualRate)
+{
+    DriveSamples drive;
+    drive.sampleRate = params.sampleRate.value_or(usualRate);
+    if (drive.sampleRate < 2000 || drive.sampleRate > 48000)
+        return Error{ErrorCode::invalidArgument, "sampleRate", "must be 2000 to 48000 Hz"};
+    auto samples = driveSignal(clip, drive.sampleRate, params.profile);
+    if (!samples)
+        return samples.error();
+    drive.samples = std::move(samples).value();
+    LossTrack cut(LossKind::amplitude, "samples beyond full scale are cut");
+    double loudest = 0.0;
+    for (std::size_t n = 0; n < drive.samples.size(); ++n)
+    {
+        const double beyond = std::abs(static_cast<double>(drive.samples[n])) - 1.0;
+        cut.add(static_cast<double>(n) / drive.sampleRate, beyond);
+        drive.samples[n] = std::clamp(drive.samples[n], -1.0f, 1.0f);
+        loudest = std::max(loudest, 1.0 + beyond);
+    }
+    drive.losses.append(cut);
+    drive.losses.addText(clip, false);
+    const double highest = 0.45 * drive.sampleRate;
+    for (const Band& band : clip.bands)
+        if (band.centreFrequency > highest)
+            drive.losses.add(LossKind::frequency, 0.0, clip.duration, std::log2(band.centreFrequency / highest),
+                             "frequencies above 0.45 of the sample rate become that");
+    if (!(loudest > 0.0))
+        drive.losses.add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
+    return drive;
+}
+
+} // namespace pacini

@@ -1,0 +1,174 @@
+#include "io/formats/ForeignText.h"
+#include "io/formats/samples/DriveSamples.h"
+#include "io/formats/samples/PcmFormat.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+constexpr int usualRate = 8000;
+
+void putLittleEndian(std::string& bytes, std::uint32_t value, int count)
+{
+    for (int i = 0; i < count; ++i)
+        bytes += static_cast<char>((value >> (8 * i)) & 0xFFu);
+}
+
+/// `sample` in whole steps of full scale / 2^(bits - 1); 1 is one step too large and becomes the largest.
+int stepsOf(float sample, int bits)
+{
+    const int full = 1 << (bits - 1);
+    return std::min(static_cast<int>(std::lround(static_cast<double>(sample) * full)), full - 1);
+}
+
+std::string pcmBytes(const std::vector<float>& samples, int bits, bool isSigned)
+{
+    std::string bytes;
+    bytes.reserve(samples.size() * static_cast<std::size_t>(bits / 8));
+    const int offset = isSigned ? 0 : 1 << (bits - 1);
+    for (const float sample : samples)
+        putLittleEndian(bytes, static_cast<std::uint32_t>(stepsOf(sample, bits) + offset), bits / 8);
+    return bytes;
+}
+
+/// A WAV file in memory (RIFF, format 1).
+Result<std::string> wavBytes(const DriveSamples& drive, int bits)
+{
+    const std::string data = pcmBytes(drive.samples, bits, bits > 8);
+    constexpr std::size_t largest = 0xFFFF0000u;
+    if (data.size() > largest)
+        return Error{ErrorCode::tooLarge, "duration", "makes more than 4 GB"};
+    const auto size = static_cast<std::uint32_t>(data.size());
+    const auto frameBytes = static_cast<std::uint32_t>(bits / 8);
+    const auto rate = static_cast<std::uint32_t>(drive.sampleRate);
+    std::string wav = "RIFF";
+    putLittleEndian(wav, 36 + size + (size & 1u), 4);
+    wav += "WAVEfmt ";
+    putLittleEndian(wav, 16, 4);
+    putLittleEndian(wav, 1, 2); // PCM
+    putLittleEndian(wav, 1, 2); // channel
+    putLittleEndian(wav, rate, 4);
+    putLittleEndian(wav, rate * frameBytes, 4);
+    putLittleEndian(wav, frameBytes, 2);
+    putLittleEndian(wav, static_cast<std::uint32_t>(bits), 2);
+    wav += "data";
+    putLittleEndian(wav, size, 4);
+    wav += data;
+    if (size & 1u)
+        wav += '\0'; // chunks have even lengths
+    return wav;
+}
+
+Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits)
+{
+    auto drive = driveSamples(clip, params, usualRate);
+    if (!drive)
+        return drive.error();
+    auto wav = wavBytes(*drive, bits);
+    if (!wav)
+        return wav.error();
+    ExportedClip result;
+    result.files.push_back({"", std::move(wav).value()});
+    result.losses = std::move(drive.value().losses).sorted();
+    return result;
+}
+
+Result<ExportedClip> writeRaw(const Clip& clip, const ExportParams& params, int bits)
+{
+    auto drive = driveSamples(clip, params, usualRate);
+    if (!drive)
+        return drive.error();
+    ExportedClip result;
+    result.files.push_back({"", pcmBytes(drive->samples, bits, true)});
+    result.losses = std::move(drive.value().losses).sorted();
+    return result;
+}
+
+std::string upperCase(std::string name)
+{
+    for (char& c : name)
+        c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return name;
+}
+} // namespace
+
+Result<ExportedClip> writeWav8(const Clip& clip, const ExportParams& params)
+{
+    return writeWav(clip, params, 8);
+}
+
+Result<ExportedClip> writeWav16(const Clip& clip, const ExportParams& params)
+{
+    return writeWav(clip, params, 16);
+}
+
+Result<ExportedClip> writeRaw8(const Clip& clip, const ExportParams& params)
+{
+    return writeRaw(clip, params, 8);
+}
+
+Result<ExportedClip> writeRaw16(const Clip& clip, const ExportParams& params)
+{
+    return writeRaw(clip, params, 16);
+}
+
+Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params)
+{
+    auto drive = driveSamples(clip, params, usualRate);
+    if (!drive)
+        return drive.error();
+    const std::string name = identifierOf(nameOfClip(clip, params.name));
+    const std::vector<float> silence{0.0f}; // C has no empty arrays
+    const std::vector<float>& samples = drive->samples.empty() ? silence : drive->samples;
+    ExportedClip result;
+    result.files.push_back(
+        {"", fmt::format("#ifndef HAPTIC_{0}_H\n#define HAPTIC_{0}_H\n\n#include <stdint.h>\n\n"
+                         "#define HAPTIC_{0}_SAMPLE_RATE {1}\n#define HAPTIC_{0}_LENGTH {2}\n\n"
+                         "static const int8_t haptic_{3}[HAPTIC_{0}_LENGTH] = {{{4}\n}};\n\n#endif\n",
+                         upperCase(name), drive->sampleRate, samples.size(), name,
+                         numbersInLines(samples, 20, [](float x) { return fmt::format("{}", stepsOf(x, 8)); }))});
+    result.losses = std::move(drive.value().losses).sorted();
+    return result;
+}
+
+const ForeignFormat& wav8Format()
+{
+    static constexpr ForeignFormat format{"wav8", "Drive signal, WAV, 8 bit", ".wav", nullptr, nullptr, writeWav8};
+    return format;
+}
+
+const ForeignFormat& wav16Format()
+{
+    static constexpr ForeignFormat format{"wav16", "Drive signal, WAV, 16 bit", ".wav", nullptr, nullptr, writeWav16};
+    return format;
+}
+
+const ForeignFormat& raw8Format()
+{
+    static constexpr ForeignFormat format{"raw8",   "Drive signal, signed 8-bit samples", ".s8", nullptr, nullptr,
+                                          writeRaw8};
+    return format;
+}
+
+const ForeignFormat& raw16Format()
+{
+    static constexpr ForeignFormat format{"raw16",   "Drive signal, signed 16-bit samples", ".s16", nullptr, nullptr,
+                                          writeRaw16};
+    return format;
+}
+
+const ForeignFormat& cArrayFormat()
+{
+    static constexpr ForeignFormat format{"c",        "Drive signal, C array for firmware", ".h", nullptr, nullptr,
+                                          writeCArray};
+    return format;
+}
+
+} // namespace pacini
