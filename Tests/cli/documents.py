@@ -4,7 +4,7 @@ from pathlib import Path
 
 from command import SOURCE
 
-STARTS = re.compile(r"(?:.* \| )?pacini |(?:bash|cmake|ctest|python3) |build/|Tests/\S+\.py\b")
+STARTS = re.compile(r"(?:.* \| )?pacini |(?:bash|cmake|ctest|python3) |build/|Tests/\S+\.py\s")
 
 
 class Printed:
@@ -69,11 +69,24 @@ class Document:
         found = [[line for line in block if STARTS.match(line.text)] for block in self.blocks]
         return [block for block in found if block]
 
+    def links(self):
+        """What the document points to, without what lies elsewhere."""
+        return [link for link in re.findall(r"\]\(([^)\s]+)\)", self.text) if "://" not in link]
+
+    def anchors(self):
+        """The names of its headings, as Markdown pages have them."""
+        headings = re.findall(r"(?m)^#+ (.*)$", self.text)
+        return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in headings}
+
     def inline_commands(self):
         return [span for span in self.spans if STARTS.match(span.text)]
 
 
+PAGES = "Resources/docs/"
+
+
 def documents():
-    """The README first."""
-    others = sorted([*Path(SOURCE, "Resources/docs").glob("*.md"), *Path(SOURCE, "Resources/help").glob("*.md")])
+    """The README first, then the others at the top, the pages that the README links, and the editor's manual."""
+    others = [SOURCE / "ARCHITECTURE.md", SOURCE / "CONTRIBUTING.md", *sorted(Path(SOURCE, PAGES).glob("*.md")),
+              *sorted(Path(SOURCE, "Resources/help").glob("*.md"))]
     return [Document("README.md"), *(Document(str(path.relative_to(SOURCE))) for path in others)]

@@ -1,5 +1,5 @@
 """End to end: every command that the README and the documents print, read from there and run in a fresh folder on
-sounds that do not come with Pacini; every option and default that they name; every file that they point to.
+sounds that do not come with Pacini; every option and default that they name; every file and heading that they link.
 
 A command that is neither run here nor on one of the short lists below fails, and so does an entry of a list that no
 document prints any more.
@@ -12,11 +12,15 @@ import re
 import resource
 import shutil
 import subprocess
+import sys
 import unittest
 
 from command import COMMAND, LARGEST, SANITIZED, SOURCE, CommandTest, wav
-from documents import documents
+from documents import PAGES, Document, documents
 from test_profiles import ACF
+
+sys.path.append(str(SOURCE / "Tests/support"))
+import check_includes
 
 RATE = 44100
 
@@ -26,7 +30,9 @@ ELSEWHERE = {
     "bash cmake/bootstrap.sh test": (".ci/run", "cmake/bootstrap.sh test"),
     "bash cmake/bootstrap.sh plugin": ("cmake/bootstrap.sh", "plugin)"),
     "cmake --workflow --preset test": ("CMakePresets.json", '"name": "test"'),
+    "bash cmake/bootstrap.sh deps": ("cmake/bootstrap.sh", "deps)"),
     "cmake --preset debug": ("CMakePresets.json", '"name": "debug"'),
+    "cmake --preset debug -DPACINI_TEST_ROOMS=io": ("Tests/CMakeLists.txt", "set(PACINI_TEST_ROOMS"),
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
     "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS \"hosts;slow\""),
@@ -47,6 +53,7 @@ COMPLETED = {
     "pacini completions bash": "pacini completions bash -q",
     "pacini devices": "pacini devices --help",
     "pacini play door.json": "pacini play door.json --dry-run --like switch",
+    "pacini man": "pacini man -q",
     "pacini plot PROFILE": "pacini plot lra-175 -o lra.png",
     "pacini lint CLIP --target NAME": "pacini lint door.json --target hjif",
     "pacini encode --format NAME": "pacini encode rain.wav -o rain.ahap --format ahap",
@@ -72,8 +79,8 @@ WITHOUT_HARDWARE = {
 # Exit codes other than 0, with the words of the comment that say so.
 FAILING = {"pacini lint clips/ --target haptic --max-error 0.1": (1, "exits with 1 when a clip loses more")}
 
-# What a reader of the document has made before, by commands of the README.
-BEFORE = {"Resources/docs/formats.md": ["pacini encode door.wav", "pacini convert door.json door.pacb",
+# What a reader of the document has made before, by commands of the others.
+BEFORE = {PAGES + "formats.md": ["pacini encode door.wav", "pacini convert door.json door.pacb",
                                         "pacini encode sounds/ -o clips/ --format packed -j 8"]}
 
 
@@ -118,7 +125,7 @@ class Documents(CommandTest):
         self.put("quest.acf", ACF)
         shutil.copytree(SOURCE / "Resources/demo", self.folder / "Resources/demo")
         self.put("corpus/gate.wav", wav(hits(0.1, 0.4, seconds=0.8, seed=5), RATE))
-        for block in self.readme.blocks:
+        for block in [block for document in self.documents for block in document.blocks]:
             text = "\n".join(line.text for line in block)
             if '"pacini.scene"' in text:
                 self.put("hall.scene.json", text)
@@ -245,7 +252,8 @@ class Documents(CommandTest):
                     self.assertIn(name, names[kind], text)
                 found += 1
         self.assertGreater(found, 4)
-        for name in re.search(r"`cmake --preset debug`((?:, `\w+`)+)", self.readme.text).group(1).split(", ")[1:]:
+        text = "\n".join(document.text for document in self.documents)
+        for name in re.search(r"`cmake --preset debug`((?:, `\w+`)+)", text).group(1).split(", ")[1:]:
             self.assertIn(name.strip("`"), names["configure"])
 
     def test_every_file_that_is_named_exists(self):
@@ -255,22 +263,58 @@ class Documents(CommandTest):
             for span in document.spans:
                 paths += re.findall(r"(?<![\w/~.-])(?:Core|Source|Tests|Resources|profiles|cmake)/[\w./-]*\w", span.text)
             for path in paths:
-                places = (SOURCE / path, SOURCE / document.name / ".." / path)
+                places = (SOURCE / path, (SOURCE / document.name).parent / path)
                 self.assertTrue(any(place.exists() for place in places), f"{document.name}: {path}")
                 found += 1
         self.assertGreater(found, 40)
+
+    def test_links_lead_somewhere(self):
+        """From the place of the document that has them, to a heading too."""
+        documents = {document.name: document for document in [*self.documents, Document("CHANGELOG.md")]}
+        found = 0
+        for document in documents.values():
+            for link in document.links():
+                path, _, heading = link.partition("#")
+                target = (SOURCE / document.name).parent / path if path else SOURCE / document.name
+                self.assertTrue(target.exists(), f"{document.name}: {link}")
+                if heading:
+                    name = os.path.relpath(target, SOURCE)
+                    self.assertIn(heading, documents[name].anchors(), f"{document.name}: {link}")
+                found += 1
+        self.assertGreater(found, 40)
+
+    def test_the_modules_of_the_architecture_are_those_of_the_include_check(self):
+        [page] = [document for document in self.documents if document.name == "ARCHITECTURE.md"]
+        rows = {cells[0].strip("`"): cells[-1] for heading, cells in page.rows if heading.startswith("Modules")}
+        rooms = {name: (others, set(), False) for name, others in check_includes.CORE.items()}
+        rooms.update(check_includes.SOURCE)
+        self.assertEqual(set(rows) - {"module"}, set(rooms))
+        for name, (core, rooms_of_source, juce) in rooms.items():
+            words = rows[name].split(", ")
+            said = set(check_includes.CORE) if "all of Core" in words else set()
+            said.update(word.strip("`") for word in words if word.startswith("`"))
+            self.assertEqual(said - {name}, (core | rooms_of_source) - {name}, name)
+            self.assertEqual("JUCE" in words, juce, name)
+
+    def test_the_readme_is_short_and_links_every_page(self):
+        self.assertLessEqual(len(self.readme.text.splitlines()), 150)
+        linked = set(self.readme.links())
+        for document in self.documents[1:]:
+            if not document.name.startswith("Resources/help/"):
+                self.assertIn(document.name, linked)
 
 
 class Options(CommandTest):
     """Options and their defaults, as the help of the command has them."""
 
-    # Of the programs with a window, which are not built everywhere: the file that declares them.
-    OTHER_PROGRAMS = {"Plugin": "Source/app/Settings.cpp"}
-    SECTIONS = {"What encode does": ["encode"], "Scenes": ["render"], "What a profile does": ["render"],
-                "What is felt": ["render"], "On the desk": ["play"],
-                "Measure an actuator and make it flat": ["measure sweep", "measure analyse", "measure fit",
-                                                         "measure verify", "measure simulate"]}
-    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow"}
+    # Of the programs with a window, which are not built everywhere: the page, and the file that declares its options.
+    OTHER_PROGRAMS = {PAGES + "plugin.md": "Source/app/Settings.cpp"}
+    # The commands whose options a page describes without naming the command, with their defaults.
+    COMMANDS = {PAGES + "getting-started.md": ["encode"], PAGES + "scenes.md": ["render"], PAGES + "profiles.md": ["render"],
+                PAGES + "devices.md": ["play"],
+                PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
+                                         "measure simulate"]}
+    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make"}
 
     def help_of(self, command):
         """Option to default; empty without one."""
@@ -286,7 +330,7 @@ class Options(CommandTest):
 
     def setUp(self):
         super().setUp()
-        self.readme = documents()[0]
+        self.documents = documents()
         top = self.succeeds("--help")
         commands = re.findall(r"(?m)^  ([a-z]+) {2,}", top[top.index("Commands:"):top.index("Options")])
         self.assertGreater(len(commands), 10)
@@ -298,7 +342,7 @@ class Options(CommandTest):
 
     def test_every_option_that_is_named_exists(self):
         found = 0
-        for document in documents():
+        for document in self.documents:
             printed = [*document.spans, *(line for block in document.blocks for line in block)]
             for one in printed:
                 for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", one.command):
@@ -306,18 +350,18 @@ class Options(CommandTest):
                         continue
                     found += 1
                     command = re.match(r"pacini ((?:measure )?[a-z]+)", one.command)
-                    if one.heading in self.OTHER_PROGRAMS and not command:
+                    if document.name in self.OTHER_PROGRAMS and not command:
                         if option != "--help":
-                            self.assertIn(f'"{option}"', (SOURCE / self.OTHER_PROGRAMS[one.heading]).read_text(), one)
+                            self.assertIn(f'"{option}"', (SOURCE / self.OTHER_PROGRAMS[document.name]).read_text(), one)
                     elif command and command.group(1) in self.helps:
                         self.assertIn(option, self.helps[command.group(1)], one)
                     else:
                         self.assertIn(option, self.all, one)
         self.assertGreater(found, 50)
 
-    def default_is(self, heading, option, stated):
-        texts = [self.helps[command][option] for command in self.SECTIONS[heading] if option in self.helps[command]]
-        self.assertTrue(texts, f"{heading}: {option}")
+    def default_is(self, page, option, stated):
+        texts = [self.helps[command][option] for command in self.COMMANDS[page] if option in self.helps[command]]
+        self.assertTrue(texts, f"{page}: {option}")
         if stated == "off":
             self.assertIn(texts[0], ("", "off"), option)
         elif re.fullmatch(r"-?[\d.]+", stated):
@@ -326,61 +370,65 @@ class Options(CommandTest):
             self.assertEqual(texts[0], stated.strip("`"), option)
 
     def test_defaults_of_the_tables_are_those_of_the_help(self):
-        rows = [(heading, cells) for heading, cells in self.readme.rows
-                if cells[0].startswith("`--") and heading in self.SECTIONS]
+        rows = [(document.name, cells) for document in self.documents for _, cells in document.rows
+                if cells[0].startswith("`--")]
         self.assertGreater(len(rows), 5)
-        for heading, cells in rows:
+        for page, cells in rows:
             names = re.findall(r"`(--[\w-]+)`", cells[0])
             defaults = cells[-1].split(", ")
             self.assertEqual(len(names), len(defaults), cells)
             for name, stated in zip(names, defaults):
-                self.default_is(heading, name, stated)
+                self.default_is(page, name, stated)
 
     def test_numbers_behind_an_option_are_its_default(self):
         """`--max-boost` (6 dB), `--quantise` bits (6: ...)"""
         found = 0
-        text = self.readme.text
-        for match in re.finditer(r"`(--[\w-]+)`(?:\s\w+)?\s\((-?[\d.]+)\b", text):
-            heading = re.findall(r"(?m)^#+ (.*)$", text[:match.start()])[-1]
-            if heading in self.SECTIONS:
-                self.default_is(heading, match.group(1), match.group(2))
+        for document in [document for document in self.documents if document.name in self.COMMANDS]:
+            for match in re.finditer(r"`(--[\w-]+)`(?:\s\w+)?\s\((-?[\d.]+)\b", document.text):
+                self.default_is(document.name, match.group(1), match.group(2))
                 found += 1
-        self.assertGreaterEqual(found, 3)
+        self.assertGreaterEqual(found, 4)
 
 
 class Claims(CommandTest):
-    """Numbers that the README states, each with the sentence that it stands in. Sizes, speed and strength are compared
-    by Tests/benchmarks/check_claims.py."""
+    """Numbers that the README and the pages state, each with the sentence that it stands in. Sizes, speed and strength
+    are compared by Tests/benchmarks/check_claims.py."""
 
     NUMBERS = {"seven": 7, "twelve": 12, "five": 5}
 
     def setUp(self):
         super().setUp()
-        self.text = " ".join(documents()[0].text.split())
+        self.documents = documents()
+        self.text = " ".join(" ".join(document.text.split()) for document in self.documents)
 
-    def stated(self, pattern):
-        """The number in a sentence that must be there; as a number if it is a word."""
-        found = re.search(pattern, self.text)
-        self.assertIsNotNone(found, f"the README does not say /{pattern}/ any more: change this test with it")
-        return self.NUMBERS.get(found.group(1)) or float(found.group(1))
+    def stated(self, *patterns):
+        """The number in sentences that must be there, the same in all of them; as a number if it is a word."""
+        numbers = set()
+        for pattern in patterns:
+            found = re.findall(pattern, self.text)
+            self.assertTrue(found, f"no document says /{pattern}/ any more: change this test with it")
+            numbers.update(self.NUMBERS.get(number.lower()) or float(number) for number in found)
+        self.assertEqual(len(numbers), 1, f"{patterns}: {numbers}")
+        return numbers.pop()
 
     def test_profiles_and_methods_are_as_many_as_it_says(self):
-        profiles = self.stated(r"`profiles/` has (\w+):")
+        profiles = self.stated(r"`profiles/` has (\w+):", r"(\w+) profiles come with Pacini")
         self.assertEqual(len(list((SOURCE / "profiles").glob("*.json"))), profiles)
         for path in (SOURCE / "profiles").glob("*.json"):
             self.assertIn(path.stem, self.succeeds("profiles"))
             self.assertTrue(json.loads(path.read_text())["sources"], path.name)
-        methods = self.stated(r"or one of (\w+) methods to compare with")
+        methods = self.stated(r"or one of (\w+) methods to compare with", r"(\w+) other translation methods")
         listed = [line for line in self.succeeds("encode", "--list-methods").splitlines() if not line.startswith(" ")]
         self.assertEqual(len(listed), methods + 1)
 
     def test_a_measurement_takes_as_many_commands_as_it_says(self):
-        steps = self.stated(r"an interface that records it, and (\w+) commands")
-        block = [block for block in documents()[0].commands() if "measure verify" in block[-1].command]
+        steps = self.stated(r"an interface that records it, and (\w+) commands", r"\[(\w+) commands\]")
+        block = [block for document in self.documents for block in document.commands()
+                 if "measure verify" in block[-1].command]
         self.assertEqual([len(commands) for commands in block], [steps])
 
     def test_a_scene_has_as_many_actuators_as_it_says(self):
-        most = int(self.stated(r"pan over up to (\d+) actuators"))
+        most = int(self.stated(r"pan over up to (\d+) actuators", r"on up to (\d+) actuators"))
         self.clip("a.json", 0.1)
         for count in (most, most + 1):
             scene = {"format": "pacini.scene", "version": 1, "duration": 0.1, "actuators": count,

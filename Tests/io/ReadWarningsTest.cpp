@@ -72,12 +72,12 @@ std::string textOf(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The keys that a line of the README's table of a scene lists, without the values in brackets.
-std::set<std::string> keysInReadme(const std::string& readme, const std::string& lineStart)
+/// The keys that a line of the documents' table of a scene lists, without the values in brackets.
+std::set<std::string> keysInTable(const std::string& page, const std::string& lineStart)
 {
-    const auto begin = readme.find("| " + lineStart);
+    const auto begin = page.find("| " + lineStart);
     REQUIRE(begin != std::string::npos);
-    std::string line = readme.substr(begin, readme.find('\n', begin) - begin);
+    std::string line = page.substr(begin, page.find('\n', begin) - begin);
     line = line.substr(line.find('|', 2)); // the second column
     line = std::regex_replace(line, std::regex(R"(\([^)]*\))"), "");
     std::set<std::string> keys;
@@ -253,15 +253,15 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
     CHECK(readClipOrScene(folder / "tap.ahap")->format == "ahap");
 }
 
-TEST_CASE("The README lists every key of a scene, as the schema and the reader know them", "[io][keys]")
+TEST_CASE("The page about scenes lists every key, as the schema and the reader know them", "[io][keys]")
 {
-    const std::string readme = textOf(sourceFolder() / "README.md");
+    const std::string page = textOf(sourceFolder() / "Resources/docs/scenes.md");
     const auto schema = nlohmann::json::parse(textOf(sourceFolder() / "Resources/schema/pacini.scene.schema.json"));
-    CHECK(keysInReadme(readme, "the scene |") == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInReadme(readme, "an entry of `clips`") == namesOf(sceneJson::clipMembers));
-    CHECK(keysInReadme(readme, "a play |") == namesOf(sceneJson::playMembers));
-    CHECK(keysInReadme(readme, "a `variation`") == namesOf(sceneJson::variationMembers));
-    CHECK(keysInReadme(readme, "a change |") == namesOf(sceneJson::changeMembers));
+    CHECK(keysInTable(page, "the scene |") == namesOf(sceneJson::sceneMembers));
+    CHECK(keysInTable(page, "an entry of `clips`") == namesOf(sceneJson::clipMembers));
+    CHECK(keysInTable(page, "a play |") == namesOf(sceneJson::playMembers));
+    CHECK(keysInTable(page, "a `variation`") == namesOf(sceneJson::variationMembers));
+    CHECK(keysInTable(page, "a change |") == namesOf(sceneJson::changeMembers));
     CHECK(keysInSchema(schema) == namesOf(sceneJson::sceneMembers));
     CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf(sceneJson::playMembers));
     CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf(sceneJson::variationMembers));

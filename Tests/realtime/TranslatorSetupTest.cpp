@@ -186,7 +186,7 @@ TEST_CASE("another actuator comes without a click, and the latency stays", "[rea
     params.transients.muted = true;
     translator.setParams(params);
     const auto latency = translator.latencyFrames();
-    CHECK(1e3 * static_cast<double>(latency) / fs == Approx(1.3).margin(0.05)); // ms, as the README says
+    CHECK(1e3 * static_cast<double>(latency) / fs == Approx(1.3).margin(0.05)); // ms, as the pages say
     const auto in = sine(96000, 170.0, fs, 0.4);
     std::vector<float> out(in.size());
     TranslatorSetup lra;

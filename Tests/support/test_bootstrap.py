@@ -9,7 +9,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BOOTSTRAP = ROOT / "cmake" / "bootstrap.sh"
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+DOCUMENTS = "\n".join(path.read_text(encoding="utf-8") for path in
+                      [*ROOT.glob("*.md"), *(ROOT / "Resources/docs").glob("*.md")])
 
 
 class Bootstrap(unittest.TestCase):
@@ -89,11 +90,11 @@ class Bootstrap(unittest.TestCase):
         [build] = [call for call in calls if "--build" in call]
         self.assertTrue(build.endswith("--target pacini pacini_plugin_All pacini_editor_app"), build)
 
-    def test_all_its_commands_are_those_of_its_help_and_the_readme(self):
+    def test_all_its_commands_are_those_of_its_help_and_the_documents(self):
         shown = subprocess.run(["bash", BOOTSTRAP, "help"], capture_output=True, text=True, check=True).stdout
         commands = set(re.findall(r"bootstrap\.sh (\w+)", shown))
         self.assertEqual(commands, {"demo", "test", "build", "plugin", "deps"})
-        self.assertLessEqual(set(re.findall(r"bootstrap\.sh (\w+)", README)), commands)
+        self.assertLessEqual(set(re.findall(r"bootstrap\.sh (\w+)", DOCUMENTS)), commands)
         for command in commands:
             self.assertRegex(BOOTSTRAP.read_text(), rf"(?m)^{command}\)$")
 
@@ -104,7 +105,7 @@ class Warnings(unittest.TestCase):
         strict = [preset["name"] for preset in presets if "PACINI_WARNINGS_AS_ERRORS" in preset["cacheVariables"]]
         self.assertEqual(strict, ["ci"])
         self.assertFalse([preset["name"] for preset in presets if "ci" in preset.get("inherits", [])])
-        for script in (BOOTSTRAP.read_text(), README):
+        for script in (BOOTSTRAP.read_text(), DOCUMENTS):
             self.assertNotRegex(script, r"Werror|WARNINGS_AS_ERRORS|preset ci\b")
 
 
