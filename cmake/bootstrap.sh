@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # From a bare machine to a running Pacini. Safe to repeat: installs only what is missing, builds only what changed.
 #
-#   bash cmake/bootstrap.sh demo    install, build, encode and render the demo sounds, print the report
-#   bash cmake/bootstrap.sh test    install, build all of it, run the tests; with CI=true a skipped test is an error
-#   bash cmake/bootstrap.sh build   install and build the command: build/release/bin/pacini
-#   bash cmake/bootstrap.sh plugin  install and build all that people run: the command, the plugin (VST3, LV2), its
-#                                   standalone program and PaciniEditor: build/release/bin, build/release/plugins
-#   bash cmake/bootstrap.sh deps    only install what building and testing need
+#   bash cmake/bootstrap.sh demo     install, build, encode and render the demo sounds, print the report
+#   bash cmake/bootstrap.sh test     install, build all of it, run the tests; with CI=true a skipped test is an error
+#   bash cmake/bootstrap.sh build    install and build the command: build/release/bin/pacini
+#   bash cmake/bootstrap.sh plugin   install and build all that people run: the command, the plugin (VST3, LV2), its
+#                                    standalone program and PaciniEditor: build/release/bin, build/release/plugins
+#   bash cmake/bootstrap.sh package  install, build the same and make a Debian package of it: build/package/pacini_*.deb
+#   bash cmake/bootstrap.sh deps     only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,9p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,10p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
@@ -17,8 +18,11 @@ build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfm
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)
 host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
     umockdev gir1.2-umockdev-1.0 python3-gi)
+# The Debian package, and the bare root that it is tried in.
+package_packages=(dpkg-dev file)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
-test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish "${plugin_packages[@]}" "${host_packages[@]}")
+test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
+    "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}")
 
 say() { printf '\n== %s\n' "$*"; }
 usage() { printf '%s\n' "$help"; }
@@ -119,6 +123,15 @@ build_command() {
     build release pacini "${alone[@]}"
 }
 
+# All that people run, and further targets; what else this folder was configured for before stays so.
+build_programs() {
+    need_room 1500
+    say "Building"
+    local alone=(-DPACINI_BUILD_TESTS=OFF)
+    [ ! -e build/release/build.ninja ] || alone=()
+    build release "pacini pacini_plugin_All pacini_editor_app${*:+ $*}" "${alone[@]}" -DPACINI_BUILD_PLUGIN=ON
+}
+
 # Runs the tests of a preset and lists what was skipped; in CI that is a failure.
 run_tests() { # preset, arguments of ctest
     local results="$PWD/build/$1/tests.xml" code=0 skipped
@@ -167,12 +180,16 @@ demo)
     ;;
 plugin)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}"
-    need_room 1500
-    say "Building"
-    alone=(-DPACINI_BUILD_TESTS=OFF)
-    [ ! -e build/release/build.ninja ] || alone=()
-    build release "pacini pacini_plugin_All pacini_editor_app" "${alone[@]}" -DPACINI_BUILD_PLUGIN=ON
+    build_programs
     say "The command is in build/release/bin; VST3, LV2, the standalone program and PaciniEditor are in build/release/plugins"
+    ;;
+package)
+    install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}"
+    build_programs pacini_texts
+    say "Packing"
+    cpack -G DEB --config build/release/CPackConfig.cmake -B "$PWD/build/package" || fail "cannot make the package"
+    rm -rf build/package/_CPack_Packages
+    say "To install it, as root or with sudo: apt install ./build/package/$(ls -t build/package | head -n 1)"
     ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
@@ -195,7 +212,7 @@ sanitized-tests)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

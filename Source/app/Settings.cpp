@@ -9,8 +9,10 @@ namespace pacini::app
 
 std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray& arguments)
 {
+    // Installed it has another name than where it is built.
+    const auto name = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getFileNameWithoutExtension();
     CLI::App options("Pacini: live sound to touch. A window with the plugin, and its ways to the sound devices.",
-                     "Pacini");
+                     name.toStdString());
     std::string deviceType, file;
     int hapticOutput = -1, soundOutput = -1;
     options.add_flag("--fresh", wishes.fresh, "Remember nothing of earlier runs, and leave it as it is");

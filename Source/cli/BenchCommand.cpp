@@ -29,8 +29,9 @@ std::string demoFolder()
     fs::path folder = programFolder();
     for (;; folder = folder.parent_path())
     {
-        if (const fs::path demo = folder / "Resources" / "demo"; fs::is_directory(demo, error))
-            return demo.string();
+        for (const fs::path& demo : {folder / "Resources" / "demo", folder / "share" / "pacini" / "demo"})
+            if (fs::is_directory(demo, error))
+                return demo.string();
         if (folder == folder.parent_path())
             return {};
     }

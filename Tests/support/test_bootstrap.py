@@ -90,10 +90,20 @@ class Bootstrap(unittest.TestCase):
         [build] = [call for call in calls if "--build" in call]
         self.assertTrue(build.endswith("--target pacini pacini_plugin_All pacini_editor_app"), build)
 
+    def test_one_command_makes_the_package_of_it(self):
+        self.program("dpkg-query", "echo installed")
+        self.program("cpack", "exit 1")
+        done, calls = self.run_bootstrap("package")
+        [build] = [call for call in calls if "--build" in call]
+        self.assertTrue(build.endswith("pacini pacini_plugin_All pacini_editor_app pacini_texts"), build)
+        self.assertRegex(calls[-1], r"^cpack -G DEB --config build/release/CPackConfig.cmake -B \S+/build/package$")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bootstrap: cannot make the package", done.stderr)
+
     def test_all_its_commands_are_those_of_its_help_and_the_documents(self):
         shown = subprocess.run(["bash", BOOTSTRAP, "help"], capture_output=True, text=True, check=True).stdout
         commands = set(re.findall(r"bootstrap\.sh (\w+)", shown))
-        self.assertEqual(commands, {"demo", "test", "build", "plugin", "deps"})
+        self.assertEqual(commands, {"demo", "test", "build", "plugin", "package", "deps"})
         self.assertLessEqual(set(re.findall(r"bootstrap\.sh (\w+)", DOCUMENTS)), commands)
         for command in commands:
             self.assertRegex(BOOTSTRAP.read_text(), rf"(?m)^{command}\)$")
