@@ -17,10 +17,15 @@ from pathlib import Path
 
 SOURCE, BUILD, PACINI = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 sys.path.insert(0, str(SOURCE / "Tests/hosts"))
-from host_test import Processes, check, failures, needs, skip, until  # noqa: E402
+from host_test import Processes, check, failures, needs, until  # noqa: E402
 
 PROGRAMS = ("pacini", "PaciniEditor", "PaciniStandalone")
 SOUND = "demo/knock_wood_bridge.flac"
+
+
+def skip(why):
+    print("SKIPPED:", why)
+    sys.exit(77)
 
 
 def run(*command, **options):
