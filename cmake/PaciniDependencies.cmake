@@ -1,11 +1,6 @@
 # Third-party libraries. Debian and Ubuntu packages, Homebrew or vcpkg all provide them; cmake/bootstrap.sh installs
 # them on Debian and Ubuntu.
 
-# kissfft: only its C++ header is used.
-find_path(PACINI_KISSFFT_INCLUDE_DIR kissfft.hh PATH_SUFFIXES kissfft REQUIRED)
-add_library(pacini_kissfft INTERFACE)
-target_include_directories(pacini_kissfft SYSTEM INTERFACE "${PACINI_KISSFFT_INCLUDE_DIR}")
-
 # Eigen: small dense matrices. Its imported target marks its headers as those of a system.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 

@@ -89,7 +89,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION sound)
 set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "https://pacini.example")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libkissfft-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev")
 if(PACINI_DESKTOP_PROGRAMS)
     # What JUCE opens at run time, which dpkg-shlibdeps cannot see.
     set(CPACK_DEBIAN_PACKAGE_DEPENDS "libx11-6, libxcursor1, libxext6, libxinerama1, libxrandr2, libxss1")

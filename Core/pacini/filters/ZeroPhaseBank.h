@@ -8,10 +8,10 @@
 #include <pacini/filters/StateVariable.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fft.h>
+#include <pacini/foundation/SplitRealFft.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -143,20 +143,19 @@ inline BandSignals splitRaisedCosine(std::span<const float> signal, double fs, c
     // such signals are one segment.
     const std::size_t guard = raisedCosineGuard(layout, fs);
     const std::size_t hop = std::min(signal.size(), std::max<std::size_t>(std::size_t{1} << 20, 4 * guard));
-    const ComplexFft<double> fft(nextFastFftSize(hop + 2 * guard));
+    SplitFft<double> fft(nextFastFftSize(hop + 2 * guard));
     const std::size_t size = fft.size();
-    std::vector<std::complex<double>> time(size);
-    std::vector<std::complex<double>> spectrum(size);
-    std::vector<std::complex<double>> pair(size);
+    SplitArray<double> time(size), spectrum(size), pair(size);
 
     for (std::size_t start = 0; start < signal.size(); start += hop)
     {
         const std::size_t first = start > guard ? start - guard : 0;
         const std::size_t last = std::min(signal.size(), start + hop + guard);
-        std::fill(time.begin(), time.end(), 0.0);
+        std::fill(time.re.begin(), time.re.end(), 0.0);
+        std::fill(time.im.begin(), time.im.end(), 0.0);
         for (std::size_t i = first; i < last; ++i)
-            time[i + guard - start] = finiteOrZero(signal[i]);
-        fft.forward(time, spectrum);
+            time.re[i + guard - start] = finiteOrZero(signal[i]);
+        fft.forward(time.re.data(), time.im.data(), spectrum.re.data(), spectrum.im.data());
 
         // Two real bands make one complex signal: half the inverse transforms.
         for (std::size_t k = 0; k < layout.bands(); k += 2)
@@ -165,20 +164,21 @@ inline BandSignals splitRaisedCosine(std::span<const float> signal, double fs, c
             for (std::size_t bin = 0; bin <= size / 2; ++bin)
             {
                 const Hertz f(static_cast<double>(bin) * fs / static_cast<double>(size));
-                const std::complex<double> weight{raisedCosineWeight(layout, k, f),
-                                                  two ? raisedCosineWeight(layout, k + 1, f) : 0.0};
-                pair[bin] = spectrum[bin] * weight;
-                if (bin > 0)
-                    pair[size - bin] = spectrum[size - bin] * weight;
+                const double weight = raisedCosineWeight(layout, k, f);
+                const double nextWeight = two ? raisedCosineWeight(layout, k + 1, f) : 0.0;
+                for (const std::size_t i : {bin, (size - bin) % size})
+                {
+                    pair.re[i] = spectrum.re[i] * weight - spectrum.im[i] * nextWeight;
+                    pair.im[i] = spectrum.re[i] * nextWeight + spectrum.im[i] * weight;
+                }
             }
-            fft.inverse(pair, time);
+            fft.inverse(pair.re.data(), pair.im.data(), time.re.data(), time.im.data());
             const double scale = 1.0 / static_cast<double>(size);
             for (std::size_t i = start; i < std::min(signal.size(), start + hop); ++i)
             {
-                const auto value = time[i + guard - start] * scale;
-                bands[k][i] = toSample(value.real());
+                bands[k][i] = toSample(time.re[i + guard - start] * scale);
                 if (two)
-                    bands[k + 1][i] = toSample(value.imag());
+                    bands[k + 1][i] = toSample(time.im[i + guard - start] * scale);
             }
         }
     }

@@ -1,13 +1,13 @@
 #pragma once
 
-// Fourier transforms of any size on kissfft. Plans allocate; transforms do not.
+// Fourier transforms of complex numbers that stand side by side (std::complex), on SplitFft.
 
-#include <kissfft.hh>
+#include <pacini/foundation/SplitRealFft.h>
 
+#include <cassert>
 #include <complex>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace pacini
 {
@@ -26,81 +26,76 @@ namespace pacini
     return best;
 }
 
-/// Complex transform of fixed size. Forward and inverse are both unscaled: inverse(forward(x)) = size * x.
-/// Not thread-safe for concurrent use of one object; [any] thread.
+/// Complex transform of a fixed size without prime factors above 5. Forward and inverse are both unscaled:
+/// inverse(forward(x)) = size * x. Only planning allocates; one object serves one thread at a time.
 template <typename Real>
 class ComplexFft
 {
 public:
-    explicit ComplexFft(std::size_t size) : n(size), forwardPlan(size, false), inversePlan(size, true) {}
+    explicit ComplexFft(std::size_t size) : plan(size), from(size), to(size) {}
 
-    [[nodiscard]] std::size_t size() const noexcept { return n; }
+    [[nodiscard]] std::size_t size() const noexcept { return plan.size(); }
 
-    /// out[k] = sum in[m] exp(-2 pi i k m / size); both spans have `size` elements and do not overlap.
-    void forward(std::span<const std::complex<Real>> in, std::span<std::complex<Real>> out) const
+    /// out[k] = sum in[m] exp(-2 pi i k m / size); both spans have `size` elements.
+    void forward(std::span<const std::complex<Real>> in, std::span<std::complex<Real>> out) noexcept
     {
-        forwardPlan.transform(in.data(), out.data());
+        split(in);
+        plan.forward(from.re.data(), from.im.data(), to.re.data(), to.im.data());
+        join(out);
     }
 
     /// out[m] = sum in[k] exp(+2 pi i k m / size), unscaled.
-    void inverse(std::span<const std::complex<Real>> in, std::span<std::complex<Real>> out) const
+    void inverse(std::span<const std::complex<Real>> in, std::span<std::complex<Real>> out) noexcept
     {
-        inversePlan.transform(in.data(), out.data());
+        split(in);
+        plan.inverse(from.re.data(), from.im.data(), to.re.data(), to.im.data());
+        join(out);
     }
 
 private:
-    std::size_t n;
-    kissfft<Real> forwardPlan;
-    kissfft<Real> inversePlan;
+    void split(std::span<const std::complex<Real>> in) noexcept
+    {
+        assert(in.size() == size());
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            from.re[i] = in[i].real();
+            from.im[i] = in[i].imag();
+        }
+    }
+    void join(std::span<std::complex<Real>> out) const noexcept
+    {
+        assert(out.size() == size());
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = {to.re[i], to.im[i]};
+    }
+
+    SplitFft<Real> plan;
+    SplitArray<Real> from;
+    SplitArray<Real> to;
 };
 
-/// Forward transform of real input of even size, by one complex transform of half the size.
+/// Forward transform of real input of even size without prime factors above 5.
 template <typename Real>
 class RealFft
 {
 public:
-    /// `size` must be even and at least 2.
-    explicit RealFft(std::size_t size)
-        : n(size), half(size / 2), plan(size / 2, false), packed(size / 2), twiddles(size / 2)
-    {
-        const double step = -2.0 * 3.14159265358979323846 / static_cast<double>(size);
-        for (std::size_t k = 0; k < half; ++k)
-        {
-            const double angle = step * static_cast<double>(k);
-            twiddles[k] = {static_cast<Real>(std::cos(angle)), static_cast<Real>(std::sin(angle))};
-        }
-    }
+    explicit RealFft(std::size_t size) : plan(size), spectrum(plan.bins()) {}
 
-    [[nodiscard]] std::size_t size() const noexcept { return n; }
-    [[nodiscard]] std::size_t bins() const noexcept { return half + 1; }
+    [[nodiscard]] std::size_t size() const noexcept { return plan.size(); }
+    [[nodiscard]] std::size_t bins() const noexcept { return plan.bins(); }
 
     /// out[k], k = 0..size/2, of `size` real samples.
-    void forward(std::span<const Real> in, std::span<std::complex<Real>> out)
+    void forward(std::span<const Real> in, std::span<std::complex<Real>> out) noexcept
     {
-        // Even samples as real parts, odd ones as imaginary parts; then split by symmetry.
-        const auto* pairs = reinterpret_cast<const std::complex<Real>*>(in.data());
-        plan.transform(pairs, packed.data());
-        out[0] = {packed[0].real() + packed[0].imag(), Real(0)};
-        out[half] = {packed[0].real() - packed[0].imag(), Real(0)};
-        for (std::size_t k = 1; k < half; ++k)
-        {
-            const auto a = packed[k];
-            const auto b = packed[half - k];
-            const Real evenRe = (a.real() + b.real()) * Real(0.5);
-            const Real evenIm = (a.imag() - b.imag()) * Real(0.5);
-            const Real oddRe = (a.imag() + b.imag()) * Real(0.5);
-            const Real oddIm = (b.real() - a.real()) * Real(0.5);
-            const auto w = twiddles[k];
-            out[k] = {evenRe + w.real() * oddRe - w.imag() * oddIm, evenIm + w.real() * oddIm + w.imag() * oddRe};
-        }
+        assert(in.size() == size() && out.size() == bins());
+        plan.forward(in.data(), spectrum.re.data(), spectrum.im.data());
+        for (std::size_t k = 0; k < out.size(); ++k)
+            out[k] = {spectrum.re[k], spectrum.im[k]};
     }
 
 private:
-    std::size_t n;
-    std::size_t half;
-    kissfft<Real> plan;
-    std::vector<std::complex<Real>> packed;
-    std::vector<std::complex<Real>> twiddles;
+    SplitRealFft<Real> plan;
+    SplitArray<Real> spectrum;
 };
 
 } // namespace pacini

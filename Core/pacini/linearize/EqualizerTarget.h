@@ -89,7 +89,7 @@ private:
 /// spectrum is a power.
 [[nodiscard]] inline std::vector<double> symmetricInverse(const std::vector<double>& spectrum)
 {
-    const ComplexFft<double> fft(spectrum.size());
+    ComplexFft<double> fft(spectrum.size());
     const std::vector<std::complex<double>> in(spectrum.begin(), spectrum.end());
     std::vector<std::complex<double>> out(spectrum.size());
     fft.inverse(in, out);
@@ -104,7 +104,7 @@ private:
 [[nodiscard]] inline std::vector<std::complex<double>> spectrumOf(const std::vector<double>& coefficients,
                                                                   std::size_t size)
 {
-    const ComplexFft<double> fft(size);
+    ComplexFft<double> fft(size);
     std::vector<std::complex<double>> in(size), out(size);
     std::copy(coefficients.begin(), coefficients.end(), in.begin());
     fft.forward(in, out);
@@ -140,7 +140,7 @@ private:
     std::vector<std::complex<double>> spectrum = spectrumOf(cepstrum, size);
     for (auto& value : spectrum)
         value = std::exp(value);
-    const ComplexFft<double> fft(size);
+    ComplexFft<double> fft(size);
     std::vector<std::complex<double>> response(size);
     fft.inverse(spectrum, response);
     std::vector<double> h;

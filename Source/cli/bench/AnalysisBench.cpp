@@ -60,7 +60,7 @@ Envelopes reference(std::span<const float> mono, double fs, std::size_t bandCoun
     forward.forward(padded, spectrum);
 
     const auto shorter = static_cast<std::size_t>(static_cast<double>(size) * std::min(1.0, 16000.0 / fs));
-    const ComplexFft<double> inverse(std::min(size, nextFastFftSize(shorter)));
+    ComplexFft<double> inverse(std::min(size, nextFastFftSize(shorter)));
     const double rate = fs * static_cast<double>(inverse.size()) / static_cast<double>(size);
     const double binWidth = fs / static_cast<double>(size);
     const double halfWindow = 0.010 * rate;
