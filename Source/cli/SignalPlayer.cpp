@@ -13,7 +13,7 @@ constexpr double buildAhead = 0.1; // s: decoders are made this early, so that n
 
 ScenePlayerParams withoutDecoders(ScenePlayerParams params)
 {
-    params.builtUntil = 0.0;
+    params.builtUntil = 0_s;
     return params;
 }
 
@@ -42,7 +42,7 @@ SignalPlayer::SignalPlayer(RenderPlan plan, ScenePlayerParams params, const std:
 
 const std::vector<DecodedPlay>& SignalPlayer::decodedPlays()
 {
-    player.build(std::numeric_limits<double>::infinity());
+    player.build(Seconds(std::numeric_limits<double>::infinity()));
     return player.decodedPlays();
 }
 
@@ -60,7 +60,7 @@ void SignalPlayer::process(std::span<const std::span<float>> out)
 void SignalPlayer::play(std::span<const std::span<float>> out)
 {
     position += static_cast<std::int64_t>(out.empty() ? 0 : out.front().size());
-    player.build(static_cast<double>(position) / fs + buildAhead);
+    player.build(Seconds(static_cast<double>(position) / fs + buildAhead));
     player.process(out);
     for (std::size_t a = 0; a < std::min(models.size(), out.size()); ++a)
     {

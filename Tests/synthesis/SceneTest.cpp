@@ -395,12 +395,12 @@ TEST_CASE("Ten thousand plays are played in bounded memory, a few decoders at a 
     }
     const auto plan = compilePlan(scene);
     REQUIRE(plan.ok());
-    ScenePlayer player(*plan, {.sampleRate = 8000.0, .builtUntil = 0.0});
+    ScenePlayer player(*plan, {.sampleRate = 8000.0, .builtUntil = 0_s});
     std::vector<float> block(80);
     double sum = 0.0;
     for (std::int64_t done = 0; done < player.totalFrames(); done += 80)
     {
-        player.build(static_cast<double>(done + 80) / 8000.0);
+        player.build(Seconds(static_cast<double>(done + 80) / 8000.0));
         const std::span<float> channel(block);
         player.process(std::span(&channel, 1));
         for (float v : block)

@@ -8,6 +8,7 @@
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/RenderPlan.h>
 
 #include <cstddef>

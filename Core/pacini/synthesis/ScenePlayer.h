@@ -5,6 +5,7 @@
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/ActuatorOutput.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/PlayVoice.h>
@@ -27,7 +28,7 @@ namespace pacini
 struct ScenePlayerParams
 {
     double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a scene at any other rate has no frames
-    double builtUntil = std::numeric_limits<double>::infinity(); ///< s: makes the decoders of plays that start before
+    Seconds builtUntil{std::numeric_limits<double>::infinity()}; ///< makes the decoders of plays that start before
     bool protect = true;      ///< keep within full drive and the limits of the profile
     Seconds lookAhead{0.001}; ///< of that, 0 to 1 ms; taken out of the output
 };
@@ -67,14 +68,15 @@ public:
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
     [[nodiscard]] std::size_t actuators() const noexcept { return plan.actuators; }
 
-    /// Makes the decoders of plays that start before `until` (s of the scene) and frees those that have ended. Not
+    /// Makes the decoders of plays that start before `until` (of the scene) and frees those that have ended. Not
     /// while process() runs. [worker]
-    void build(double until)
+    void build(Seconds until)
     {
         while (firstKept < voices.size() && voices[firstKept].ended() && !voices[firstKept].decoding())
             ++firstKept;
         // Plays are in order of start.
-        for (std::size_t i = firstKept; i < voices.size() && (voices[i].ended() || plan.plays[i].start < until); ++i)
+        for (std::size_t i = firstKept; i < voices.size() && (voices[i].ended() || plan.plays[i].start < until.value);
+             ++i)
             if (voices[i].ended())
                 voices[i].release();
             else if (!voices[i].decoding())

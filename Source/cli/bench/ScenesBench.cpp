@@ -70,14 +70,14 @@ Rendered rendered(const Scene& scene, const CompileParams& params)
     result.predictedError = plan->predictedError;
     ScenePlayerParams playing;
     playing.sampleRate = params.sampleRate;
-    playing.builtUntil = 0.0;
+    playing.builtUntil = 0_s;
     ScenePlayer player(std::move(*plan), playing);
     result.signal.resize(static_cast<std::size_t>(player.totalFrames()));
     for (std::size_t done = 0; done < result.signal.size();)
     {
         const auto part = std::span(result.signal).subspan(done, std::min(blockFrames, result.signal.size() - done));
         done += part.size();
-        player.build(static_cast<double>(done) / params.sampleRate);
+        player.build(Seconds(static_cast<double>(done) / params.sampleRate));
         player.process(std::span(&part, 1));
     }
     return result;
