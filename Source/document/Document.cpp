@@ -1,9 +1,14 @@
 #include "document/Document.h"
 
+#include "document/EditLayer.h"
+#include "document/EditsBetween.h"
 #include "document/ItemEdits.h"
+#include "document/OperationCheck.h"
 #include "document/ProjectJson.h"
 #include "io/AtomicFile.h"
 #include "io/InputFile.h"
+
+#include <pacini/clip/edits/TimeEdits.h>
 
 #include <algorithm>
 #include <system_error>
@@ -168,6 +173,285 @@ Result<std::size_t> Document::exportClip(int id, const fs::path& path, ClipForma
 {
     const auto item = clip(id);
     return item ? writeClip(path, *item->clip, format) : Result<std::size_t>(noSuchClip(id));
+}
+
+// Clips.
+
+int Document::nextClipId() const
+{
+    int id = 1;
+    for (const auto& item : content.clips)
+        id = std::max(id, item->id + 1);
+    return id;
+}
+
+Result<int> Document::addClip(std::string name, Clip clip)
+{
+    if (auto valid = validate(clip); !valid)
+        return valid.error();
+    ClipItem item;
+    item.id = nextClipId();
+    item.clip = item.analysis = std::make_shared<const Clip>(std::move(clip));
+    Project next = content;
+    const int id = item.id;
+    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return id;
+}
+
+Result<int> Document::addSound(std::string name, AudioReference sound, const EncoderParams& encoder, Clip analysis)
+{
+    if (auto valid = validate(analysis); !valid)
+        return valid.error();
+    if (auto valid = validate(encoder); !valid)
+        return valid.error();
+    Project next = content;
+    ClipItem item;
+    item.id = nextClipId();
+    item.source = placeSound(next, std::move(sound));
+    item.encoder = encoder;
+    item.clip = item.analysis = std::make_shared<const Clip>(std::move(analysis));
+    const int id = item.id;
+    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return id;
+}
+
+Result<void> Document::replaceItem(ClipItem item, std::string name)
+{
+    Project next = content;
+    for (auto& place : next.clips)
+        if (place->id == item.id)
+        {
+            place = std::make_shared<const ClipItem>(std::move(item));
+            commit(std::move(name), std::move(next));
+            return {};
+        }
+    return noSuchClip(item.id);
+}
+
+Result<int> Document::duplicateClip(int id, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.id = nextClipId();
+    const int added = item.id;
+    Project next = content;
+    const auto place = std::find(next.clips.begin(), next.clips.end(), old);
+    next.clips.insert(place + 1, std::make_shared<const ClipItem>(std::move(item)));
+    commit(std::move(name), std::move(next));
+    return added;
+}
+
+Result<void> Document::removeClip(int id, std::string name)
+{
+    if (!clip(id))
+        return noSuchClip(id);
+    Project next = content;
+    std::erase_if(next.clips, [&](const auto& item) { return item->id == id; });
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::moveClip(int id, std::size_t index, std::string name)
+{
+    const auto moved = clip(id);
+    if (!moved)
+        return noSuchClip(id);
+    Project next = content;
+    std::erase(next.clips, moved);
+    const std::size_t place = std::min(index, next.clips.size());
+    next.clips.insert(next.clips.begin() + static_cast<std::ptrdiff_t>(place), moved);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::placeClip(int id, std::size_t index, std::string group, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    Project next = content;
+    if (!group.empty() && std::find(next.groups.begin(), next.groups.end(), group) == next.groups.end())
+        next.groups.push_back(group);
+    auto moved = std::make_shared<ClipItem>(*old);
+    moved->group = std::move(group);
+    std::erase(next.clips, old);
+    const std::size_t place = std::min(index, next.clips.size());
+    next.clips.insert(next.clips.begin() + static_cast<std::ptrdiff_t>(place), std::move(moved));
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<int> Document::splitClipAt(int id, double time, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    const double at = clampTo(time, 0.0, old->clip->duration);
+    const auto part = [&](int itsId, TimeRange range) -> Result<std::shared_ptr<const ClipItem>>
+    {
+        ClipItem item = *old;
+        item.id = itsId;
+        EditOperation trim = TrimEdit{range};
+        auto trimmed = applyEdit(*old->clip, trim);
+        if (!trimmed)
+            return trimmed.error();
+        std::vector<Edit> edits;
+        edits.push_back(anchored(std::move(trim), *old->clip));
+        item.edits = withEdits(item.edits, std::move(edits));
+        item.clip = std::make_shared<const Clip>(std::move(trimmed).value());
+        return std::shared_ptr<const ClipItem>(std::make_shared<const ClipItem>(std::move(item)));
+    };
+    const int added = nextClipId();
+    const auto left = part(id, {0.0, at});
+    const auto right = part(added, {at, old->clip->duration});
+    if (!left || !right)
+        return left ? right.error() : left.error();
+    Project next = content;
+    const auto place = std::find(next.clips.begin(), next.clips.end(), old);
+    *place = *left;
+    next.clips.insert(place + 1, *right);
+    commit(std::move(name), std::move(next));
+    return added;
+}
+
+Result<void> Document::joinClip(int id, int other, std::string name)
+{
+    const auto first = clip(id);
+    const auto second = clip(other);
+    if (!first || !second || id == other)
+        return noSuchClip(first ? other : id);
+    EditOperation join = InsertEdit{first->clip->duration, second->clip};
+    auto joined = applyEdit(*first->clip, join);
+    if (!joined)
+        return joined.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(join), *first->clip));
+    ClipItem item = *first;
+    item.edits = withEdits(item.edits, std::move(edits));
+    item.clip = std::make_shared<const Clip>(std::move(joined).value());
+    Project next = content;
+    std::replace(next.clips.begin(), next.clips.end(), first,
+                 std::shared_ptr<const ClipItem>(std::make_shared<const ClipItem>(std::move(item))));
+    std::erase(next.clips, second);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::setGroup(int id, std::string group, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.group = std::move(group);
+    return replaceItem(std::move(item), std::move(name));
+}
+
+Result<void> Document::setNotes(int id, std::string notes, std::string name)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    ClipItem item = *old;
+    item.notes = std::move(notes);
+    return replaceItem(std::move(item), std::move(name));
+}
+
+// Hand edits.
+
+std::shared_ptr<const Clip> Document::gestureStart(int id, Gesture gesture) const
+{
+    const bool continues = gesture != 0 && gesture == openGesture;
+    const auto item = (continues ? beforeGesture : content).find(id);
+    return item ? item->clip : nullptr;
+}
+
+Result<void> Document::change(int id, std::string name, std::vector<Edit> edits, Clip edited, Gesture gesture)
+{
+    const bool continues = gesture != 0 && gesture == openGesture;
+    const Project& start = continues ? beforeGesture : content;
+    ClipItem item = *start.find(id);
+    item.edits = withEdits(item.edits, std::move(edits));
+    item.clip = std::make_shared<const Clip>(std::move(edited));
+    Project next = start;
+    for (auto& place : next.clips)
+        if (place->id == id)
+            place = std::make_shared<const ClipItem>(std::move(item));
+    commit(std::move(name), std::move(next), gesture);
+    return {};
+}
+
+Result<void> Document::edit(int id, std::string name, EditOperation operation, Gesture gesture)
+{
+    const auto start = gestureStart(id, gesture);
+    if (!start)
+        return noSuchClip(id);
+    if (auto wrong = checkOperation(operation))
+        return *wrong;
+    auto edited = applyEdit(*start, operation);
+    if (!edited)
+        return edited.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(operation), *start));
+    return change(id, std::move(name), std::move(edits), std::move(edited).value(), gesture);
+}
+
+Result<void> Document::setClip(int id, std::string name, Clip edited, Gesture gesture)
+{
+    const auto start = gestureStart(id, gesture);
+    if (!start)
+        return noSuchClip(id);
+    if (auto valid = validate(edited); !valid)
+        return valid.error();
+    std::vector<Edit> edits;
+    for (EditOperation& operation : editsBetween(*start, edited))
+        edits.push_back(anchored(std::move(operation), *start));
+    if (edits.empty() && (gesture == 0 || gesture != openGesture))
+        return {};
+    return change(id, std::move(name), std::move(edits), std::move(edited), gesture);
+}
+
+Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
+                                 std::optional<AudioReference> sound)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    if (auto valid = validate(analysis); !valid)
+        return valid.error();
+    if (auto valid = validate(encoder); !valid)
+        return valid.error();
+    Project next = content;
+    ClipItem item = *old;
+    item.encoder = encoder;
+    if (sound)
+        item.source = placeSound(next, std::move(*sound));
+    putReapplied(item, reapply(*old->analysis, analysis, listOf(old->edits)));
+    item.analysis = std::make_shared<const Clip>(std::move(analysis));
+    for (auto& place : next.clips)
+        if (place == old)
+            place = std::make_shared<const ClipItem>(std::move(item));
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::removeEdits(int id, std::string name, const std::vector<std::size_t>& edits)
+{
+    const auto old = clip(id);
+    if (!old)
+        return noSuchClip(id);
+    std::vector<Edit> kept;
+    const auto all = listOf(old->edits);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!std::binary_search(edits.begin(), edits.end(), i))
+            kept.push_back(all[i]);
+    ClipItem item = *old;
+    putReapplied(item, reapply(*old->analysis, *old->analysis, kept));
+    return replaceItem(std::move(item), std::move(name));
 }
 
 } // namespace pacini

@@ -29,6 +29,35 @@ juce::String share(std::span<const Loss> losses, Loss wanted, const char* name)
         return {};
     return tr(name) + " " + (percent < 1.0 ? juce::String("< 1") : juce::String(juce::roundToInt(percent))) + " %";
 }
+
+constexpr double roomBelowTouch = 12.0;  // dB
+constexpr std::size_t stepsPerPixel = 8; // are looked at, at most
+constexpr int shades = 8;
+
+juce::Colour lossColour(Loss loss, const Palette& p, bool dark)
+{
+    switch (loss)
+    {
+    case Loss::belowTouch:
+        return p.dim.interpolatedWith(p.well, 0.45f);
+    case Loss::outOfRange:
+        return p.warning;
+    case Loss::noVoice:
+        return juce::Colour(dark ? 0xff6f9be8 : 0xff3a66b8);
+    case Loss::dropped:
+    case Loss::limited:
+        return juce::Colour(dark ? 0xffec6a5e : 0xffb8322a);
+    case Loss::none:
+        break;
+    }
+    return p.well;
+}
+
+bool darkOf(const juce::Component& component)
+{
+    const auto* look = dynamic_cast<const Look*>(&component.getLookAndFeel());
+    return look == nullptr || look->isDark();
+}
 } // namespace
 
 ActuatorRow::ActuatorRow(const EditorModel& project, const Actuators& profiles, const ViewState& sight)
@@ -182,6 +211,231 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
 void ActuatorRow::mouseMove(const juce::MouseEvent& event)
 {
     setTooltip(textAt(event.position));
+}
+
+// Painting.
+
+void ActuatorRow::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.card);
+    if (g.getClipBounds().getX() < laneHeadWidth)
+        paintHead(g);
+    g.setColour(p.line);
+    g.fillRect(getLocalBounds().removeFromTop(1));
+    const auto plot = getLocalBounds().withTrimmedLeft(laneHeadWidth).withTrimmedTop(1);
+    const juce::Graphics::ScopedSaveState saved(g);
+    if (!g.reduceClipRegion(plot))
+        return;
+    g.setColour(p.well);
+    g.fillRect(plot);
+    if (!shown)
+    {
+        const bool chosen = actuators.profile() != nullptr;
+        g.setColour(failure.isNotEmpty() && chosen ? p.warning : p.dim);
+        g.setFont(smallFont());
+        g.drawFittedText(
+            !chosen ? tr("No actuator is chosen: pick one at the top right to see what it plays, and what is lost")
+            : failure.isNotEmpty() ? failure
+                                   : tr(toText("Rendering…")),
+            plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
+        return;
+    }
+    paintDrive(g, drivePlot().withTrimmedTop(1));
+    g.setColour(p.line);
+    g.fillRect(plot.getX(), driveHeight - 1, plot.getWidth(), 1);
+    paintLosses(g, lossPlot());
+}
+
+void ActuatorRow::paintHead(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    auto head = getLocalBounds().withWidth(laneHeadWidth);
+    g.setColour(p.accent);
+    g.fillRect(head.removeFromLeft(3));
+    head = head.withTrimmedLeft(grid).withTrimmedRight(4);
+    const auto profile = actuators.profile();
+    auto top = profile ? head.removeFromTop(driveHeight) : head;
+    const bool third = profile != nullptr;
+    top = top.withSizeKeepingCentre(top.getWidth(), third ? 50 : 19);
+    g.setColour(p.text);
+    g.setFont(usualFont());
+    g.drawFittedText(tr("Actuator"), top.removeFromTop(19), juce::Justification::centredLeft, 1);
+    if (!profile)
+        return;
+    g.setColour(p.dim);
+    g.setFont(smallFont());
+    g.drawFittedText(toText(profile->name), top.removeFromTop(15), juce::Justification::centredLeft, 1, 0.75f);
+    g.drawFittedText(waiting ? tr(toText("Rendering…")) : summary, top.removeFromTop(15),
+                     juce::Justification::centredLeft, 1, 0.75f);
+    // What the colours of the lower plot mean.
+    struct Item
+    {
+        Loss loss;
+        const char* name;
+    };
+    auto legend = head.withSizeKeepingCentre(head.getWidth(), 44);
+    const bool dark = darkOf(*this);
+    for (const Item& item : {Item{Loss::belowTouch, "not felt"}, Item{Loss::outOfRange, "out of range"},
+                             Item{Loss::noVoice, "no own voice"}})
+    {
+        auto line = legend.removeFromTop(14);
+        const auto swatch = [&](Loss loss)
+        {
+            g.setColour(lossColour(loss, p, dark));
+            g.fillRect(line.removeFromLeft(9).withSizeKeepingCentre(9, 9));
+            line.removeFromLeft(4);
+            g.setColour(p.dim);
+        };
+        auto second = line;
+        swatch(item.loss);
+        g.drawFittedText(tr(item.name), line.withWidth(72), juce::Justification::centredLeft, 1, 0.8f);
+        if (item.loss == Loss::belowTouch)
+        {
+            line = second.withTrimmedLeft(74);
+            swatch(Loss::dropped);
+            g.drawFittedText(tr("left out"), line, juce::Justification::centredLeft, 1, 0.8f);
+        }
+    }
+}
+
+void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
+{
+    const Palette& p = paletteFor(*this);
+    const bool dark = darkOf(*this);
+    const auto visible = g.getClipBounds().getIntersection(plot);
+    if (visible.isEmpty())
+        return;
+    const double lowest = shown->touch - roomBelowTouch;
+    const auto yOf = [&](double decibels)
+    {
+        return plot.getY() + juce::roundToInt(plot.getHeight() * std::clamp(decibels / lowest, 0.0, 1.0));
+    };
+    const int touch = yOf(shown->touch);
+    g.setColour(p.dim.withAlpha(0.12f));
+    g.fillRect(plot.withTop(touch));
+    TimeAxis axis = viewState.axis();
+    axis.start = axis.timeAt(visible.getX() - plot.getX());
+    std::vector<Column> peaks(static_cast<std::size_t>(visible.getWidth())), taken(peaks.size());
+    shown->drive.columns(axis, peaks);
+    shown->reduction.columns(axis, taken);
+    const juce::Colour limited = lossColour(Loss::limited, p, dark);
+    const juce::Colour soft = lossColour(Loss::belowTouch, p, dark);
+    for (std::size_t i = 0; i < peaks.size(); ++i)
+    {
+        const int x = visible.getX() + static_cast<int>(i);
+        if (peaks[i].high > 0.0f)
+        {
+            const double level = 20.0 * std::log10(static_cast<double>(peaks[i].high));
+            const int y = yOf(level);
+            g.setColour(level < shown->touch ? soft : p.accent.withAlpha(0.45f));
+            g.fillRect(x, y, 1, plot.getBottom() - y);
+            g.setColour(level < shown->touch ? p.dim : p.accent);
+            g.fillRect(x, y, 1, 2);
+        }
+        if (taken[i].high > 0.1f)
+        {
+            // What protection takes hangs from the top, in the same dB.
+            g.setColour(limited);
+            g.fillRect(x, plot.getY(), 1, std::max(2, yOf(-static_cast<double>(taken[i].high)) - plot.getY()));
+        }
+    }
+    g.setColour(p.dim);
+    g.fillRect(visible.getX(), touch, visible.getWidth(), 1);
+    const auto text = tr("touch") + " " + juce::String(juce::roundToInt(shown->touch)) + " dB";
+    const juce::Rectangle<int> label(plot.getX() + 3, touch - 14, smallFont().getStringWidth(text) + 8, 13);
+    g.setColour(p.well.withAlpha(0.75f));
+    g.fillRect(label);
+    g.setColour(p.text);
+    g.setFont(smallFont());
+    g.drawText(text, label.withTrimmedLeft(3), juce::Justification::centredLeft, false);
+}
+
+void ActuatorRow::paintLosses(juce::Graphics& g, juce::Rectangle<int> plot)
+{
+    const auto clip = model.clip();
+    if (!clip || shown->sources.empty() || plot.isEmpty())
+        return;
+    const bool dark = darkOf(*this);
+    const TimeAxis& axis = viewState.axis();
+    const bool sized =
+        losses.isValid() && losses.getWidth() == plot.getWidth() && losses.getHeight() == plot.getHeight();
+    if (!sized || lossStale || axis != lossAxis || dark != lossDark)
+    {
+        const Palette& p = paletteFor(*this);
+        if (!sized)
+            losses = juce::Image(juce::Image::RGB, plot.getWidth(), plot.getHeight(), false, juce::SoftwareImageType());
+        lossAxis = axis;
+        lossDark = dark;
+        lossStale = false;
+        const auto pixel = [](juce::Colour colour)
+        {
+            juce::PixelRGB result;
+            result.setARGB(255, colour.getRed(), colour.getGreen(), colour.getBlue());
+            return result;
+        };
+        const juce::PixelRGB ground = pixel(p.well), gap = pixel(p.card);
+        std::array<juce::PixelRGB, 6> lost;
+        for (std::size_t i = 0; i < lost.size(); ++i)
+            lost[i] = pixel(lossColour(static_cast<Loss>(i), p, dark));
+        std::vector<std::size_t> rowOf(static_cast<std::size_t>(plot.getHeight()));
+        for (std::size_t y = 0; y < rowOf.size(); ++y)
+            rowOf[y] = sourceAt(static_cast<double>(y) + 0.5);
+        juce::Image::BitmapData pixels(losses, juce::Image::BitmapData::writeOnly);
+        std::vector<juce::PixelRGB> line(static_cast<std::size_t>(plot.getWidth()));
+        for (std::size_t y = 0; y < rowOf.size(); ++y)
+        {
+            if (y > 0 && rowOf[y] == rowOf[y - 1] && y + 1 < rowOf.size() && rowOf[y + 1] != rowOf[y])
+                std::fill(line.begin(), line.end(), gap);
+            else if (y == 0 || rowOf[y] != rowOf[y - 1])
+            {
+                const auto& source = shown->sources[rowOf[y]];
+                const juce::Colour colour = laneColour(*clip, source.lane, p, dark);
+                std::array<juce::PixelRGB, shades> played;
+                for (int k = 0; k < shades; ++k)
+                    played[static_cast<std::size_t>(k)] =
+                        pixel(p.well.interpolatedWith(colour, 0.2f + 0.8f * static_cast<float>(k) / (shades - 1)));
+                const auto steps = static_cast<double>(source.levels.size());
+                for (int x = 0; x < plot.getWidth(); ++x)
+                {
+                    const double from = axis.timeAt(x) / ActuatorTrace::step;
+                    const double to = std::max(from + 1.0, axis.timeAt(x + 1.0) / ActuatorTrace::step);
+                    auto& out = line[static_cast<std::size_t>(x)];
+                    out = ground;
+                    if (from < 0.0 || from >= steps)
+                        continue;
+                    const auto first = static_cast<std::size_t>(from);
+                    const auto last = static_cast<std::size_t>(std::min(to, steps));
+                    const std::size_t stride = std::max<std::size_t>(1, (last - first) / stepsPerPixel);
+                    std::array<int, 6> votes{};
+                    float most = ActuatorTrace::silent;
+                    int silent = 0;
+                    for (std::size_t i = first; i < last; i += stride)
+                    {
+                        const Loss loss = source.losses[i];
+                        if (loss == Loss::none && source.levels[i] <= ActuatorTrace::silent)
+                            ++silent;
+                        else
+                            ++votes[static_cast<std::size_t>(loss)];
+                        most = std::max(most, source.levels[i]);
+                    }
+                    const auto winner = std::max_element(votes.begin(), votes.end());
+                    if (*winner == 0 || *winner < silent)
+                        continue;
+                    if (winner != votes.begin())
+                        out = lost[static_cast<std::size_t>(winner - votes.begin())];
+                    else
+                    {
+                        const double part = std::clamp(1.0 - static_cast<double>(most) / shown->touch, 0.0, 1.0);
+                        out = played[static_cast<std::size_t>(std::lround(part * (shades - 1)))];
+                    }
+                }
+            }
+            std::copy(line.begin(), line.end(),
+                      reinterpret_cast<juce::PixelRGB*>(pixels.getLinePointer(static_cast<int>(y))));
+        }
+    }
+    g.drawImageAt(losses, plot.getX(), plot.getY());
 }
 
 } // namespace pacini::editor

@@ -19,6 +19,9 @@ namespace
 constexpr int edgeOfThings = 9;                                  // pixels to either side of what has changed
 constexpr double floorAmplitude = 0.001;                         // -60 dB
 constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
+
+constexpr juce::uint32 nudgePause = 700; // ms: presses nearer than this are one step of undo
+constexpr double spreadStep = 1.05;      // of differences of levels, a press
 } // namespace
 
 PlotLane::PlotLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing)
@@ -211,6 +214,250 @@ void PlotLane::say(const juce::String& text)
 std::unique_ptr<juce::AccessibilityHandler> PlotLane::createAccessibilityHandler()
 {
     return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::group);
+}
+
+void PlotLane::mouseMove(const juce::MouseEvent& event)
+{
+    const auto now = plotArea().contains(event.getPosition()) ? thingAt(event.position) : std::nullopt;
+    setMouseCursor(!plotArea().contains(event.getPosition()) ? juce::MouseCursor(juce::MouseCursor::NormalCursor)
+                   : now && !viewState.isDrawing()           ? juce::MouseCursor(juce::MouseCursor::PointingHandCursor)
+                                                             : cursorAt(event));
+    if (!plotArea().contains(event.getPosition()) || !model.clip())
+        setTooltip(getDescription());
+    else
+    {
+        const Breakpoint p = now ? place(*now) : placeAt(event.position);
+        setTooltip(juce::String(p.time, 3) + " s, " + valueText(p.value));
+    }
+    if (now == hovered)
+        return;
+    hovered = now;
+    repaint(plotArea());
+}
+
+void PlotLane::mouseExit(const juce::MouseEvent&)
+{
+    if (!hovered)
+        return;
+    hovered.reset();
+    repaint(plotArea());
+}
+
+void PlotLane::mouseDown(const juce::MouseEvent& event)
+{
+    drag = Drag::none;
+    grabKeyboardFocus();
+    if (!model.clip() || !plotArea().contains(event.getPosition()))
+        return;
+    if (!event.mods.isPopupMenu() && beginTool(event))
+    {
+        drag = Drag::tool;
+        return;
+    }
+    const auto thing = thingAt(event.position);
+    const bool more = event.mods.isShiftDown() || event.mods.isCommandDown();
+    if (!thing)
+    {
+        drag = Drag::marquee;
+        if (onMarquee)
+            onMarquee(*this, event, false);
+        return;
+    }
+    const Indices now = picked();
+    const bool already = std::binary_search(now.begin(), now.end(), *thing);
+    if (more)
+        clipSelection.select(pick(clipSelection.selected(), toggled(now, {*thing})));
+    else if (!already)
+        clipSelection.select(pick({}, {*thing}));
+    if (event.mods.isPopupMenu())
+        return;
+    drag = Drag::things;
+    gesture = model.beginGesture();
+    dragged = clipSelection.selected();
+    grabbed = place(*thing);
+}
+
+void PlotLane::mouseDrag(const juce::MouseEvent& event)
+{
+    if (drag == Drag::marquee && onMarquee)
+        onMarquee(*this, event, false);
+    if (drag == Drag::tool)
+        dragTool(event);
+    if (drag != Drag::things || !event.mouseWasDraggedSinceMouseDown() || pacini::isEmpty(dragged))
+        return;
+    const auto start = model.gestureStart(gesture);
+    if (!start)
+        return;
+    // What was grabbed keeps its distance to the pointer.
+    const auto begin = pointOf(grabbed);
+    auto offset = event.getOffsetFromDragStart().toFloat();
+    if (event.mods.isShiftDown())
+        (std::abs(offset.x) >= std::abs(offset.y) ? offset.y : offset.x) = 0.0f;
+    Breakpoint target = placeAt(begin + offset);
+    Snapping snapping;
+    snapping.clip = start.get();
+    snapping.moving = &dragged;
+    if (!event.mods.isAltDown())
+        target.time = snapTime(model, viewState, transport, target.time, snapping);
+    if (offset.y == 0.0f)
+        target.value = grabbed.value;
+    if (offset.x == 0.0f)
+        target.time = grabbed.time;
+    SelectionMove wanted = move(grabbed, target);
+    wanted.time = target.time - grabbed.time;
+    if (clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), gesture))
+        say(juce::String(target.time, 3) + " s, " + valueText(target.value));
+}
+
+void PlotLane::mouseUp(const juce::MouseEvent& event)
+{
+    if (drag == Drag::marquee && onMarquee)
+        onMarquee(*this, event, true);
+    if (drag == Drag::tool)
+        endTool();
+    drag = Drag::none;
+}
+
+void PlotLane::mouseDoubleClick(const juce::MouseEvent& event)
+{
+    const auto clip = model.clip();
+    if (!clip || viewState.isDrawing() || !plotArea().contains(event.getPosition()) || thingAt(event.position))
+        return;
+    clipSelection.setEdited("Add point", added(*clip, placeAt(event.position)));
+}
+
+// Keys.
+
+/// Presses that follow each other quickly are one gesture; false when nothing is picked.
+bool PlotLane::beginNudge(bool scaling)
+{
+    const Indices things = picked();
+    if (!model.clip() || things.empty())
+        return false;
+    const auto now = juce::Time::getMillisecondCounter();
+    if (nudging == 0 || scaling != nudgeScales || now - lastNudge > nudgePause || nudged != clipSelection.selected())
+    {
+        nudging = model.beginGesture();
+        dragged = clipSelection.selected();
+        grabbed = place(things.front());
+        nudgedPixels = nudgedSteps = 0.0;
+    }
+    nudgeScales = scaling;
+    lastNudge = now;
+    return true;
+}
+
+void PlotLane::scaleByKeys(double pixels, double steps)
+{
+    if (!beginNudge(true))
+        return;
+    nudgedPixels += pixels;
+    nudgedSteps += steps;
+    const auto start = model.gestureStart(nudging);
+    const auto range = timeOf(dragged, *start);
+    if (!range)
+        return;
+    const double length = range->to - range->from;
+    SelectionScale wanted;
+    wanted.pivot = range->from;
+    if (length > 0.0)
+        wanted.timeFactor = std::max(0.01, 1.0 + nudgedPixels * viewState.axis().secondsPerPixel / length);
+    wanted.spread = std::pow(spreadStep, nudgedSteps);
+    clipSelection.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
+    nudged = clipSelection.selected();
+    say(juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0) +
+        (steps != 0.0 ? " % of the differences" : " % of the time"));
+}
+
+void PlotLane::nudge(double pixels, double steps)
+{
+    if (!beginNudge(false))
+        return;
+    nudgedPixels += pixels;
+    nudgedSteps += steps;
+    const auto start = model.gestureStart(nudging);
+    const ValueAxis axis = scale();
+    Breakpoint to = grabbed;
+    // A step of decibels is 1 dB, of a frequency a semitone, of a linear scale a fiftieth.
+    if (nudgedSteps != 0.0 && axis.scale == ValueScale::decibels)
+        to.value = std::max(grabbed.value, axis.low) * std::pow(10.0, nudgedSteps / 20.0);
+    else if (nudgedSteps != 0.0 && axis.scale == ValueScale::logarithmic)
+        to.value = grabbed.value * std::exp2(nudgedSteps / 12.0);
+    else
+        to.value += nudgedSteps * (axis.high - axis.low) / 50.0;
+    SelectionMove wanted = move(grabbed, to);
+    wanted.time = nudgedPixels * viewState.axis().secondsPerPixel;
+    clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), nudging);
+    nudged = clipSelection.selected();
+    say(valueText(to.value));
+}
+
+void PlotLane::step(int direction)
+{
+    if (count() == 0)
+        return;
+    const Indices now = picked();
+    std::size_t next = 0;
+    if (now.empty())
+    {
+        while (next + 1 < count() && place(next).time < transport.playhead())
+            ++next;
+    }
+    else if (direction > 0)
+        next = std::min(now.back() + 1, count() - 1);
+    else
+        next = now.front() > 0 ? now.front() - 1 : 0;
+    clipSelection.select(pick({}, {next}));
+    const Breakpoint p = place(next);
+    if (const auto shown = viewState.axis().visible(viewState.viewWidth()); p.time < shown.from || p.time > shown.to)
+    {
+        TimeAxis moved = viewState.axis();
+        moved.start = p.time - 0.5 * (shown.to - shown.from);
+        viewState.setAxis(moved);
+    }
+    say(juce::String(p.time, 3) + " s, " + valueText(p.value));
+}
+
+bool PlotLane::keyPressed(const juce::KeyPress& key)
+{
+    using K = juce::KeyPress;
+    const auto modifiers = key.getModifiers();
+    const double amount = modifiers.isShiftDown() ? 10.0 : 1.0;
+    const int code = key.getKeyCode();
+    const bool any = !picked().empty();
+    if (modifiers.isCommandDown() || (modifiers.isAltDown() && !any))
+        return false;
+    if (modifiers.isAltDown())
+    {
+        if (code == K::leftKey || code == K::rightKey)
+            scaleByKeys(code == K::leftKey ? -amount : amount, 0.0);
+        else if (code == K::upKey || code == K::downKey)
+            scaleByKeys(0.0, code == K::upKey ? amount : -amount);
+        else
+            return false;
+        return true;
+    }
+    if (code == ',' || code == '.')
+        step(code == '.' ? 1 : -1);
+    else if (any && (code == K::leftKey || code == K::rightKey))
+        nudge(code == K::leftKey ? -amount : amount, 0.0);
+    else if (any && (code == K::upKey || code == K::downKey))
+        nudge(0.0, code == K::upKey ? amount : -amount);
+    else if (code == K::returnKey)
+    {
+        if (const auto clip = model.clip())
+        {
+            // Where the playhead is, on the curve as it is there or in the middle of the scale.
+            const ValueAxis axis = scale();
+            clipSelection.setEdited("Add point",
+                                    added(*clip, {transport.playhead(), axis.valueAtY(0.5 * axis.height)}));
+        }
+    }
+    else if (code == K::escapeKey && !pacini::isEmpty(clipSelection.selected()))
+        clipSelection.select({});
+    else
+        return false;
+    return true;
 }
 
 } // namespace pacini::editor

@@ -4,10 +4,10 @@
 // Sounds, clips and folders on their way into the project.
 
 #include "editor/clip/session/Sound.h"
-#include "editor/clip/session/Task.h"
 
 #include <juce_core/juce_core.h>
 
+#include <atomic>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -21,6 +21,28 @@ namespace pacini::editor
 class EditorModel;
 class Jobs;
 class ProjectSounds;
+
+/// Work in the background that can be watched and stopped; shared by its thread and the message thread.
+struct Task
+{
+    std::atomic<double> progress{-1.0}; ///< 0 to 1; below 0: nobody knows
+    std::atomic<bool> stopped{false};
+
+    /// For analyse(). [worker]
+    bool goOn(double done) noexcept
+    {
+        progress = done;
+        return !stopped;
+    }
+};
+
+/// What is going on, for a bar.
+struct WorkState
+{
+    juce::String text;
+    double progress = -1.0; ///< as in Task
+    bool operator==(const WorkState&) const = default;
+};
 
 /// One file after another is read and, if it is a sound, analysed; meanwhile the first of them is shown as a waveform.
 /// The others come into the project without taking the place of what is looked at. What failed is told once, when all
