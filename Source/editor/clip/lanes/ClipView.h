@@ -12,6 +12,7 @@
 #include "editor/clip/lanes/TimeRuler.h"
 #include "editor/clip/lanes/ToolStrip.h"
 #include "editor/clip/lanes/WaveformRow.h"
+#include "editor/clip/session/Session.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

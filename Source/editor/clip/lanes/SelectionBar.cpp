@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -24,7 +25,12 @@ SelectionBar::SelectionBar(EditorModel& project, ClipSelection& selected, const 
     setTooltip("Drag an end: stretches what is selected in time, in all lanes; Alt: no snapping");
     setMouseCursor(juce::MouseCursor::LeftRightResizeCursor);
     subscriptions.on({&clipSelection.changed, &model.contentChanged}, [this] { follow(); });
-    subscriptions.on({&viewState.axisChanged}, [this] { repaint(); });
+    subscriptions.on({&viewState.axisChanged},
+                     [this]
+                     {
+                         if (range)
+                             repaint();
+                     });
 }
 
 void SelectionBar::follow()
