@@ -17,7 +17,7 @@ constexpr int barHeight = 4;
 WorkBar::WorkBar(Session& shared) : session(shared), stopButton("Stop")
 {
     setTitle("Progress");
-    stopButton.setTooltip("Leaves out what is not read and analysed yet (Escape)");
+    stopButton.setTooltip("Skips files that are not opened and analysed yet (Escape)");
     stopButton.setTitle("Stop opening and analysing");
     stopButton.onClick = [this]
     {

@@ -117,7 +117,7 @@ Menu playMenu(EditorView& view)
             hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3'),
             {.id = hapticOrSound,
              .name = "Switch haptic and sound",
-             .help = "From one to the other while playing, to compare them",
+             .help = "Switches between them while playing, to compare them",
              .run = [&session] { session.setHeard(session.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
              .can = anyClip,
              .keys = {Key('h')}},

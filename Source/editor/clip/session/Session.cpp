@@ -255,7 +255,7 @@ void Session::follow()
     {
         const auto failure = autosave->lastError();
         if (failure && !autosaveFailed)
-            report("Changes are not kept safe at the moment. Save the project", *failure);
+            report("Autosave does not work at the moment. Save the project", *failure);
         autosaveFailed = failure.has_value();
         autosave->update(open->snapshot());
     }
