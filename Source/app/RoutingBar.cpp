@@ -56,11 +56,11 @@ RoutingBar::RoutingBar(AudioRig& wanted)
         addAndMakeVisible(box);
     };
     addAndMakeVisible(devicesButton);
-    prepare(input, inputLabel, "Input", "What is turned into touch");
+    prepare(input, inputLabel, "Input", "The input that the haptic signal is made from");
     addAndMakeVisible(fileButton);
     prepare(sidechain, sidechainLabel, "Sidechain", "The input that the source Sidechain listens to");
     prepare(heard, heardLabel, "Sound out", "Where the sound is heard");
-    prepare(haptic, hapticLabel, "Haptic out", "The output that the actuator's amplifier hangs on");
+    prepare(haptic, hapticLabel, "Haptic out", "The output that the actuator's amplifier is connected to");
     rig.devices().addChangeListener(this);
     fillMenus();
 }

@@ -11,11 +11,11 @@ std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray
 {
     // Installed it has another name than where it is built.
     const auto name = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getFileNameWithoutExtension();
-    CLI::App options("Pacini: live sound to touch. A window with the plugin, and its ways to the sound devices.",
+    CLI::App options("Pacini: sound to touch, live. A window with the plugin, and its routing to the sound devices.",
                      name.toStdString());
     std::string deviceType, file;
     int hapticOutput = -1, soundOutput = -1;
-    options.add_flag("--fresh", wishes.fresh, "Remember nothing of earlier runs, and leave it as it is");
+    options.add_flag("--fresh", wishes.fresh, "Start with the default settings, and leave the saved ones as they are");
     options.add_flag("--test-signal", wishes.testSignal, "Listen to a test signal");
     options.add_option("--play", file, "Listen to a sound file")->type_name("FILE");
     options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")->type_name("TYPE");

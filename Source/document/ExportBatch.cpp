@@ -89,7 +89,7 @@ std::string_view whatIsKept(std::string_view format)
         return "Keeps everything on the grids of the clip's quantiser, in a small file.";
     if (format == "wav")
         return "Samples of the drive signal for the chosen actuator, its limits kept. It cannot be edited further.";
-    return "A format of others: what it cannot say is listed below for this clip.";
+    return "A format of other programs. What this clip loses in it is listed below.";
 }
 
 std::string exportName(const Clip& clip, const ExportFormat& format)

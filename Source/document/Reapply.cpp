@@ -120,7 +120,7 @@ public:
         if (toTheEnd)
             e.range.to = clip.duration + 1e-6; // all that validate() lets be there
         if (before > 0.0 && e.range.from >= clip.duration && clip.duration < length)
-            problem = "lies behind the end of the sound";
+            problem = "lies after the end of the sound";
     }
 
     void operator()(TransientPatch& e)
@@ -203,7 +203,7 @@ std::string placeLanes(Edit& edit, const BandFinder& bands)
                       if (lane.index == nowhere)
                           missing += fmt::format("{}{:.0f} Hz", missing.empty() ? "" : ", ", frequency);
                   });
-    return missing.empty() ? missing : "no band is left for what was at " + missing;
+    return missing.empty() ? missing : "there is no band any more near " + missing;
 }
 } // namespace
 

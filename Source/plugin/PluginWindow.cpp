@@ -70,7 +70,7 @@ PluginWindow::PluginWindow(PluginProcessor& shown)
                  {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
       outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
                   {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
-      reductionMeter("Gain reduction", "What limiter and protection of the actuator take away",
+      reductionMeter("Gain reduction", "Gain reduction by the limiter and the actuator's protection",
                      {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
       feltMeter("Above touch threshold", "How far the haptic signal stands above what is just felt",
                 {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true}),

@@ -23,7 +23,7 @@ DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControlle
       selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
 {
     prepare(sound, "Sound out", "The two channels where the sound is heard", rig.soundTrim(), 6.0);
-    prepare(haptic, "Haptic out", "The channel that the actuator's amplifier hangs on", rig.hapticTrim(), 0.0);
+    prepare(haptic, "Haptic out", "The channel that the actuator's amplifier is connected to", rig.hapticTrim(), 0.0);
     controllerLabel.setText("Controller", juce::dontSendNotification);
     controllerLabel.setFont(editor::usualFont());
     controllerLabel.setAccessible(false);

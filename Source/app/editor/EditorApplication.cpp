@@ -75,7 +75,7 @@ public:
         std::vector<std::string> names;
         options.add_option("files", names, "Sounds, clips of any known format, folders of them, or a project")
             ->type_name("FILE");
-        options.add_flag("--fresh", fresh, "Remember nothing of earlier runs, and leave it as it is");
+        options.add_flag("--fresh", fresh, "Start with the default settings, and leave the saved ones as they are");
         options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")
             ->type_name("TYPE");
         options.add_option("--language", language, "Of menus and controls: en or " + languageCodes())

@@ -60,8 +60,8 @@ std::string explain(const Error& error, std::span<const std::string> inputs)
 {
     if (error.where == "channels" && error.code == ErrorCode::invalidData)
         return fmt::format("No sweep was heard on {}: nothing there stands out of the noise. Check that the amplifier "
-                           "is on, that the actuator hangs on the chosen output and the sensor on the chosen input, "
-                           "and that the level is high enough.",
+                           "is on, that the actuator is connected to the chosen output and the sensor to the chosen "
+                           "input, and that the level is high enough.",
                            listed(inputs));
     if (error.where == "channels" && error.code == ErrorCode::truncated)
         return "The recording is too short: its channels " + error.message + ".";

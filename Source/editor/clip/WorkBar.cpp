@@ -18,7 +18,7 @@ WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
     : model(project), sounds(projectSounds), stopButton("Stop")
 {
     setTitle("Progress");
-    stopButton.setTooltip("Leaves out what is not read and analysed yet (Escape)");
+    stopButton.setTooltip("Skips files that are not opened and analysed yet (Escape)");
     stopButton.setTitle("Stop opening and analysing");
     stopButton.onClick = [this]
     {

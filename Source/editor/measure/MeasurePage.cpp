@@ -21,8 +21,8 @@ juce::String whatToDo(MeasureStep step)
     static const std::array<const char*, measureSteps> words{
         "Connect actuator and sensor, choose where they are, and set levels",
         "Play the sweep through the actuator and record how it moves, once for each wearer",
-        "What the actuator does at each frequency",
-        "Make it even: the equaliser of the profile",
+        "The response of the actuator at each frequency",
+        "Make the response flat: the equaliser of the profile",
         "Measure again through the equaliser, as proof",
         "Keep it as an actuator profile"};
     return words[static_cast<std::size_t>(step)];

@@ -38,7 +38,7 @@ SetUpStep::SetUpStep(MeasureDesk& wanted, StepServices& around)
       services(around),
       rig("Rig", "The sound device with actuator and sensor on it, or a simulation to try the page with"),
       output("Output", "The output that the amplifier of the actuator is connected to"),
-      base("Limits from", "A profile to take what is not measured from: impedance, voltage, power and travel"),
+      base("Limits from", "The profile for what is not measured: impedance, voltage, power and travel"),
       input{Named<juce::ComboBox>{"Sensor", "The input of the microphone, or of the first axis of the accelerometer"},
             Named<juce::ComboBox>{"2nd axis", "The input of the second axis of the accelerometer"},
             Named<juce::ComboBox>{"3rd axis", "The input of the third axis of the accelerometer"}},

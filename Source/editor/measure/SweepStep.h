@@ -56,7 +56,7 @@ private:
     MeasureDesk& desk;
     Named<juce::TextEditor> name;
     std::array<InputMeter, 3> meters;
-    NoteBox notes{"What the last sweep told"};
+    NoteBox notes{"Result of the last sweep"};
     juce::Viewport scroll;
     juce::Component list;
     std::vector<std::unique_ptr<Row>> rows;

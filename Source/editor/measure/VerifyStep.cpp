@@ -121,9 +121,8 @@ void VerifyStep::refresh()
                 lines.push_back({note, Note::Kind::warning});
         }
         else if (lines.empty())
-            lines.push_back(
-                {"Sweep once more, now through the equaliser: the measurement shows what it really does. "
-                 "If the equaliser raises the sweep beyond full scale, the sweep is played as much softer."});
+            lines.push_back({"Sweep once more, now through the equaliser: the measurement shows what it really does. "
+                             "If the equaliser raises the sweep beyond full scale, the sweep is lowered by as much."});
     }
     facts.show(std::move(list));
     notes.show(std::move(lines));

@@ -62,13 +62,13 @@ Menu clipMenu(EditorView& view)
                  .can = anyClip},
                 {.id = repeatClipTimes,
                  .name = "Repeat...",
-                 .help = "Puts the clip behind itself, a number of times",
+                 .help = "Repeats the clip a number of times",
                  .run = [&view] { ask(view, repeatOperation()); },
                  .can = anyClip,
                  .keys = {ctrl('r')}},
                 {.id = splitClipHere,
                  .name = "Split at playhead",
-                 .help = "What is behind the playhead becomes a clip of its own",
+                 .help = "The part after the playhead becomes a clip of its own",
                  .run =
                      [&session]
                  {
@@ -81,7 +81,7 @@ Menu clipMenu(EditorView& view)
                  .keys = {juce::KeyPress('s')}},
                 {.id = joinWithNext,
                  .name = "Join with next clip",
-                 .help = "Puts the next clip of the project behind this one, as one clip",
+                 .help = "Appends the next clip of the project to this one",
                  .run = [&session] { session.model.joinNext(); },
                  .can = [&session] { return session.model.nextClipId() != 0; },
                  .keys = {juce::KeyPress('j')}},

@@ -50,7 +50,7 @@ Menu editMenu(EditorView& view)
             {
                 {.id = undo,
                  .name = "Undo",
-                 .help = "Takes the last step back",
+                 .help = "Undoes the last step",
                  .run = [&session] { session.model.undo(); },
                  .can = [&session] { return session.model.document().canUndo(); },
                  .keys = {ctrl('z')},
@@ -61,7 +61,7 @@ Menu editMenu(EditorView& view)
                  }},
                 {.id = redo,
                  .name = "Redo",
-                 .help = "Takes the last undo back",
+                 .help = "Redoes the last step that was undone",
                  .run = [&session] { session.model.redo(); },
                  .can = [&session] { return session.model.document().canRedo(); },
                  .keys = {ctrlShift('z'), ctrl('y')},

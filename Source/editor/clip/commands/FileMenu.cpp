@@ -104,7 +104,7 @@ Menu fileMenu(EditorView& view)
     };
     menu.actions.push_back({.id = stopWork,
                             .name = "Stop opening and analysing",
-                            .help = "Leaves out what is not read and analysed yet",
+                            .help = "Skips files that are not opened and analysed yet",
                             .run = [&view] { view.session().sounds.stopWork(); },
                             .can = [&view] { return view.session().sounds.workNow().has_value(); },
                             .keys = {juce::KeyPress(juce::KeyPress::escapeKey)},

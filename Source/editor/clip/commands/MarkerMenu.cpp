@@ -77,7 +77,7 @@ Menu markerMenu(EditorView& view)
                  .keys = {Key('m')}},
                 {.id = renameMarker,
                  .name = "Rename marker...",
-                 .help = "Another name for the marker at the playhead",
+                 .help = "Renames the marker at the playhead",
                  .run = [&view] { rename(view); },
                  .can = onMarker,
                  .keys = {Key(Key::F2Key)}},

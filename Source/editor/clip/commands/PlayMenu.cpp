@@ -118,7 +118,7 @@ Menu playMenu(EditorView& view)
             hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3'),
             {.id = hapticOrSound,
              .name = "Switch haptic and sound",
-             .help = "From one to the other while playing, to compare them",
+             .help = "Switches between them while playing, to compare them",
              .run = [&session]
              { session.transport.setHeard(session.transport.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
              .can = anyClip,

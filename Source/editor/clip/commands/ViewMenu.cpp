@@ -138,7 +138,7 @@ Menu viewMenu(EditorView& view)
          .lineBefore = true},
         {.id = snap,
          .name = "Snap",
-         .help = "What is dragged sticks to what is near; Alt: not this time",
+         .help = "Dragging snaps to what is near; with Alt it does not",
          .run =
              [&session]
          {
@@ -150,7 +150,7 @@ Menu viewMenu(EditorView& view)
          .keys = {Key('n')}},
         {.id = snapTo,
          .name = "Snap to",
-         .help = "What is dragged sticks to these",
+         .help = "Dragging snaps to these",
          .can = [&session] { return session.viewState.snapTargets().on; },
          .choices =
              [&session]

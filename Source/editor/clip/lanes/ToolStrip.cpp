@@ -17,7 +17,7 @@ ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
         addAndMakeVisible(button);
     };
     prepare(drawButton, "Draw", "A drag in a lane draws its curve (D; held: as long as it is held)");
-    prepare(snapButton, "Snap", "What is dragged sticks to transients, markers, playhead or ruler lines (N)");
+    prepare(snapButton, "Snap", "Dragging snaps to transients, markers, playhead or ruler lines (N)");
     prepare(versionButton, "Version A", "Shows and plays the version that was kept as A in the clip menu (C)");
     drawButton.onClick = [this]
     {

@@ -81,7 +81,7 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
         set({});
         edited();
     };
-    replaceButton.setTooltip("Puts another sound file under the edits of this clip");
+    replaceButton.setTooltip("Uses another sound file for this clip; its edits are kept");
     replaceButton.onClick = [this]
     {
         const auto item = model.item();
@@ -243,7 +243,7 @@ void AnalysisPanel::show()
         text = "There is no clip.";
     else if (source == nullptr)
         text = "This clip was opened without a sound, so that there is nothing to analyse. "
-               "Put a sound under it with the button below.";
+               "Add a sound with the button below.";
     else
     {
         text << pathText(source->path.filename()) << "\n";

@@ -142,7 +142,8 @@ Inspector::Inspector(EditorView& shown)
         };
         addAndMakeVisible(one);
     };
-    slider(gain, "Gain", "Makes the levels of the scope louder or softer, in dB; back to 0 when it is let go");
+    slider(gain, "Gain",
+           "Changes the levels of the selection, the time range or the clip, in dB; returns to 0 when released");
     gain.setRange(-24.0, 24.0, 0.1);
     gain.setTextValueSuffix(" dB");
     gain.setNumDecimalPlacesToDisplay(1);
@@ -151,7 +152,7 @@ Inspector::Inspector(EditorView& shown)
     {
         gainMoved();
     };
-    slider(keep, "Points to keep", "Simplifies the curves of the scope to this share of their points, in percent");
+    slider(keep, "Points to keep", "Simplifies the curves to this share of their points, in percent");
     keep.setRange(2.0, 100.0, 1.0);
     keep.setTextValueSuffix(" %");
     keep.setValue(100.0, juce::dontSendNotification);
@@ -179,8 +180,8 @@ Inspector::Inspector(EditorView& shown)
         };
         addAndMakeVisible(one);
     };
-    button(fadeInButton, fadeIn, "Fades in over the scope");
-    button(fadeOutButton, fadeOut, "Fades out over the scope");
+    button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");
+    button(fadeOutButton, fadeOut, "Fades out over the selection, the time range or the clip");
     button(reverseButton, reverse, "Plays the whole clip from its end");
     setSize(200, inspectorPreferredHeight);
     addChildComponent(chip);

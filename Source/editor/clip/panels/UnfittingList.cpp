@@ -80,7 +80,8 @@ UnfittingList::UnfittingList(EditorModel& project, ViewState& sight, Transport& 
     list.setRowHeight(unfittingRowHeight);
     list.setColour(juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.setTitle("Edits that do not fit");
-    list.setTooltip("Hand edits that found no place over this analysis. They are kept and wait for another one");
+    list.setTooltip(
+        "Hand edits that do not fit this analysis. They are kept, and applied again when they fit another one");
     addAndMakeVisible(list);
     refresh();
 }
@@ -189,7 +190,7 @@ void UnfittingList::paint(juce::Graphics& g)
     const auto item = model.item();
     const std::size_t count = item ? item->edits.size() : 0;
     constexpr auto hint = "Hand edits stay when the sound is analysed again. Those that no longer fit are listed here.";
-    g.drawFittedText(tr(count == 0 ? hint : "All hand edits have a place over this analysis."), getLocalBounds(),
+    g.drawFittedText(tr(count == 0 ? hint : "All hand edits fit this analysis."), getLocalBounds(),
                      juce::Justification::topLeft, 4, 1.0f);
 }
 

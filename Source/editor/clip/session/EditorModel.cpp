@@ -171,7 +171,7 @@ bool EditorModel::follow(int before)
     {
         const auto failure = autosave->lastError();
         if (failure && !autosaveFailed)
-            report("Changes are not kept safe at the moment. Save the project", *failure);
+            report("Autosave does not work at the moment. Save the project", *failure);
         autosaveFailed = failure.has_value();
         autosave->update(open->snapshot());
     }

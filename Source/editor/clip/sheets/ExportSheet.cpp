@@ -60,7 +60,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
         formatChanged();
     };
     rate.setTitle("Sample rate");
-    rate.setTooltip("Of formats that are samples, in Hz");
+    rate.setTooltip("Sample rate of formats that hold samples, in Hz");
     rate.addItem("As the sound", sourceRate);
     for (const int hertz : {48000, 8000, 2000})
         rate.addItem(juce::String(hertz) + " Hz", hertz);

@@ -72,7 +72,7 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
     for (const auto& [member, name] :
          {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
           std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})
-        addSwitch(name, "What is dragged sticks to what is near; Alt: not this time", targets.*member,
+        addSwitch(name, "Dragging snaps to what is near; with Alt it does not", targets.*member,
                   [target, member = member](bool on) { target(member, on); });
     setAnswers({{"Close", {}}});
 }
