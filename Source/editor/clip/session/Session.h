@@ -4,15 +4,16 @@
 // What all parts of an editor's window share: the open project, what of it is shown and selected, what is heard.
 
 #include "document/Autosave.h"
+#include "document/ClipPlayer.h"
 #include "document/Document.h"
 #include "document/Paste.h"
+#include "document/ProfileShelf.h"
 #include "document/RecentFiles.h"
 #include "document/SelectionEdits.h"
 #include "document/view/Snap.h"
 #include "document/view/TimeAxis.h"
 #include "editor/clip/session/Importer.h"
 #include "editor/clip/session/Jobs.h"
-#include "editor/clip/session/Player.h"
 #include "editor/clip/session/Sound.h"
 #include "editor/clip/session/ViewOptions.h"
 
@@ -30,14 +31,6 @@
 
 namespace pacini::editor
 {
-
-/// An actuator that can be chosen.
-struct NamedProfile
-{
-    std::string name; ///< such as l5-wristband
-    std::shared_ptr<const Profile> profile;
-    bool own = false; ///< not one of those that come with Pacini: projects carry it with them
-};
 
 enum class Heard
 {
@@ -263,7 +256,7 @@ public:
     void setPlayhead(double time);
 
     /// Runs in the callback of a device.
-    Player player;
+    ClipPlayer player;
 
 private:
     friend class Importer;

@@ -53,7 +53,7 @@ void Session::showUnanalysed(std::shared_ptr<const Sound> read)
     rangeNow.reset();
     auditionNow = {};
     startTime = 0.0;
-    player.setSound(unanalysed);
+    player.setSound(audioOf(unanalysed));
     follow();
     fit();
     changed(project | content | selection | range | sound | playback);
@@ -72,7 +72,7 @@ void Session::loadSound()
 {
     const auto shown = item();
     const AudioReference* reference = shown ? open->project().findSource(shown->source) : nullptr;
-    player.setSound(soundOfClip());
+    player.setSound(audioOf(soundOfClip()));
     if (reference == nullptr || sounds.contains(shown->source) || missing.contains(shown->source))
         return;
     const auto temporary = pathOf(juce::File::getSpecialLocation(juce::File::tempDirectory));
@@ -98,7 +98,7 @@ void Session::loadSound()
                 return report("The sound cannot be read; the clip can be edited without it", read.error());
             }
             sounds[id] = *read;
-            player.setSound(soundOfClip());
+            player.setSound(audioOf(soundOfClip()));
             changed(sound);
         });
 }
@@ -285,7 +285,7 @@ void Session::putAgain(const Again& done, Result<Imported> analysed, bool otherS
     const int source = open->clip(done.clip)->source;
     sounds[source] = analysed->sound;
     missing.erase(source);
-    player.setSound(soundOfClip());
+    player.setSound(audioOf(soundOfClip()));
     fit();
     changed(Session::sound);
 }
