@@ -29,7 +29,7 @@ public:
         }
         if (!wishes.fresh)
             settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
-        processor = std::make_unique<plugin::PluginProcessor>();
+        processor = std::make_unique<plugin::Plugin>();
         rig = std::make_unique<AudioRig>(*processor);
         Routing routing;
         std::unique_ptr<juce::XmlElement> devices;
@@ -88,7 +88,7 @@ private:
 
     CommandLineWishes wishes;
     std::unique_ptr<juce::PropertiesFile> settings;
-    std::unique_ptr<plugin::PluginProcessor> processor;
+    std::unique_ptr<plugin::Plugin> processor;
     std::unique_ptr<AudioRig> rig;
     std::unique_ptr<StandaloneWindow> window;
 };

@@ -5,7 +5,7 @@
 
 #include "app/LoadedSound.h"
 #include "app/TestSignal.h"
-#include "plugin/PluginProcessor.h"
+#include "plugin/engine/PluginProcessor.h"
 
 #include <pacini/realtime/HandOver.h>
 

@@ -13,7 +13,7 @@ constexpr int barHeight = 5 * editor::grid + 2;
 class StandaloneWindow::Content final : public juce::Component, private juce::ComponentListener
 {
 public:
-    Content(plugin::PluginProcessor& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
+    Content(plugin::Plugin& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
     {
         bar.setLookAndFeel(&plugin.getLookAndFeel());
         plugin.onThemeChange = [this]
@@ -73,7 +73,7 @@ private:
     RoutingBar bar;
 };
 
-StandaloneWindow::StandaloneWindow(plugin::PluginProcessor& processor, AudioRig& rig)
+StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioRig& rig)
     : DocumentWindow("Pacini", juce::Colours::black, DocumentWindow::allButtons)
 {
     setUsingNativeTitleBar(true);

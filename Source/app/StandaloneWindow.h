@@ -5,7 +5,7 @@
 
 #include "app/AudioRig.h"
 #include "app/RoutingBar.h"
-#include "plugin/PluginWindow.h"
+#include "plugin/window/PluginWindow.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
@@ -17,7 +17,7 @@ namespace pacini::app
 class StandaloneWindow final : public juce::DocumentWindow
 {
 public:
-    StandaloneWindow(plugin::PluginProcessor& processor, AudioRig& rig);
+    StandaloneWindow(plugin::Plugin& processor, AudioRig& rig);
     ~StandaloneWindow() override;
 
     void closeButtonPressed() override;

@@ -50,7 +50,7 @@ public:
     /// Another clip, another loop, other bands soloed: heard once service() has run. [message]
     void set(Playback playback);
 
-    /// The actuator that is previewed (null: the plain drive signal), and the sound beside it (null: none). [message]
+    /// The actuator that is previewed (null: the plain drive signal), and the sound beside it (null: none). [any]
     void setProfile(std::shared_ptr<const Profile> profile);
     void setSource(std::shared_ptr<const PreviewSource> source);
 

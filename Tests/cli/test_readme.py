@@ -43,7 +43,7 @@ ELSEWHERE = {
     "build/release/plugins": ("cmake/bootstrap.sh", "build/release/plugins"),
     "build/release/bin/pacini": ("cmake/bootstrap.sh", "build/release/bin/pacini"),
     "build/release/plugins/Standalone/PaciniEditor [FILE...]": ("Tests/hosts/CMakeLists.txt", "Standalone/PaciniEditor"),
-    'build/release/bin/pacini_plugin_tests "[.bench]"': ("Tests/plugin/LoadTest.cpp", "[.bench]"),
+    'build/release/bin/pacini_plugin_tests "[.bench]"': ("Tests/plugin/engine/LoadTest.cpp", "[.bench]"),
 }
 
 # Code within the text that needs words to be run, or other words here.

@@ -27,7 +27,7 @@ struct EditorBench
     editor::Session session;
     editor::EditorView view{session, {}};
 
-    explicit EditorBench(std::vector<editor::NamedProfile> profiles = {}) : session({}, std::move(profiles))
+    explicit EditorBench(std::vector<NamedProfile> profiles = {}) : session({}, std::move(profiles))
     {
         view.setBounds(0, 0, 1280, 800);
     }

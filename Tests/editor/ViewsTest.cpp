@@ -10,7 +10,7 @@ using namespace pacini::test;
 
 namespace
 {
-editor::NamedProfile shipped(const std::string& name)
+NamedProfile shipped(const std::string& name)
 {
     return {name, std::make_shared<const Profile>(shippedProfile(name))};
 }

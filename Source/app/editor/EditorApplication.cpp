@@ -6,10 +6,10 @@
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewRig.h"
+#include "document/ProfileShelf.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
-#include "plugin/ProfileShelf.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
@@ -24,7 +24,7 @@ namespace
 using editor::pathOf;
 
 /// Adds the profiles that were measured before; a file that is none is left out.
-void addOwnProfiles(std::vector<editor::NamedProfile>& profiles, const juce::File& folder)
+void addOwnProfiles(std::vector<NamedProfile>& profiles, const juce::File& folder)
 {
     auto files = folder.findChildFiles(juce::File::findFiles, false, "*.json");
     files.sort();
@@ -97,7 +97,7 @@ public:
         editor::EditorModel::Folders folders;
         if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
-        auto profiles = plugin::shelfProfiles();
+        auto profiles = shelfProfiles();
         const auto ownProfiles = home.getChildFile("profiles");
         if (!fresh)
             addOwnProfiles(profiles, ownProfiles);

@@ -12,7 +12,7 @@
 namespace pacini::app
 {
 
-PreviewRig::PreviewRig(editor::Player& wanted) : player(wanted) {}
+PreviewRig::PreviewRig(ClipPlayer& wanted) : player(wanted) {}
 
 PreviewRig::~PreviewRig()
 {

@@ -3,8 +3,8 @@
 
 // The sound device of the editor: sound and drive signal on channels of their own.
 
+#include "document/ClipPlayer.h"
 #include "editor/clip/session/OutputTrim.h"
-#include "editor/clip/session/Player.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
 
@@ -25,7 +25,7 @@ struct PreviewOutputs
 class PreviewRig final : private juce::AudioIODeviceCallback, private juce::AsyncUpdater
 {
 public:
-    explicit PreviewRig(editor::Player& wanted);
+    explicit PreviewRig(ClipPlayer& wanted);
     ~PreviewRig() override;
 
     /// Opens a device; an error text, empty when all is well. [message]
@@ -52,7 +52,7 @@ private:
                                           const juce::AudioIODeviceCallbackContext& context) override;
     void handleAsyncUpdate() override;
 
-    editor::Player& player;
+    ClipPlayer& player;
     juce::AudioDeviceManager manager;
     std::atomic<int> soundOutput{0}, hapticOutput{2};
     editor::OutputTrim soundLevel, hapticLevel;

@@ -3,6 +3,7 @@
 
 // The actuators that can be chosen, and the one of the project.
 
+#include "document/ProfileShelf.h"
 #include "editor/clip/session/EditorModel.h"
 
 #include <memory>
@@ -11,14 +12,6 @@
 
 namespace pacini::editor
 {
-
-/// An actuator that can be chosen.
-struct NamedProfile
-{
-    std::string name; ///< such as l5-wristband
-    std::shared_ptr<const Profile> profile;
-    bool own = false; ///< not one of those that come with Pacini: projects carry it with them
-};
 
 /// [message]
 class Actuators

@@ -26,7 +26,7 @@ struct Session
     Actuators actuators;
     ClipSelection clipSelection{model};
     ViewState viewState{model};
-    Player player; ///< runs in the callback of a device
+    ClipPlayer player; ///< runs in the callback of a device
     Transport transport{model, sounds, actuators, clipSelection, player};
 
 private:

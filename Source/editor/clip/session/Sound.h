@@ -52,6 +52,12 @@ private:
     }
 };
 
+/// The samples of a sound, which they keep alive; null of null.
+[[nodiscard]] inline std::shared_ptr<const AudioData> audioOf(const std::shared_ptr<const Sound>& sound)
+{
+    return sound ? std::shared_ptr<const AudioData>(sound, &sound->audio) : nullptr;
+}
+
 /// What a file gives to a project: a sound with its analysis, or a clip.
 struct Imported
 {

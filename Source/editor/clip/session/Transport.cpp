@@ -8,12 +8,12 @@ namespace pacini::editor
 {
 
 Transport::Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
-                     const ClipSelection& selected, Player& played)
+                     const ClipSelection& selected, ClipPlayer& played)
     : model(project), sounds(projectSounds), actuators(profiles), selection(selected), player(played)
 {
     subscriptions.on({&model.shownChanged}, [this] { reset(); });
     subscriptions.on({&model.contentChanged, &model.versionChanged, &selection.rangeChanged}, [this] { send(); });
-    subscriptions.on({&model.contentChanged, &sounds.changed}, [this] { player.setSound(sounds.soundOfClip()); });
+    subscriptions.on({&model.contentChanged, &sounds.changed}, [this] { player.setSound(audioOf(sounds.soundOfClip())); });
     subscriptions.on({&actuators.changed}, [this] { player.setProfile(actuators.profile()); });
 }
 

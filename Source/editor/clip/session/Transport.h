@@ -3,9 +3,9 @@
 
 // Transport: what is heard and felt of the clip that is shown, and from where.
 
+#include "document/ClipPlayer.h"
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/ClipSelection.h"
-#include "editor/clip/session/Player.h"
 #include "editor/clip/session/ProjectSounds.h"
 
 namespace pacini::editor
@@ -23,7 +23,7 @@ class Transport
 {
 public:
     Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
-              const ClipSelection& selected, Player& player);
+              const ClipSelection& selected, ClipPlayer& player);
 
     Signal changed;     ///< what is heard, playing or not, the playhead when it jumps
     Signal loopChanged; ///< whether the time range is looped
@@ -52,7 +52,7 @@ private:
     const ProjectSounds& sounds;
     const Actuators& actuators;
     const ClipSelection& selection;
-    Player& player;
+    ClipPlayer& player;
     bool looping = false;
     Heard hear = Heard::haptic;
     Audition auditionNow;

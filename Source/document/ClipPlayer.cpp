@@ -1,0 +1,77 @@
+#include "document/ClipPlayer.h"
+
+#include <cmath>
+#include <utility>
+
+namespace pacini
+{
+
+void ClipPlayer::prepare(double sampleRate)
+{
+    if (engine && rate == sampleRate)
+        return;
+    stopResampling();
+    worker.reset();
+    rate = sampleRate;
+    engine = std::make_unique<PreviewEngine>(rate);
+    worker = std::make_unique<PreviewWorker>(*engine);
+    engine->set(playback);
+    engine->setProfile(profile);
+    resample();
+}
+
+void ClipPlayer::set(Playback wanted)
+{
+    playback = std::move(wanted);
+    engine->set(playback);
+    worker->wake();
+}
+
+void ClipPlayer::setProfile(std::shared_ptr<const Profile> wanted)
+{
+    profile = std::move(wanted);
+    engine->setProfile(profile);
+    worker->wake();
+}
+
+void ClipPlayer::setSound(std::shared_ptr<const AudioData> wanted)
+{
+    if (sound == wanted)
+        return;
+    stopResampling();
+    sound = std::move(wanted);
+    engine->setSource(nullptr);
+    resample();
+}
+
+void ClipPlayer::resample()
+{
+    if (!sound)
+        return;
+    resampling = std::thread(
+        [this, from = sound, to = static_cast<int>(std::lround(rate))]
+        {
+            auto made = PreviewSource::of(*from, to, &noLongerWanted);
+            if (!made)
+                return;
+            engine->setSource(std::move(made));
+            worker->wake();
+        });
+}
+
+void ClipPlayer::stopResampling()
+{
+    if (!resampling.joinable())
+        return;
+    noLongerWanted = true;
+    resampling.join();
+    noLongerWanted = false;
+}
+
+void ClipPlayer::play(double time)
+{
+    engine->play(time);
+    worker->wake();
+}
+
+} // namespace pacini

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The clip that is edited in the plugin's window, heard in the place of the live drive.
+
+#include "document/HostedProject.h"
+#include "plugin/engine/Glide.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace pacini::plugin
+{
+
+/// The live drive fades out and in again within 10 ms; the sound of the clip is added to the main output.
+class ClipPreview
+{
+public:
+    static constexpr std::size_t pieceFrames = 512;
+
+    void prepare(double sampleRate) noexcept
+    {
+        share.prepare(sampleRate);
+        share.jump(0.0f);
+    }
+
+    /// At most `pieceFrames` frames. [audio]
+    void process(HostedProject& clips, std::span<float> drive, std::span<const std::span<float>> main) noexcept
+    {
+        const std::array<std::span<float>, 2> beside{std::span(left).first(drive.size()),
+                                                     std::span(right).first(drive.size())};
+        const auto signal = std::span(haptic).first(drive.size());
+        const bool plays = clips.process(signal, beside);
+        share.aim(plays ? 1.0f : 0.0f);
+        if (!plays && share.atRest())
+            return;
+        if (plays)
+            for (std::size_t c = 0; c < main.size(); ++c)
+                std::transform(main[c].begin(), main[c].end(), beside[c % 2].begin(), main[c].begin(), std::plus<>());
+        else
+            std::fill(signal.begin(), signal.end(), 0.0f);
+        for (std::size_t i = 0; i < drive.size(); ++i)
+            drive[i] = (1.0f - share.next()) * drive[i] + signal[i];
+    }
+
+private:
+    Glide share; ///< of the clip
+    std::array<float, pieceFrames> haptic{}, left{}, right{};
+};
+
+} // namespace pacini::plugin

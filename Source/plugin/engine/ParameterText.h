@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Values of parameters as people read and type them, and as hosts store them.
+
+#include "plugin/engine/ParameterTable.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pacini::plugin
+{
+
+/// The place of `value` on the way of a control, 0 to 1; values outside their range count as its ends, NaN as `low`.
+[[nodiscard]] double normalOf(const ParameterRow& row, double value) noexcept;
+
+/// The value at a place; whole where only whole ones count. normalOf(valueAt(n)) is n within rounding.
+[[nodiscard]] double valueAt(const ParameterRow& row, double normal) noexcept;
+
+/// Such as `-12.5 dB`, `8.0 ms`, `50 %`, `On`. The same in every language: a dot, no thousands.
+[[nodiscard]] std::string textOf(const ParameterRow& row, double value);
+
+/// What was typed: with or without unit, with dot or comma, `1.5 s` for 1500 ms, a choice by its name or the beginning
+/// of it. Limited to the range; none when it is no value.
+[[nodiscard]] std::optional<double> valueOf(const ParameterRow& row, std::string_view text);
+
+} // namespace pacini::plugin

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Audio processor of the plugin, without its window.
+
+#include "document/HostedProject.h"
+#include "plugin/engine/LiveEngine.h"
+#include "plugin/engine/PluginState.h"
+#include "plugin/engine/SetupWorker.h"
+#include "plugin/engine/TableParameter.h"
+
+#include <juce_audio_processors/juce_audio_processors.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+
+namespace pacini::plugin
+{
+
+/// Main input and output of 1 to 16 channels; a sidechain of up to 8 and a haptic output of 1 to 8 channels, both of
+/// which may be missing. The main output is the main input, late by the reported latency, unless the output mode says
+/// otherwise.
+class PluginProcessor : public juce::AudioProcessor, private SetupWorker::Client
+{
+public:
+    PluginProcessor();
+    ~PluginProcessor() override;
+
+    // Sound
+    void prepareToPlay(double sampleRate, int maximumBlock) override;
+    void releaseResources() override {}
+    void reset() override;
+    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    using AudioProcessor::processBlock;
+    using AudioProcessor::processBlockBypassed;
+    bool isBusesLayoutSupported(const BusesLayout& layout) const override;
+    double getTailLengthSeconds() const override { return 1.0; }
+
+    // Settings
+    [[nodiscard]] TableParameter& parameter(ParameterId wanted) const noexcept
+    {
+        return *table[static_cast<std::size_t>(wanted)];
+    }
+    [[nodiscard]] ParameterValues values() const noexcept;
+    juce::AudioProcessorParameter* getBypassParameter() const override { return &parameter(ParameterId::bypass); }
+    void getStateInformation(juce::MemoryBlock& block) override;
+    void setStateInformation(const void* data, int size) override;
+    int getNumPrograms() override;
+    int getCurrentProgram() override { return program.load(); }
+    void setCurrentProgram(int index) override;
+    const juce::String getProgramName(int index) override;
+    void changeProgramName(int, const juce::String&) override {}
+    /// The translator's presets; routing, actuator and bypass stay. Sets the values even of the current one. [message]
+    void applyProgram(int index);
+
+    // Window
+    juce::AudioProcessorEditor* createEditor() override { return nullptr; }
+    bool hasEditor() const override { return false; }
+    /// The size that a session wants; 0 if it does not say.
+    [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
+    void setWindowSize(int width, int height) noexcept;
+
+    /// The clips that are edited in the window.
+    [[nodiscard]] HostedProject& project() noexcept { return clips; }
+
+    // What the window shows. [message], answered without waiting for the audio thread
+    [[nodiscard]] TranslatorMeterReading readMeters() const { return engine.readMeters(); }
+    /// The largest sample of the source since the last call, linear.
+    [[nodiscard]] float takeInputPeak() { return engine.takeInputPeak(); }
+    [[nodiscard]] double sampleRate() const { return engine.sampleRate(); }
+    /// Frames by which the haptic signal is later than the sound.
+    [[nodiscard]] int latency() const { return getLatencySamples(); }
+    /// The newest of the source, mono, all finite; at most `captureSeconds`.
+    [[nodiscard]] Capture capture(double seconds) const;
+    /// The name of the actuator that the signal is made for now.
+    [[nodiscard]] juce::String actuatorName() const;
+    /// Takes an actuator from a profile file.
+    Result<void> loadActuator(const juce::File& file);
+    /// What a session brought that could not be used; empty: nothing.
+    [[nodiscard]] juce::String note() const;
+
+    const juce::String getName() const override { return "Pacini"; }
+    bool acceptsMidi() const override { return false; }
+    bool producesMidi() const override { return false; }
+
+private:
+    void process(juce::AudioBuffer<float>& buffer, bool bypassed) noexcept;
+    void catchUp() override;
+    void setValues(const ParameterValues& wanted);
+    void say(const juce::String& text);
+    [[nodiscard]] std::size_t wantedSlot() const noexcept;
+
+    std::array<TableParameter*, parameterCount> table{}; // the base owns them
+    HostedProject clips;
+    LiveEngine engine;
+
+    /// Guards what follows, and the preparation of the engine. Never taken by the audio thread, except when the host
+    /// renders offline.
+    mutable juce::CriticalSection setupLock;
+    std::size_t appliedSlot = 0;
+    std::optional<Profile> applied;
+    std::optional<Profile> ownProfile;
+    juce::String lastNote;
+
+    std::atomic<int> program{0};
+    std::atomic<int> windowWidth{0}, windowHeight{0};
+    juce::SharedResourcePointer<SetupWorker> worker;
+
+    JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginProcessor)
+};
+
+} // namespace pacini::plugin

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/engine/PluginState.h"
+
+#include "io/JsonTree.h"
+#include "io/ProfileJson.h"
+
+#include <pacini/foundation/Clamp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+using Json = nlohmann::json;
+
+int sizeOf(const Json& tree, const char* name)
+{
+    const auto found = tree.find(name);
+    if (found == tree.end() || !found->is_number())
+        return 0;
+    return static_cast<int>(clampTo(found->get<double>(), 0.0, 10000.0));
+}
+
+void addNote(std::string& note, const std::string& more)
+{
+    note += (note.empty() ? "" : "; ") + more;
+}
+
+void readValues(const Json& named, ReadState& read)
+{
+    for (const ParameterRow& row : parameterTable)
+    {
+        const auto found = named.find(row.id);
+        if (found == named.end())
+            continue;
+        if (!found->is_number() || !std::isfinite(found->get<double>()))
+        {
+            addNote(read.note, std::string(row.name) + " is no number and has its default");
+            continue;
+        }
+        const double value = clampTo(found->get<double>(), row.low, row.high);
+        read.state.values.set(row.parameter, isDiscrete(row) ? std::round(value) : value);
+    }
+}
+} // namespace
+
+std::string stateText(const PluginState& state)
+{
+    Json tree;
+    tree["format"] = stateFormatName;
+    tree["version"] = stateFormatVersion;
+    Json& named = tree["parameters"];
+    for (const ParameterRow& row : parameterTable)
+        named[row.id] = state.values[row.parameter];
+    tree["program"] = state.program;
+    if (state.profile)
+        tree["profile"] = Json::parse(profileJson(*state.profile));
+    if (state.windowWidth > 0 && state.windowHeight > 0)
+        tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
+    if (!state.clips.empty())
+        tree["clips"] = Json::parse(state.clips);
+    return tree.dump();
+}
+
+Result<ReadState> readState(std::string_view text)
+{
+    auto tree = readJsonTree(text, largestState);
+    if (!tree)
+        return tree.error();
+    if (!tree->is_object() || tree->value("format", Json()) != Json(stateFormatName))
+        return Error{ErrorCode::invalidData, "format", "is no state of Pacini's plugin"};
+    const auto version = tree->find("version");
+    if (version == tree->end() || !version->is_number() || !(version->get<double>() >= 1.0))
+        return Error{ErrorCode::invalidData, "version", "is missing or no version"};
+    if (version->get<double>() > stateFormatVersion)
+        return Error{ErrorCode::unsupportedVersion, "version", "was written by a newer version of the plugin"};
+
+    ReadState read;
+    if (const auto named = tree->find("parameters"); named != tree->end() && named->is_object())
+        readValues(*named, read);
+    read.state.program = sizeOf(*tree, "program");
+    if (const auto window = tree->find("window"); window != tree->end() && window->is_object())
+    {
+        read.state.windowWidth = sizeOf(*window, "width");
+        read.state.windowHeight = sizeOf(*window, "height");
+    }
+    if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
+        read.state.clips = clips->dump();
+    if (const auto content = tree->find("profile"); content != tree->end() && !content->is_null())
+    {
+        auto profile = readProfileJson(content->dump());
+        if (profile)
+            read.state.profile = std::move(profile).value();
+        else
+            addNote(read.note, "the actuator of the session cannot be read: " + profile.error().text());
+    }
+    return read;
+}
+
+} // namespace pacini::plugin

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a session keeps of the plugin.
+
+#include "plugin/engine/ParameterValues.h"
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/foundation/Result.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pacini::plugin
+{
+
+inline constexpr std::string_view stateFormatName = "pacini.plugin";
+inline constexpr int stateFormatVersion = 1;
+
+/// Longer states are refused.
+inline constexpr std::size_t largestState = std::size_t(64) << 20;
+
+struct PluginState
+{
+    ParameterValues values;
+    std::optional<Profile> profile; ///< the content of the chosen one, so that a session sounds the same for ever
+    int program = 0;
+    std::string clips;   ///< the project of the clip editor, as text; empty: none
+    int windowWidth = 0; ///< 0: as it comes
+    int windowHeight = 0;
+    bool operator==(const PluginState&) const = default;
+};
+
+/// JSON. Values by the ids of the parameters, in their units.
+[[nodiscard]] std::string stateText(const PluginState& state);
+
+/// A state and what was wrong with it but could be done without.
+struct ReadState
+{
+    PluginState state;
+    std::string note; ///< empty: nothing
+};
+
+/// Reads a state of any version up to this one. A parameter that it does not name has its default, one that is unknown
+/// is ignored, values are limited to their ranges. Errors: invalidData for what is no state, unsupportedVersion for one
+/// from the future, tooLarge; nothing of it is to be used then.
+[[nodiscard]] Result<ReadState> readState(std::string_view text);
+
+} // namespace pacini::plugin

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/window/CapturePanel.h"
+
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "io/ClipFile.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+using editor::grid;
+using editor::paletteFor;
+using editor::toText;
+
+constexpr std::array<int, 4> lengths{3, 5, 10, 30}; // s
+} // namespace
+
+CapturePanel::CapturePanel(PluginProcessor& heard)
+    : source(heard), button("Capture"), editButton("Edit"), saveButton("Save" + toText("…"))
+{
+    for (const int seconds : lengths)
+        length.addItem("Last " + juce::String(seconds) + " s", seconds);
+    length.setSelectedId(5, juce::dontSendNotification);
+    length.setTitle("Length of the capture");
+    length.setTooltip("How much of what was heard becomes a clip");
+    button.setTooltip("Turns the last seconds of the sound into a clip");
+    button.setDescription("Turns the last seconds of the sound into a clip");
+    button.onClick = [this]
+    {
+        captureNow();
+    };
+    editButton.setTooltip("Opens the captured clip in the clip editor");
+    editButton.setDescription("Opens the captured clip in the clip editor");
+    editButton.setEnabled(false);
+    editButton.onClick = [this]
+    {
+        if (onEdit)
+            onEdit(*clip);
+    };
+    saveButton.setTooltip("Saves the captured clip, as JSON or packed");
+    saveButton.setDescription("Saves the captured clip, as JSON or packed");
+    saveButton.setEnabled(false);
+    saveButton.onClick = [this]
+    {
+        chooseFile();
+    };
+    message.setFont(editor::smallFont());
+    message.setJustificationType(juce::Justification::centredLeft);
+    for (juce::Component* child :
+         std::initializer_list<juce::Component*>{&length, &button, &editButton, &saveButton, &message})
+        addAndMakeVisible(child);
+    addChildComponent(chip);
+}
+
+void CapturePanel::resized()
+{
+    auto area = getLocalBounds();
+    auto row = area.removeFromTop(3 * grid + 2);
+    button.setBounds(row.removeFromLeft(11 * grid));
+    row.removeFromLeft(grid);
+    length.setBounds(row.removeFromLeft(13 * grid));
+    row.removeFromLeft(grid);
+    editButton.setBounds(row.removeFromLeft(7 * grid));
+    row.removeFromLeft(grid);
+    saveButton.setBounds(row.removeFromLeft(9 * grid));
+    row.removeFromLeft(grid);
+    chip.setBounds(row);
+    message.setBounds(row);
+}
+
+void CapturePanel::captureNow()
+{
+    auto capture = source.capture(static_cast<double>(length.getSelectedId()));
+    ++captures;
+    const bool begun = job.begin(std::move(capture), source.sampleRate(), "capture " + juce::String(captures),
+                                 [this](Result<Clip> made) { take(std::move(made)); });
+    if (begun)
+        button.setEnabled(false);
+}
+
+void CapturePanel::take(Result<Clip> made)
+{
+    button.setEnabled(true);
+    if (!made)
+    {
+        say("No clip: " + juce::String(made.error().text()), true);
+        return;
+    }
+    clip = std::move(made).value();
+    const auto written = editor::writeForDragging(*clip);
+    file = written ? *written : juce::File();
+    say(written ? juce::String() : "Cannot be dragged: " + toText(written.error().text()), !written);
+    chip.show(*clip, [this] { return file; });
+    saveButton.setEnabled(true);
+    editButton.setEnabled(true);
+}
+
+void CapturePanel::chooseFile()
+{
+    chooser = std::make_unique<juce::FileChooser>(
+        "Save the clip",
+        juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(file.getFileName()),
+        "*.json;*.pacb");
+    chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
+                         [this](const juce::FileChooser& chosen)
+                         {
+                             if (chosen.getResult() != juce::File())
+                                 save(chosen.getResult());
+                         });
+}
+
+void CapturePanel::save(const juce::File& chosen)
+{
+    const bool packed = chosen.hasFileExtension("pacb");
+    const juce::File target = packed || chosen.hasFileExtension("json") ? chosen : chosen.withFileExtension("json");
+    const auto written =
+        writeClip(target.getFullPathName().toStdString(), *clip, packed ? ClipFormat::packed : ClipFormat::json);
+    if (!written)
+        say("Not saved: " + juce::String(written.error().text()), true);
+}
+
+void CapturePanel::say(const juce::String& text, bool wrong)
+{
+    message.setColour(juce::Label::textColourId, wrong ? paletteFor(*this).warning : paletteFor(*this).dim);
+    message.setText(text, juce::dontSendNotification);
+    message.setTooltip(text);
+    if (wrong)
+        chip.setVisible(false);
+}
+
+} // namespace pacini::plugin

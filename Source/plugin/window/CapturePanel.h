@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The last seconds of the sound as a clip: one button, and something to drag out or to save.
+
+#include "editor/CaptureJob.h"
+#include "editor/ClipChip.h"
+#include "plugin/engine/PluginProcessor.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <functional>
+#include <memory>
+
+namespace pacini::plugin
+{
+
+class CapturePanel final : public juce::Component
+{
+public:
+    explicit CapturePanel(PluginProcessor& heard);
+
+    std::function<void(const Clip&)> onEdit; ///< opens the clip in an editor; null: there is none
+
+    void resized() override;
+
+private:
+    void captureNow();
+    void take(Result<Clip> clip);
+    void chooseFile();
+    void save(const juce::File& chosen);
+    void say(const juce::String& text, bool wrong);
+
+    PluginProcessor& source;
+    juce::ComboBox length;
+    juce::TextButton button, editButton, saveButton;
+    editor::ClipChip chip;
+    juce::Label message;
+    std::optional<Clip> clip;
+    juce::File file; ///< of the clip, to be dragged
+    std::unique_ptr<juce::FileChooser> chooser;
+    int captures = 0;
+    editor::CaptureJob job; // ends first
+};
+
+} // namespace pacini::plugin

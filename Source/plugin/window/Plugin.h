@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plugin as hosts see it: the processor with its window.
+
+#include "plugin/engine/PluginProcessor.h"
+#include "plugin/window/HostedSession.h"
+
+namespace pacini::plugin
+{
+
+class Plugin final : public PluginProcessor
+{
+public:
+    Plugin() = default;
+
+    juce::AudioProcessorEditor* createEditor() override;
+    bool hasEditor() const override { return true; }
+
+    /// The clips that are edited in the window; they stay open when it is closed.
+    [[nodiscard]] HostedSession& clips() noexcept { return clipDesk; }
+
+private:
+    HostedSession clipDesk{project()};
+
+    JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(Plugin)
+};
+
+} // namespace pacini::plugin

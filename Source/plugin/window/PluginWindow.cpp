@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin/window/PluginWindow.h"
+
+#include "document/ProfileShelf.h"
+
+#include <cmath>
+
+namespace pacini::plugin
+{
+
+namespace
+{
+using editor::grid;
+
+constexpr int usualWidth = 1024;
+constexpr int usualHeight = 648;
+constexpr int leastWidth = 936;
+constexpr int leastHeight = 608;
+constexpr int framesPerSecond = 30;
+constexpr int rowHeight = 3 * grid + 2;
+constexpr int topCard = 28 * grid;
+
+juce::String nameOf(ParameterId parameter)
+{
+    return rowOf(parameter).name;
+}
+
+/// Beside the name of the group, under a knob.
+juce::String labelOf(ParameterId parameter)
+{
+    switch (parameter)
+    {
+    case ParameterId::transposition:
+        return "Transpose";
+    case ParameterId::transientSensitivity:
+        return "Sensitivity";
+    case ParameterId::gateThreshold:
+        return "Threshold";
+    case ParameterId::gateRelease:
+        return "Release";
+    default:
+        return nameOf(parameter);
+    }
+}
+
+juce::String helpOf(ParameterId parameter)
+{
+    return rowOf(parameter).help;
+}
+
+/// The values that a menu offers: all but free slots.
+std::vector<int> offered(const ParameterRow& row)
+{
+    std::vector<int> values;
+    for (std::size_t i = 0; i < row.choices.size(); ++i)
+        if (row.parameter != ParameterId::profile || !profileNameOf(i).empty() || i == ownProfileSlot)
+            values.push_back(static_cast<int>(i));
+    return values;
+}
+
+bool systemIsDark()
+{
+    return juce::Desktop::getInstance().isDarkModeActive();
+}
+} // namespace
+
+juce::AudioProcessorEditor* Plugin::createEditor()
+{
+    return new PluginWindow(*this);
+}
+
+PluginWindow::PluginWindow(Plugin& shown)
+    : AudioProcessorEditor(shown),
+      processor(shown),
+      tooltips(this, 600),
+      inputMeter("Input", "Peak of the sound that is turned into touch",
+                 {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
+      outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
+                  {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
+      reductionMeter("Gain reduction", "Gain reduction by the limiter and the actuator's protection",
+                     {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
+      feltMeter("Above touch threshold", "How far the haptic signal stands above what is just felt",
+                {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true}),
+      capture(shown)
+{
+    using Id = ParameterId;
+    look.setDark(systemIsDark());
+    setLookAndFeel(&look);
+    setTitle("Pacini");
+    setDescription("Turns sound into touch");
+
+    for (int i = 0; i < processor.getNumPrograms(); ++i)
+        programChoice.addItem(processor.getProgramName(i), i + 1);
+    programChoice.setTitle("Program");
+    programChoice.setDescription("Settings to start from");
+    programChoice.setTooltip("Settings to start from");
+    programChoice.onChange = [this]
+    {
+        if (programChoice.getSelectedId() > 0)
+        {
+            processor.applyProgram(programChoice.getSelectedId() - 1);
+            processor.updateHostDisplay(juce::AudioProcessor::ChangeDetails().withProgramChanged(true));
+        }
+    };
+    adopt(programChoice, nullptr);
+    actuator = choice(Id::profile);
+    loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
+    loadButton.setTitle("Load an actuator");
+    loadButton.setTooltip("Takes an actuator from a profile file");
+    loadButton.onClick = [this]
+    {
+        chooseActuator();
+    };
+    adopt(loadButton, nullptr);
+    bypassToggle = toggle(Id::bypass, "Bypass");
+    clipsButton.setButtonText("Clips");
+    clipsButton.setTitle("Clip editor");
+    clipsButton.setTooltip("Captured and opened clips, to see, edit and export; they are kept with the session");
+    clipsButton.setClickingTogglesState(true);
+    clipsButton.onClick = [this]
+    {
+        showClips(clipsButton.getToggleState());
+    };
+    adopt(clipsButton, nullptr);
+    themeButton.setTooltip("Light or dark");
+    themeButton.onClick = [this]
+    {
+        setDark(!look.isDark());
+    };
+    adopt(themeButton, nullptr);
+
+    sourceChoice = choice(Id::source);
+    sourceMix = slider(Id::sourceMix, Shape::bar);
+    inputGain = slider(Id::inputGain, Shape::bar);
+    for (juce::Component* meter :
+         std::initializer_list<juce::Component*>{&inputMeter, &lamp, &bands, &outputMeter, &reductionMeter, &feltMeter})
+        addAndMakeVisible(meter);
+    outputMode = choice(Id::outputMode);
+    outputChannel = slider(Id::outputChannel, Shape::bar);
+
+    roleLevels = {slider(Id::rumbleLevel, Shape::bar), nullptr, nullptr};
+    roleMutes = {toggle(Id::rumbleMute, "Mute"), nullptr, nullptr};
+    roleLevels[1] = slider(Id::textureLevel, Shape::bar);
+    roleMutes[1] = toggle(Id::textureMute, "Mute");
+    roleLevels[2] = slider(Id::transientLevel, Shape::bar);
+    roleMutes[2] = toggle(Id::transientMute, "Mute");
+    intensity = slider(Id::intensity, Shape::knob);
+    brightness = slider(Id::brightness, Shape::knob);
+    transposition = slider(Id::transposition, Shape::knob);
+    direct = slider(Id::direct, Shape::knob);
+    attack = slider(Id::attack, Shape::knob);
+    release = slider(Id::release, Shape::knob);
+    sensitivity = slider(Id::transientSensitivity, Shape::knob);
+    sharpness = slider(Id::transientSharpness, Shape::knob);
+    gateThreshold = slider(Id::gateThreshold, Shape::knob);
+    gateRelease = slider(Id::gateRelease, Shape::knob);
+
+    capture.onEdit = [this](const Clip& clip)
+    {
+        editClip(clip);
+    };
+    adopt(capture, nullptr);
+    status.setFont(editor::smallFont());
+    status.setJustificationType(juce::Justification::centredRight);
+    status.setTitle("State");
+    addAndMakeVisible(status);
+
+    setDark(look.isDark());
+    const auto wanted = processor.windowSize(); // before the limits set a size
+    setResizable(true, true);
+    setResizeLimits(leastWidth, leastHeight, 2400, 1600);
+    setSize(wanted.x > 0 ? wanted.x : usualWidth, wanted.y > 0 ? wanted.y : usualHeight);
+    refresh();
+    startTimerHz(framesPerSecond);
+}
+
+PluginWindow::~PluginWindow()
+{
+    stopTimer();
+    clipView.reset();
+    setLookAndFeel(nullptr);
+}
+
+void PluginWindow::adopt(juce::Component& component, editor::Refreshed* wanted)
+{
+    component.setExplicitFocusOrder(++focusOrder);
+    addAndMakeVisible(component);
+    if (wanted)
+        refreshed.push_back(wanted);
+}
+
+std::unique_ptr<editor::ParameterSlider> PluginWindow::slider(ParameterId parameter, Shape shape)
+{
+    auto made = std::make_unique<editor::ParameterSlider>(processor.parameter(parameter), shape, labelOf(parameter),
+                                                          nameOf(parameter), helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+std::unique_ptr<editor::ParameterToggle> PluginWindow::toggle(ParameterId parameter, const juce::String& text)
+{
+    auto made = std::make_unique<editor::ParameterToggle>(processor.parameter(parameter), text, nameOf(parameter),
+                                                          helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+std::unique_ptr<editor::ParameterChoice> PluginWindow::choice(ParameterId parameter)
+{
+    auto made = std::make_unique<editor::ParameterChoice>(processor.parameter(parameter), offered(rowOf(parameter)),
+                                                          nameOf(parameter), helpOf(parameter));
+    adopt(*made, made.get());
+    return made;
+}
+
+void PluginWindow::setDark(bool dark)
+{
+    look.setDark(dark);
+    themeButton.setButtonText(dark ? "Light" : "Dark");
+    themeButton.setTitle(dark ? "Light colours" : "Dark colours");
+    status.setColour(juce::Label::textColourId, look.palette().dim);
+    sendLookAndFeelChange();
+    if (clipView)
+        clipView->setDark(dark);
+    repaint();
+    if (onThemeChange)
+        onThemeChange();
+}
+
+void PluginWindow::showClips(bool wanted)
+{
+    if (wanted && !clipView)
+    {
+        clipView = std::make_unique<editor::EditorView>(processor.clips().session(), editor::Surroundings{});
+        clipView->setDark(look.isDark());
+        clipView->setExplicitFocusOrder(++focusOrder);
+        addChildComponent(*clipView);
+    }
+    // What is behind must not be reached by keys.
+    for (juce::Component* child : getChildren())
+        if (child->getY() >= headerHeight || child == &lamp)
+            child->setVisible(!wanted);
+    clipsButton.setToggleState(wanted, juce::dontSendNotification);
+    if (clipView)
+        clipView->setVisible(wanted);
+    resized();
+    repaint();
+}
+
+void PluginWindow::editClip(const Clip& clip)
+{
+    showClips(true);
+    editor::Imported captured;
+    captured.clip = clip;
+    editor::Session& session = processor.clips().session();
+    if (session.model.isEmpty())
+        session.actuators.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
+    session.sounds.add(std::move(captured));
+}
+
+void PluginWindow::refresh()
+{
+    for (editor::Refreshed* each : refreshed)
+        each->refresh();
+    const int program = processor.getCurrentProgram() + 1;
+    if (programChoice.getSelectedId() != program)
+        programChoice.setSelectedId(program, juce::dontSendNotification);
+    showMeters();
+    showRouting();
+    const juce::String text = statusText();
+    if (text != status.getText())
+    {
+        status.setText(text, juce::dontSendNotification);
+        status.setTooltip(text);
+    }
+}
+
+void PluginWindow::showMeters()
+{
+    const auto reading = processor.readMeters();
+    inputMeter.show(20.0 * std::log10(static_cast<double>(processor.takeInputPeak())));
+    lamp.show(reading.events, reading.lastEventLevel);
+    bands.add(reading);
+    outputMeter.show(20.0 * std::log10(reading.outputPeak));
+    reductionMeter.show(reading.gainReduction > 0.05 ? reading.gainReduction : -1.0);
+    feltMeter.show(reading.overThreshold);
+}
+
+void PluginWindow::showRouting()
+{
+    const auto values = processor.values();
+    sourceMix->setEnabled(values.index(ParameterId::source) == static_cast<std::size_t>(SourceChoice::mix));
+    outputChannel->setEnabled(values.index(ParameterId::outputMode) ==
+                              static_cast<std::size_t>(OutputMode::addToChannel));
+}
+
+juce::String PluginWindow::statusText() const
+{
+    const juce::String note = processor.note();
+    if (note.isNotEmpty())
+        return note;
+    const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
+    return processor.actuatorName() + ", latency " + juce::String(milliseconds, 2) + " ms";
+}
+
+void PluginWindow::chooseActuator()
+{
+    chooser = std::make_unique<juce::FileChooser>("Load an actuator", juce::File(), "*.json");
+    chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+                         [this](const juce::FileChooser& chosen)
+                         {
+                             if (chosen.getResult() == juce::File())
+                                 return;
+                             const auto loaded = processor.loadActuator(chosen.getResult());
+                             if (!loaded)
+                                 juce::NativeMessageBox::showMessageBoxAsync(
+                                     juce::MessageBoxIconType::WarningIcon, "Not a profile",
+                                     chosen.getResult().getFileName() + ": " + juce::String(loaded.error().text()),
+                                     this);
+                         });
+}
+
+void PluginWindow::paint(juce::Graphics& g)
+{
+    const auto& palette = look.palette();
+    g.fillAll(palette.background);
+    g.setColour(palette.text);
+    g.setFont(editor::titleFont());
+    g.drawText("Pacini", juce::Rectangle<int>(2 * grid, grid, 10 * grid, 4 * grid), juce::Justification::centredLeft,
+               false);
+    if (clipView && clipView->isVisible())
+        return;
+    for (const Card& card : cards)
+        editor::drawCard(g, card.area, card.name, palette);
+}
+
+// Layout.
+
+void PluginWindow::resized()
+{
+    cards.clear();
+    const auto card = [this](juce::Rectangle<int> area, const juce::String& name)
+    {
+        cards.push_back({area, name});
+        return editor::insideOfCard(area);
+    };
+    if (clipView)
+        clipView->setBounds(getLocalBounds().withTrimmedTop(headerHeight));
+    auto area = getLocalBounds().reduced(grid);
+    placeHeader(area.removeFromTop(4 * grid).reduced(grid, 0));
+    area.removeFromTop(grid);
+
+    auto footer = area.removeFromBottom(5 * grid).reduced(grid, grid).withTrimmedBottom(-grid / 2);
+    status.setBounds(footer.removeFromRight(footer.getWidth() * 2 / 5));
+    capture.setBounds(footer.withTrimmedRight(2 * grid));
+
+    auto lower = area.removeFromBottom(19 * grid);
+    area.removeFromBottom(grid);
+
+    auto left = area.removeFromLeft(31 * grid);
+    area.removeFromLeft(grid);
+    auto right = area.removeFromRight(31 * grid);
+    area.removeFromRight(grid);
+    bands.setBounds(card(area, "Bands"));
+    const auto row = [](juce::Rectangle<int>& from)
+    {
+        const auto taken = from.removeFromTop(rowHeight);
+        from.removeFromTop(grid);
+        return taken;
+    };
+
+    auto sound = card(left.removeFromTop(topCard), "Sound");
+    left.removeFromTop(grid);
+    sourceChoice->setBounds(row(sound));
+    sourceMix->setBounds(row(sound));
+    inputGain->setBounds(row(sound));
+    sound.removeFromTop(grid);
+    inputMeter.setBounds(row(sound));
+    lamp.setBounds(left.withHeight(4 * grid).withTrimmedRight(2 * grid).removeFromRight(3 * grid));
+    placeKnobs(card(left, "Events"), {sensitivity.get(), sharpness.get()});
+
+    auto touch = card(right.removeFromTop(topCard), "Touch");
+    right.removeFromTop(grid);
+    outputMode->setBounds(row(touch));
+    outputChannel->setBounds(row(touch));
+    touch.removeFromTop(grid);
+    outputMeter.setBounds(row(touch));
+    reductionMeter.setBounds(row(touch));
+    feltMeter.setBounds(row(touch));
+    placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get()});
+
+    auto roles = card(lower.removeFromLeft(lower.getWidth() / 2 - grid / 2), "What is felt");
+    lower.removeFromLeft(grid);
+    for (std::size_t i = 0; i < roleLevels.size(); ++i)
+    {
+        auto line = roles.removeFromTop(roles.getHeight() / static_cast<int>(roleLevels.size() - i))
+                        .withSizeKeepingCentre(roles.getWidth(), rowHeight);
+        roleMutes[i]->setBounds(line.removeFromRight(7 * grid));
+        line.removeFromRight(grid);
+        roleLevels[i]->setBounds(line);
+    }
+    placeKnobs(card(lower, "Character"),
+               {intensity.get(), brightness.get(), transposition.get(), direct.get(), attack.get(), release.get()});
+
+    processor.setWindowSize(getWidth(), getHeight());
+}
+
+void PluginWindow::placeHeader(juce::Rectangle<int> area)
+{
+    area = area.withSizeKeepingCentre(area.getWidth(), rowHeight);
+    area.removeFromLeft(10 * grid);
+    themeButton.setBounds(area.removeFromRight(7 * grid));
+    area.removeFromRight(grid);
+    bypassToggle->setBounds(area.removeFromRight(9 * grid));
+    area.removeFromRight(grid);
+    clipsButton.setBounds(area.removeFromRight(8 * grid));
+    area.removeFromRight(2 * grid);
+    loadButton.setBounds(area.removeFromRight(9 * grid));
+    area.removeFromRight(grid);
+    actuator->setBounds(area.removeFromRight(area.getWidth() / 2).withTrimmedLeft(grid));
+    programChoice.setBounds(area);
+}
+
+void PluginWindow::placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs)
+{
+    int left = static_cast<int>(knobs.size());
+    for (editor::ParameterSlider* knob : knobs)
+        knob->setBounds(area.removeFromLeft(area.getWidth() / left--));
+}
+
+} // namespace pacini::plugin

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plugin's window.
+
+#include "editor/BandView.h"
+#include "editor/Meters.h"
+#include "editor/ParameterControls.h"
+#include "editor/Theme.h"
+#include "editor/clip/EditorView.h"
+#include "plugin/window/CapturePanel.h"
+#include "plugin/window/Plugin.h"
+
+#include <juce_audio_processors/juce_audio_processors.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace pacini::plugin
+{
+
+class PluginWindow final : public juce::AudioProcessorEditor, private juce::Timer
+{
+public:
+    explicit PluginWindow(Plugin& shown);
+    ~PluginWindow() override;
+
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    /// Looks at everything that may have changed, as the timer does.
+    void refresh();
+    void setDark(bool dark);
+    /// The clip editor in the place of the live controls.
+    void showClips(bool wanted);
+    [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
+    std::function<void()> onThemeChange; ///< for what shares the look
+
+private:
+    using Shape = editor::ParameterSlider::Shape;
+    static constexpr int headerHeight = 6 * editor::grid;
+
+    void timerCallback() override { refresh(); }
+    std::unique_ptr<editor::ParameterSlider> slider(ParameterId parameter, Shape shape);
+    std::unique_ptr<editor::ParameterToggle> toggle(ParameterId parameter, const juce::String& text);
+    std::unique_ptr<editor::ParameterChoice> choice(ParameterId parameter);
+    void adopt(juce::Component& component, editor::Refreshed* refreshed);
+    void chooseActuator();
+    void showMeters();
+    void showRouting();
+    void editClip(const Clip& clip);
+    void placeHeader(juce::Rectangle<int> area);
+    void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
+    [[nodiscard]] juce::String statusText() const;
+
+    Plugin& processor;
+    editor::Look look;
+    juce::TooltipWindow tooltips;
+    std::vector<editor::Refreshed*> refreshed;
+    int focusOrder = 0;
+
+    juce::ComboBox programChoice;
+    std::unique_ptr<editor::ParameterChoice> actuator;
+    juce::TextButton loadButton, themeButton, clipsButton;
+    std::unique_ptr<editor::ParameterToggle> bypassToggle;
+
+    std::unique_ptr<editor::ParameterChoice> sourceChoice;
+    std::unique_ptr<editor::ParameterSlider> sourceMix, inputGain;
+    editor::LevelMeter inputMeter;
+    editor::EventLamp lamp;
+
+    editor::BandView bands;
+
+    editor::LevelMeter outputMeter, reductionMeter, feltMeter;
+    std::unique_ptr<editor::ParameterChoice> outputMode;
+    std::unique_ptr<editor::ParameterSlider> outputChannel;
+
+    std::array<std::unique_ptr<editor::ParameterSlider>, 3> roleLevels;
+    std::array<std::unique_ptr<editor::ParameterToggle>, 3> roleMutes;
+    std::unique_ptr<editor::ParameterSlider> intensity, brightness, transposition, direct, attack, release;
+    std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
+
+    CapturePanel capture;
+    std::unique_ptr<editor::EditorView> clipView; ///< made when it is shown for the first time
+    juce::Label status;
+    std::unique_ptr<juce::FileChooser> chooser;
+
+    struct Card
+    {
+        juce::Rectangle<int> area;
+        juce::String name;
+    };
+    std::vector<Card> cards;
+
+    JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginWindow)
+};
+
+} // namespace pacini::plugin

@@ -1,0 +1,102 @@
+// How much time the plugin takes: `pacini_plugin_tests [.bench]`. Figures, no checks.
+
+#include "plugin/engine/Rig.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+using namespace pacini;
+using namespace pacini::test;
+using plugin::ParameterId;
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double microseconds(Clock::duration span)
+{
+    return std::chrono::duration<double, std::micro>(span).count();
+}
+} // namespace
+
+TEST_CASE("A hundred instances at 48 kHz in blocks of 256 on one core", "[.bench]")
+{
+    constexpr int frames = 256;
+    constexpr double blockTime = 1e6 * frames / 48000.0; // microseconds
+    for (const auto& [name, profile] :
+         {std::pair("flat drive", 0), std::pair("L5 wristband", 1), std::pair("LRA 175 Hz", 3)})
+    {
+        std::vector<std::unique_ptr<Rig>> rigs;
+        for (int i = 0; i < 100; ++i)
+        {
+            rigs.push_back(std::make_unique<Rig>());
+            rigs.back()->set(ParameterId::profile, profile);
+            rigs.back()->plugin.prepareToPlay(48000.0, frames);
+        }
+        const auto sound = liveSounds(2, 48000, 3);
+        juce::MidiBuffer midi;
+        juce::AudioBuffer<float> buffer(3, frames);
+        std::vector<double> all, one;
+        for (int block = 0; block < 5 * 187; ++block)
+        {
+            const auto begin = Clock::now();
+            for (const auto& rig : rigs)
+            {
+                for (int c = 0; c < 2; ++c)
+                    buffer.copyFrom(c, 0, sound[static_cast<std::size_t>(c)].data() + (block % 187) * frames, frames);
+                const auto before = Clock::now();
+                rig->plugin.processBlock(buffer, midi);
+                one.push_back(microseconds(Clock::now() - before));
+            }
+            all.push_back(microseconds(Clock::now() - begin));
+        }
+        std::sort(all.begin(), all.end());
+        std::sort(one.begin(), one.end());
+        const auto at = [](const std::vector<double>& sorted, double share)
+        {
+            return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+        };
+        std::printf("%-14s 100 instances: median %6.0f us, p99 %6.0f us of %.0f us a block (%.1f %% of one core); one: "
+                    "median %.2f us, p99 %.2f us (%.3f %%)\n",
+                    name, at(all, 0.5), at(all, 0.99), blockTime, 100.0 * at(all, 0.5) / blockTime, at(one, 0.5),
+                    at(one, 0.99), 100.0 * at(one, 0.5) / blockTime);
+    }
+    Rig rig;
+    std::printf("latency %d frames at 48 kHz, %.2f ms\n", rig.plugin.getLatencySamples(),
+                rig.plugin.getLatencySamples() / 48.0);
+}
+
+TEST_CASE("What the plugin adds to its translator", "[.bench]")
+{
+    constexpr int frames = 256;
+    const auto sound = liveSound(48000, 3);
+    double plain = 1e9, wrapped = 1e9;
+    for (int repeat = 0; repeat < 20; ++repeat)
+    {
+        Translator translator;
+        translator.prepare({48000.0, frames});
+        std::vector<float> drive(frames);
+        auto begin = Clock::now();
+        for (std::size_t i = 0; i + frames <= sound.size(); i += frames)
+            translator.process(std::span(sound).subspan(i, frames), drive);
+        plain = std::min(plain, microseconds(Clock::now() - begin));
+
+        Rig rig;
+        juce::AudioBuffer<float> buffer(3, frames);
+        juce::MidiBuffer midi;
+        Clock::duration span{};
+        for (std::size_t i = 0; i + frames <= sound.size(); i += frames)
+        {
+            buffer.copyFrom(0, 0, sound.data() + i, frames);
+            buffer.copyFrom(1, 0, sound.data() + i, frames);
+            begin = Clock::now();
+            rig.plugin.processBlock(buffer, midi);
+            span += Clock::now() - begin;
+        }
+        wrapped = std::min(wrapped, microseconds(span));
+    }
+    const double blocks = 48000.0 / frames;
+    std::printf("a block of 256: translator %.2f us, plugin %.2f us\n", plain / blocks, wrapped / blocks);
+}

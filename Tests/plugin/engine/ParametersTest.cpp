@@ -1,0 +1,163 @@
+// The table of parameters, and values as text.
+
+#include "document/ProfileShelf.h"
+#include "io/ProfileFile.h"
+#include "plugin/engine/ParameterText.h"
+#include "plugin/engine/Rig.h"
+#include "support/Paths.h"
+
+#include <pacini/realtime/TranslatorPresets.h>
+
+#include <filesystem>
+#include <set>
+
+using namespace pacini;
+using namespace pacini::test;
+using namespace pacini::plugin;
+
+TEST_CASE("Every value has a text that reads back as what the text says")
+{
+    Random random(1);
+    for (const ParameterRow& row : parameterTable)
+        for (int i = 0; i <= 200; ++i)
+        {
+            CAPTURE(row.id);
+            const double normal = i <= 100 ? 0.01 * i : random.uniform();
+            const double value = valueAt(row, normal);
+            const std::string text = textOf(row, value);
+            CAPTURE(value, text);
+            const auto read = valueOf(row, text);
+            REQUIRE(read);
+            CHECK(textOf(row, *read) == text);
+            CHECK(*read == Approx(value).margin(0.5 * (row.unit == ParameterUnit::percent ? 0.0101 : 1.001)));
+            CHECK(normalOf(row, value) == Approx(normalOf(row, valueAt(row, normalOf(row, value)))).margin(1e-12));
+        }
+}
+
+TEST_CASE("Texts are read as people type them")
+{
+    const auto read = [](ParameterId id, const char* text)
+    {
+        return valueOf(rowOf(id), text);
+    };
+    CHECK(read(ParameterId::intensity, "-12") == -12.0);
+    CHECK(read(ParameterId::intensity, " -12,5 dB ") == -12.5);
+    CHECK(read(ParameterId::intensity, "\xE2\x88\x92 3 dB") == std::nullopt);
+    CHECK(read(ParameterId::intensity, "\xE2\x88\x92"
+                                       "3 dB") == -3.0);
+    CHECK(read(ParameterId::intensity, "-inf") == -60.0);
+    CHECK(read(ParameterId::intensity, "100 dB") == 24.0);
+    CHECK(read(ParameterId::intensity, "3 ms") == std::nullopt);
+    CHECK(read(ParameterId::intensity, "loud") == std::nullopt);
+    CHECK(read(ParameterId::intensity, "") == std::nullopt);
+    CHECK(read(ParameterId::intensity, "nan") == std::nullopt);
+    CHECK(read(ParameterId::release, "0.5 s") == 500.0);
+    CHECK(read(ParameterId::release, "80ms") == 80.0);
+    CHECK(read(ParameterId::direct, "50") == 0.5);
+    CHECK(read(ParameterId::direct, "50 %") == 0.5);
+    CHECK(read(ParameterId::bypass, "on") == 1.0);
+    CHECK(read(ParameterId::bypass, "0") == 0.0);
+    CHECK(read(ParameterId::source, "side") == 1.0);
+    CHECK(read(ParameterId::source, "2") == 2.0);
+    CHECK(read(ParameterId::profile, "lra 235 hz") == 4.0);
+    CHECK(read(ParameterId::profile, "Own file") == 31.0);
+    CHECK(textOf(rowOf(ParameterId::transposition), -0.001) == "0.00 st");
+    CHECK(textOf(rowOf(ParameterId::release), 99.96) == "100 ms");
+}
+
+TEST_CASE("Normalised values survive exactly, discrete ones snap")
+{
+    PluginProcessor plugin;
+    Random random(2);
+    for (const ParameterRow& row : parameterTable)
+    {
+        CAPTURE(row.id);
+        auto& parameter = plugin.parameter(row.parameter);
+        CHECK(parameter.getParameterID() == row.id);
+        CHECK(parameter.getVersionHint() == row.since);
+        CHECK(parameter.getValue() == parameter.getDefaultValue());
+        CHECK(parameter.value() == Approx(row.standard));
+        for (int i = 0; i < 50; ++i)
+        {
+            const auto normal = static_cast<float>(random.uniform());
+            parameter.setValue(normal);
+            if (parameter.isDiscrete())
+                CHECK(std::abs(parameter.getValue() - normal) <=
+                      0.5001f / static_cast<float>(parameter.getNumSteps() - 1));
+            else
+                CHECK(parameter.getValue() == normal);
+            const auto text = parameter.getText(parameter.getValue(), 0);
+            CHECK(parameter.getText(parameter.getValueForText(text), 0) == text);
+        }
+        parameter.setValue(-1.0f);
+        CHECK(parameter.getValue() == 0.0f);
+        parameter.setValue(2.0f);
+        CHECK(parameter.getValue() == 1.0f);
+        CHECK(parameter.getText(0.5f, 3).length() <= 3);
+    }
+}
+
+TEST_CASE("The ids of released parameters never change")
+{
+    std::vector<std::string> ids;
+    std::set<std::string> unique;
+    for (const ParameterRow& row : parameterTable)
+        unique.insert(ids.emplace_back(row.id));
+    CHECK(unique.size() == parameterCount);
+    const std::set<std::string> first{
+        "source",      "sourceMix",      "outputMode",           "outputChannel",      "profile",
+        "inputGain",   "intensity",      "rumbleLevel",          "rumbleMute",         "textureLevel",
+        "textureMute", "transientLevel", "transientMute",        "transposition",      "direct",
+        "attack",      "release",        "transientSensitivity", "transientSharpness", "gateThreshold",
+        "gateRelease", "bypass"};
+    CHECK(std::includes(unique.begin(), unique.end(), first.begin(), first.end()));
+}
+
+TEST_CASE("The defaults of the table are those of the translator")
+{
+    CHECK(ParameterValues().translator() == TranslatorParams());
+}
+
+TEST_CASE("Every shipped profile has a slot with its content, and only those")
+{
+    std::set<std::string> shelved;
+    for (std::size_t slot = 0; slot < profileSlots; ++slot)
+    {
+        CAPTURE(slot);
+        const std::string name(profileNameOf(slot));
+        const auto profile = shelfProfile(slot);
+        REQUIRE(profile.has_value() == !name.empty());
+        if (!profile)
+            continue;
+        shelved.insert(name + ".json");
+        const auto file = readProfile(sourceFolder() / "profiles" / (name + ".json"));
+        REQUIRE(file);
+        CHECK(*file == *profile);
+    }
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / "profiles"))
+        files.insert(entry.path().filename().string());
+    CHECK(shelved == files);
+}
+
+TEST_CASE("Programs set everything but routing, actuator and bypass")
+{
+    PluginProcessor plugin;
+    plugin.parameter(ParameterId::source).setPlainNotifyingHost(1.0);
+    plugin.parameter(ParameterId::profile).setPlainNotifyingHost(3.0);
+    plugin.parameter(ParameterId::attack).setPlainNotifyingHost(77.0);
+    for (int i = plugin.getNumPrograms() - 1; i >= 0; --i)
+    {
+        plugin.setCurrentProgram(i);
+        CHECK(plugin.getCurrentProgram() == i);
+        CHECK(plugin.getProgramName(i).isNotEmpty());
+        const auto values = plugin.values();
+        CHECK(values[ParameterId::source] == 1.0);
+        CHECK(values[ParameterId::profile] == 3.0);
+        CHECK(values.translator() == translatorPresets()[static_cast<std::size_t>(i)].params);
+    }
+    CHECK(plugin.values().translator() == TranslatorParams());
+    plugin.setCurrentProgram(-1);
+    plugin.setCurrentProgram(1000);
+    CHECK(plugin.getCurrentProgram() == 0);
+}

@@ -1,0 +1,183 @@
+// The window, without any screen.
+
+#include "editor/CaptureJob.h"
+#include "io/ClipFile.h"
+#include "plugin/engine/Rig.h"
+#include "plugin/window/PluginWindow.h"
+#include "support/TempFolder.h"
+
+#include <atomic>
+#include <set>
+#include <thread>
+
+using namespace pacini;
+using namespace pacini::test;
+using plugin::ParameterId;
+
+namespace
+{
+using WindowRig = RigOf<plugin::Plugin>;
+
+/// Distinct colours in a picture of the window: a blank or broken one has few.
+std::size_t colours(plugin::PluginWindow& window)
+{
+    const auto image = window.createComponentSnapshot(window.getLocalBounds());
+    std::set<juce::uint32> seen;
+    for (int y = 0; y < image.getHeight(); y += 2)
+        for (int x = 0; x < image.getWidth(); x += 2)
+            seen.insert(image.getPixelAt(x, y).getARGB());
+    return seen.size();
+}
+
+template <typename Visit>
+void forEachChild(juce::Component& parent, Visit&& visit)
+{
+    for (juce::Component* child : parent.getChildren())
+    {
+        visit(*child);
+        forEachChild(*child, visit);
+    }
+}
+} // namespace
+
+TEST_CASE("The window draws itself, light and dark, small and large, and its meters move with the sound")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    for (const bool dark : {false, true})
+        for (const auto size : {juce::Point<int>(936, 608), juce::Point<int>(2000, 1300)})
+        {
+            window.setDark(dark);
+            window.setSize(size.x, size.y);
+            CHECK(colours(window) > 20);
+        }
+    const auto before = window.createComponentSnapshot(window.getLocalBounds());
+    for (int i = 0; i < 10; ++i)
+    {
+        (void)rig.run(liveSounds(2, 4800, 3));
+        window.refresh();
+    }
+    const auto after = window.createComponentSnapshot(window.getLocalBounds());
+    int changed = 0;
+    for (int y = 0; y < before.getHeight(); y += 3)
+        for (int x = 0; x < before.getWidth(); x += 3)
+            changed += before.getPixelAt(x, y) != after.getPixelAt(x, y) ? 1 : 0;
+    CHECK(changed > 500);
+}
+
+TEST_CASE("Every control has a name, a help text and a place that the keyboard reaches")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    std::size_t controls = 0;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     const bool slider = dynamic_cast<juce::Slider*>(&child) != nullptr;
+                     const bool other = dynamic_cast<juce::Button*>(&child) || dynamic_cast<juce::ComboBox*>(&child);
+                     if (!slider && !other)
+                         return;
+                     const bool inner = child.findParentComponentOfClass<juce::Slider>() != nullptr;
+                     if (inner || !child.isVisible() || !child.isEnabled() ||
+                         dynamic_cast<juce::ResizableCornerComponent*>(&child))
+                         return;
+                     ++controls;
+                     const auto* button = dynamic_cast<juce::Button*>(&child);
+                     CAPTURE(child.getTitle(), button ? button->getButtonText() : juce::String());
+                     CHECK((child.getTitle().isNotEmpty() || (button && button->getButtonText().isNotEmpty())));
+                     CHECK(dynamic_cast<juce::SettableTooltipClient&>(child).getTooltip().isNotEmpty());
+                     CHECK(child.getWantsKeyboardFocus());
+                     CHECK(child.getWidth() >= 24);
+                     CHECK(child.getHeight() >= 16);
+                 });
+    CHECK(controls >= 22);
+}
+
+TEST_CASE("No control lies on another one or outside of the window, at any size")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    for (const auto size : {juce::Point<int>(936, 608), juce::Point<int>(1024, 648), juce::Point<int>(1700, 1100)})
+    {
+        window.setSize(size.x, size.y);
+        std::vector<juce::Component*> placed;
+        for (juce::Component* child : window.getChildren())
+            if (child->isVisible() && !dynamic_cast<juce::ResizableCornerComponent*>(child) &&
+                !dynamic_cast<juce::TooltipWindow*>(child))
+                placed.push_back(child);
+        for (std::size_t i = 0; i < placed.size(); ++i)
+        {
+            CAPTURE(size.x, placed[i]->getTitle(), placed[i]->getBounds().toString());
+            CHECK_FALSE(placed[i]->getBounds().isEmpty());
+            CHECK(window.getLocalBounds().contains(placed[i]->getBounds()));
+            for (std::size_t k = 0; k < i; ++k)
+            {
+                CAPTURE(placed[k]->getTitle(), placed[k]->getBounds().toString());
+                CHECK_FALSE(placed[k]->getBounds().intersects(placed[i]->getBounds()));
+            }
+        }
+    }
+}
+
+TEST_CASE("Windows open and close while sound plays on another thread")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    std::atomic<bool> playing{true};
+    std::thread audio(
+        [&]
+        {
+            while (playing)
+                (void)rig.run(liveSounds(2, 512, 3));
+        });
+    for (int i = 0; i < 10; ++i)
+    {
+        const std::unique_ptr<juce::AudioProcessorEditor> window(rig.plugin.createEditorIfNeeded());
+        REQUIRE(window);
+        for (int k = 0; k < 5; ++k)
+        {
+            rig.set(ParameterId::intensity, -i - k);
+            dynamic_cast<plugin::PluginWindow&>(*window).refresh();
+        }
+        rig.plugin.editorBeingDeleted(window.get());
+    }
+    playing = false;
+    audio.join();
+}
+
+TEST_CASE("The size of the window is kept")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    rig.plugin.setWindowSize(1300, 800);
+    plugin::PluginWindow window(rig.plugin);
+    CHECK(window.getWidth() == 1300);
+    CHECK(window.getHeight() == 800);
+    window.setSize(1200, 700);
+    CHECK(rig.plugin.windowSize() == juce::Point<int>(1200, 700));
+}
+
+TEST_CASE("What was heard last becomes a clip")
+{
+    WindowRig rig;
+    const auto in = liveSounds(2, 5 * 48000, 3);
+    (void)rig.run(in);
+    const auto capture = rig.plugin.capture(2.0);
+    REQUIRE(capture.samples.size() == 96000);
+    CHECK(capture.samples.back() == Approx(0.5f * (in[0].back() + in[1].back())));
+    const auto clip = editor::clipOfCapture(capture, 48000.0, "capture 1");
+    REQUIRE(clip);
+    CHECK(clip->duration == Approx(2.0).margin(0.05));
+    CHECK(clip->bands.size() > 0);
+    CHECK(clip->envelope.size() > 5);
+    const TempFolder folder;
+    REQUIRE(writeClip(folder / "capture.json", *clip, ClipFormat::json));
+    const auto read = readClip(folder / "capture.json");
+    REQUIRE(read);
+    CHECK(*read == *clip);
+    CHECK_FALSE(editor::clipOfCapture({}, 48000.0, "nothing"));
+    CHECK_FALSE(editor::clipOfCapture(capture, 768001.0, "too fast"));
+}
