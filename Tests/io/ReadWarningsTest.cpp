@@ -6,9 +6,9 @@
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/ProfileFile.h"
+#include "io/SceneFields.h"
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
-#include "io/SceneJsonRules.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/RandomScene.h"
@@ -57,13 +57,12 @@ Strings clipWarnings(const std::string& members)
     return warnings.texts();
 }
 
-template <std::size_t n>
-std::set<std::string> namesOf(const sceneJson::Member (&members)[n])
+/// The keys that the reader of scenes knows in a T.
+template <typename T, typename Fields>
+std::set<std::string> namesOf(Fields fields)
 {
-    std::set<std::string> names;
-    for (const sceneJson::Member& member : members)
-        names.emplace(member.name);
-    return names;
+    const auto keys = FieldsHandler::keysOf<T>(fields);
+    return {keys.begin(), keys.end()};
 }
 
 std::string textOf(const std::filesystem::path& path)
@@ -257,13 +256,13 @@ TEST_CASE("The page about scenes lists every key, as the schema and the reader k
 {
     const std::string page = textOf(sourceFolder() / "Resources/docs/scenes.md");
     const auto schema = nlohmann::json::parse(textOf(sourceFolder() / "Resources/schema/pacini.scene.schema.json"));
-    CHECK(keysInTable(page, "the scene |") == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInTable(page, "an entry of `clips`") == namesOf(sceneJson::clipMembers));
-    CHECK(keysInTable(page, "a play |") == namesOf(sceneJson::playMembers));
-    CHECK(keysInTable(page, "a `variation`") == namesOf(sceneJson::variationMembers));
-    CHECK(keysInTable(page, "a change |") == namesOf(sceneJson::changeMembers));
-    CHECK(keysInSchema(schema) == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf(sceneJson::playMembers));
-    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf(sceneJson::variationMembers));
-    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf(sceneJson::changeMembers));
+    CHECK(keysInTable(page, "the scene |") == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInTable(page, "an entry of `clips`") == namesOf<sceneFields::DraftClip>(sceneFields::clipEntry));
+    CHECK(keysInTable(page, "a play |") == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInTable(page, "a `variation`") == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInTable(page, "a change |") == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
+    CHECK(keysInSchema(schema) == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
 }
