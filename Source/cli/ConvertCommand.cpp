@@ -108,13 +108,12 @@ ManifestEntry entryOf(const ConvertTask& task)
 
 CLI::App* ConvertCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand(
-        "convert", "Convert clips between formats, Pacini's own and others', or a profile between JSON and ACF");
+    auto* command = app.add_subcommand("convert", "Convert clips between formats, or a profile between JSON and ACF");
     command
-        ->add_option("inputs", inputs,
-                     "Clips or folders of them, - for standard input, or a profile; then what to write unless -o says "
-                     "it; a file "
-                     "there is replaced only if it was the same anyway")
+        ->add_option(
+            "inputs", inputs,
+            "Clips or folders of them, - for standard input, or a profile; then the output unless -o names it; a "
+            "file there is replaced only if its content stays the same")
         ->required()
         ->type_name("IN... OUT");
     command->add_option("-o,--output", output, "File, folder for several inputs, or - for standard output")
@@ -122,7 +121,9 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
     std::vector<std::string> names;
     for (const ClipTarget& target : clipTargets())
         names.emplace_back(target.name);
-    command->add_option("--format", format, "What to write; 'pacini lint --targets' explains [by the extension of OUT]")
+    command
+        ->add_option("--format", format,
+                     "Format to write; 'pacini lint --targets' explains them [by the extension of OUT]")
         ->check(oneOf(names));
     command
         ->add_option("--quantise", quantise,
@@ -130,9 +131,8 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
         ->check(wholeNumberFrom(4, 16));
     options.declare(*command);
     command
-        ->add_option(
-            "--manifest", manifest,
-            fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName))
+        ->add_option("--manifest", manifest,
+                     fmt::format("File that records the result of each input [{} in the output folder]", manifestName))
         ->type_name("FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     overwriting.declare(*command);

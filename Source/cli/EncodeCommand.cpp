@@ -174,7 +174,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->check(numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan,
-                      "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
+                      "Read samples that are not finite, or absurdly large, as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     overwriting.declare(*command);

@@ -140,7 +140,7 @@ Result<Json> describeAudio(const std::string& file)
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
     auto* command =
-        app.add_subcommand("info", "Say what a clip of any format, a scene, a sound or an actuator profile holds");
+        app.add_subcommand("info", "Show what is in a clip of any format, a scene, a sound or an actuator profile");
     command->add_option("inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles")
         ->required()
         ->type_name("FILE|PROFILE");

@@ -76,13 +76,13 @@ std::string errorText(const FormatLoss& loss)
 CLI::App* LintCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
-        "lint", "Say what another format will lose of clips, where and how much, and what a scene does not play");
+        "lint", "Show what clips lose in another format, where and how much, and what a scene never plays");
     command->add_option("inputs", inputs, "Clips of any format, scenes, or folders of them")->type_name("CLIP");
     std::vector<std::string> names;
     for (const ClipTarget& known : clipTargets())
         if (known.foreign != nullptr)
             names.emplace_back(known.name);
-    command->add_option("--target", target, "The format, see --targets; scenes are also looked at without one")
+    command->add_option("--target", target, "Format to check, see --targets; scenes are checked without one too")
         ->check(oneOf(names));
     command->add_flag("--targets", listTargets, "List the formats and do nothing else");
     options.declare(*command);

@@ -73,7 +73,8 @@ std::string playText(const PlayReport& play)
     text += fmt::format(" at an inner rate of {:.0f} Hz{}, {}", d.innerRate,
                         d.levelled ? ", levelled to the envelope" : "", counted(d.pulses, "pulse", "pulses"));
     if (d.maskedTransients > 0)
-        text += fmt::format(" ({} that the bands reach by themselves)", counted(d.maskedTransients, "event", "events"));
+        text += fmt::format(" ({} without a pulse: the bands alone are as strong)",
+                            counted(d.maskedTransients, "event", "events"));
     return text;
 }
 

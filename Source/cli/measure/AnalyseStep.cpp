@@ -131,12 +131,12 @@ CLI::App* AnalyseStep::declare(CLI::App& app)
     auto* command = app.add_subcommand("analyse", "Find the response of an actuator from recordings of a sweep");
     options.declare(*command);
     command->add_option("-o,--output", output, "Profile (.json) or table (.csv) to write")->type_name("OUT");
-    command->add_option("--profile", base, "Profile to take what was not measured from, such as its drive limits")
+    command->add_option("--profile", base, "Profile for what was not measured, such as drive limits")
         ->type_name("PROFILE");
     command->add_option("--name", name, "Name of the profile to write")->type_name("NAME");
     command->add_option("--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)")
         ->type_name("PICTURE");
-    command->add_option("--distortion-limit", distortionLimit, "Distortion whose drive is looked for, %")
+    command->add_option("--distortion-limit", distortionLimit, "Distortion for which the drive level is reported, %")
         ->capture_default_str()
         ->check(numberFrom(0.01, 100.0))
         ->type_name("%");

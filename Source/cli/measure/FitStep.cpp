@@ -132,7 +132,7 @@ CLI::App* FitStep::declare(CLI::App& app)
         ->required()
         ->type_name("RESPONSE");
     command->add_option("-o,--output", output, "Profile to write with the equaliser in it")->type_name("PROFILE.json");
-    command->add_option("--profile", base, "Profile to take for -o when RESPONSE is a CSV")->type_name("PROFILE");
+    command->add_option("--profile", base, "Profile that -o starts from when RESPONSE is a CSV")->type_name("PROFILE");
     command->add_option("--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)")
         ->type_name("PICTURE");
     command->add_option("--sections", sections, "Number of sections, 1 to 16, or auto: as few as will do")

@@ -170,7 +170,7 @@ void RecordingOptions::declare(CLI::App& command)
         ->type_name("RECORDING");
     command
         .add_option("--sweep", sweep,
-                    "What was played: the .json that 'pacini measure sweep' wrote, or the sound beside it")
+                    "Description of the sweep: the .json that 'pacini measure sweep' wrote, or the sound beside it")
         ->required()
         ->type_name("SWEEP");
     command.add_option("--channels", channels, "Channels of the recording to use, one to three, counted from 1 [all]")

@@ -60,7 +60,7 @@ CLI::App* SimulateStep::declare(CLI::App& app)
     command->add_option("--contact", contact, "Level of a loose or a tight fit, dB")
         ->check(numberFrom(-60.0, 20.0))
         ->type_name("DB");
-    command->add_option("--latency", latency, "Way through player and recorder, ms")
+    command->add_option("--latency", latency, "Latency of player and recorder, ms")
         ->capture_default_str()
         ->check(numberFrom(0.0, 1000.0))
         ->type_name("MS");
@@ -72,9 +72,7 @@ CLI::App* SimulateStep::declare(CLI::App& app)
         ->capture_default_str()
         ->check(numberFrom(0.0, 1e6))
         ->type_name("D");
-    command
-        ->add_option("--range", range,
-                     "Acceleration at which the sensor clips, g (ADXL325: 5); gravity is part of what it bears")
+    command->add_option("--range", range, "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)")
         ->capture_default_str()
         ->check(numberFrom(0.1, 10000.0))
         ->type_name("G");
@@ -91,7 +89,7 @@ CLI::App* SimulateStep::declare(CLI::App& app)
     command->add_option("--distortion", distortion, "Third-order distortion of the actuator: part of the drive's cube")
         ->check(numberFrom(-1.0, 1.0))
         ->type_name("A");
-    command->add_option("--seed", seed, "Of the noise and of how the sensor is turned")
+    command->add_option("--seed", seed, "Seed of the noise and of the sensor's orientation")
         ->capture_default_str()
         ->check(countingNumber())
         ->type_name("N");

@@ -26,7 +26,7 @@ CLI::App* SweepStep::declare(CLI::App& app)
     outputOption =
         command
             ->add_option("-o,--output", output,
-                         "Sound to play (.wav or .flac); what was in it goes beside it, as .json of the same name")
+                         "Sound to play (.wav or .flac); its description goes beside it, as .json of the same name")
             ->capture_default_str()
             ->type_name("OUT");
     command
@@ -48,8 +48,8 @@ CLI::App* SweepStep::declare(CLI::App& app)
         ->type_name("N");
     command
         ->add_option("--levels", levels,
-                     "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show from where on the "
-                     "actuator distorts; what an equaliser raises beyond full scale is played as much softer")
+                     "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show where "
+                     "distortion begins; a sweep that an equaliser raises beyond full scale is lowered")
         ->delimiter(',')
         ->capture_default_str()
         ->type_name("DB,...");
@@ -61,7 +61,7 @@ CLI::App* SweepStep::declare(CLI::App& app)
         ->type_name("PROFILE");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
-                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows from where on it distorts\n"
+                    "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows where distortion begins\n"
                     "  pacini measure sweep -o flat.wav --profile mine.json       for 'pacini measure verify'");
     return command;
 }

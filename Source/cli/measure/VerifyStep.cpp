@@ -89,7 +89,7 @@ CLI::App* VerifyStep::declare(CLI::App& app)
     command->add_option("--high", high, "End of the range to judge, Hz [of the profile]")
         ->check(numberFrom(0.1, 200000.0))
         ->type_name("HZ");
-    command->footer("Ends with 1 when the actuator is not flat.\nExamples:\n"
+    command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
                     "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
     return command;
 }

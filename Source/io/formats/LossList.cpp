@@ -80,8 +80,8 @@ void LossList::addWhereItSounds(const NoiseBand& band, double duration, const st
 
 void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice)
 {
-    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; what is more than a third of an octave "
-                                                 "from it is played there",
+    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; bands more than a third of an octave "
+                                                 "away are played at its frequency",
                                                  clip.bands.size()));
     for (const Breakpoint& point : voice.displaced)
         bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
@@ -94,7 +94,7 @@ void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice)
 {
     if (!clip.bands.empty())
         add(LossKind::bands, 0.0, clip.duration, 0.0,
-            fmt::format("{} become a strength without frequency",
+            fmt::format("only the strength of {} is kept, not the frequency",
                         clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
     for (const Transient& event : voice.events)
         add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");

@@ -33,8 +33,9 @@ void compare(const Curve& dense, const Curve& curve, Visit visit)
 /// Frequencies in Hz become 0 to 1.
 Curve normalised(const SingleVoice& voice, const NormalisedRange& range, LossList& losses)
 {
-    LossTrack track(LossKind::frequency,
-                    fmt::format("frequencies outside of {:.0f} to {:.0f} Hz move to its ends", range.low, range.high));
+    LossTrack track(
+        LossKind::frequency,
+        fmt::format("frequencies outside of {:.0f} to {:.0f} Hz are limited to this range", range.low, range.high));
     Curve curve = voice.frequency;
     CurveReader amplitude(voice.amplitude);
     for (Breakpoint& point : curve)
@@ -115,7 +116,7 @@ void fewLevels(ExportVoice& result, const Curve& level, const EmphasisPlayer* pl
     if (player)
         lowerToEvents(result.level, result.events);
     LossTrack track(LossKind::points,
-                    fmt::format("{:g} points per second of amplitude do not say all", pointsPerSecond));
+                    fmt::format("{:g} amplitude points per second are too few to keep the curve", pointsPerSecond));
     compare(level, result.level,
             [&](double time, double exact, double kept)
             {
@@ -140,7 +141,7 @@ void fewFrequencies(ExportVoice& result, const Curve& frequency, const Curve& am
     }
     result.frequency = anchoredCurve(frequency, {}, {pointCount(pointsPerSecond, result.duration), halfStep}, weights);
     LossTrack track(LossKind::frequency,
-                    fmt::format("{:g} points per second of frequency do not say all", pointsPerSecond));
+                    fmt::format("{:g} frequency points per second are too few to keep the curve", pointsPerSecond));
     CurveReader loudness(amplitude);
     compare(frequency, result.frequency,
             [&](double time, double exact, double kept)

@@ -127,7 +127,8 @@ private:
         const double value = entry.number();
         constexpr std::size_t mostWarnings = 20;
         if ((value < low || value > high) && warnings.size() < mostWarnings)
-            warnings.push_back(fmt::format("{}: is outside of {} to {} and becomes its end", entry.path(), low, high));
+            warnings.push_back(
+                fmt::format("{}: is outside of {} to {} and is limited to this range", entry.path(), low, high));
         return std::clamp(value, low, high);
     }
 
@@ -205,7 +206,8 @@ private:
         for (Breakpoint& point : points)
         {
             if (point.value < low || point.value > 1.0)
-                ignored.insert(fmt::format("Pattern: values of {} outside of {} to 1 become its ends", id, low));
+                ignored.insert(
+                    fmt::format("Pattern: values of {} outside of {} to 1 are limited to this range", id, low));
             point.value = std::clamp(point.value, low, 1.0);
         }
         pointCount += points.size();

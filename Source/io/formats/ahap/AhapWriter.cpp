@@ -121,8 +121,8 @@ Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
         return pattern;
     }
 
-    LossTrack raised(LossKind::event, "the curve is raised around events, which it would weaken");
-    LossTrack shifted(LossKind::event, "events cannot get a sharpness so far from the curve's in one file");
+    LossTrack raised(LossKind::event, "the curve is raised around events so that it does not weaken them");
+    LossTrack shifted(LossKind::event, "one file cannot hold a sharpness so far from that of the curve");
     double done = 0.0;
     for (std::size_t i = 0; i < voice.events.size();)
     {

@@ -182,7 +182,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         point.frequency = sharpnessOf(point.frequency);
     if (bent > 1e-9)
         losses.add(LossKind::frequency, 0.0, voice.duration, bent,
-                   fmt::format("basic envelope: frequencies outside {} to {} Hz become the ends of the range",
+                   fmt::format("basic envelope: frequencies outside {} to {} Hz are limited to this range",
                                decimal(range.low, 0), decimal(range.high, 0)));
     constexpr std::size_t advised = 16;
     const auto& points = result.effects.envelope.points;

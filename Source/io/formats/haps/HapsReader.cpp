@@ -156,7 +156,8 @@ private:
             double value = keyframes[i].value;
             if (!(value >= low && value <= high))
             {
-                report.warn(place + ".m_value", fmt::format("is outside {} to {} and moved there", low, high));
+                report.warn(place + ".m_value",
+                            fmt::format("is outside of {} to {} and is limited to this range", low, high));
                 value = std::clamp(value, low, high);
             }
             curve.push_back({time, value * scale});
@@ -167,7 +168,7 @@ private:
         };
         if (!std::is_sorted(curve.begin(), curve.end(), earlier))
         {
-            report.warn(where + ".m_keyframes", "are not in order of time and are put into it");
+            report.warn(where + ".m_keyframes", "are not in order of time and are sorted");
             std::stable_sort(curve.begin(), curve.end(), earlier);
         }
         return curve;

@@ -117,7 +117,7 @@ std::string textOf(const ExportVoice& voice, const std::string& source, const st
 void addTimeLoss(const ExportVoice& voice, LossList& losses)
 {
     constexpr double visible = 1e-4; // s
-    LossTrack track(LossKind::timeStep, "times are 32-bit floats, which are coarse here");
+    LossTrack track(LossKind::timeStep, "times are rounded to 32-bit floats, which are coarse here");
     for (const Breakpoint& point : voice.level)
     {
         const double error = std::abs(static_cast<double>(static_cast<float>(point.time)) - point.time);

@@ -58,7 +58,8 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     const double step = std::max(clip.duration, 1e-3) / count;
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "amplitude envelope: events become bursts");
-    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * step, "amplitude envelope: times are those of its steps");
+    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * step,
+               "amplitude envelope: times are rounded to its steps");
     losses.limit(voice.amplitude, 1.0);
     losses.limit(voice.events, 1.0);
     result.duration = std::llround(1e9 * step * count);

@@ -247,7 +247,7 @@ Result<ImportedClip> readTact(std::string_view bytes)
         return *reader.reader.error;
     if (const std::size_t texts = reader.reader.textsTaken(); texts > 0)
         result.warnings.push_back(
-            fmt::format("project.tracks: {} in quotes, taken as what they say",
+            fmt::format("project.tracks: {} in quotes and read as numbers",
                         texts == 1 ? std::string("a number is") : fmt::format("{} numbers are", texts)));
     SingleVoice voice;
     voice.duration = reader.duration / 1000.0;

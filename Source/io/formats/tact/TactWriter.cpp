@@ -34,7 +34,7 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
     losses.limit(voice.amplitude, 1.0);
     losses.limit(voice.events, 1.0);
     losses.addCrowding(voice.events, 2.0 * frame);
-    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * frame, "times are those of frames of 20 ms");
+    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * frame, "times are rounded to frames of 20 ms");
     std::vector<double> levels = strengthOf(voice, frame, frame);
     std::string feedback;
     const auto count = static_cast<std::int64_t>(levels.size());
