@@ -2,7 +2,7 @@
 
 #include "cli/Console.h"
 #include "cli/SceneTimeline.h"
-#include "io/SceneJsonRules.h"
+#include "io/SceneFields.h"
 
 #include <pacini/clip/Clip.h>
 
@@ -24,7 +24,7 @@ constexpr std::size_t mostListed = 20;
 
 std::string_view lawName(PanLaw law)
 {
-    return sceneJson::panLaws[static_cast<std::size_t>(law)];
+    return nameOf(law, sceneFields::panLaws);
 }
 
 std::vector<std::size_t> playCounts(const Scene& scene)

@@ -4,7 +4,6 @@
 #include "io/JsonText.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <iterator>
 
@@ -132,10 +131,7 @@ private:
         return true;
     }
 
-    void put(const std::string& letters)
-    {
-        json += nlohmann::json(letters).dump(); // well-formed, since the whole text is
-    }
+    void put(const std::string& letters) { appendJsonString(json, letters); }
 
     bool number()
     {

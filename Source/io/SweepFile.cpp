@@ -60,7 +60,8 @@ Result<SweepFile> readSweepJson(std::string_view text)
 
 std::string sweepJson(const SweepFile& sweep)
 {
-    FieldsWriter writer(sweepFormatName, sweepFormatVersion);
+    FieldsWriter writer(FieldsWriter::Layout::spaced);
+    writer.format({sweepFormatName, sweepFormatVersion});
     visitFields(sweep, writer);
     return std::move(writer).document();
 }

@@ -6,9 +6,9 @@
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/ProfileFile.h"
+#include "io/SceneFields.h"
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
-#include "io/SceneJsonRules.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/RandomScene.h"
@@ -57,13 +57,12 @@ Strings clipWarnings(const std::string& members)
     return warnings.texts();
 }
 
-template <std::size_t n>
-std::set<std::string> namesOf(const sceneJson::Member (&members)[n])
+/// The keys that the reader of scenes knows in a T.
+template <typename T, typename Fields>
+std::set<std::string> namesOf(Fields fields)
 {
-    std::set<std::string> names;
-    for (const sceneJson::Member& member : members)
-        names.emplace(member.name);
-    return names;
+    const auto keys = FieldsHandler::keysOf<T>(fields);
+    return {keys.begin(), keys.end()};
 }
 
 std::string textOf(const std::filesystem::path& path)
@@ -257,13 +256,13 @@ TEST_CASE("The README lists every key of a scene, as the schema and the reader k
 {
     const std::string readme = textOf(sourceFolder() / "README.md");
     const auto schema = nlohmann::json::parse(textOf(sourceFolder() / "Resources/schema/pacini.scene.schema.json"));
-    CHECK(keysInReadme(readme, "the scene |") == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInReadme(readme, "an entry of `clips`") == namesOf(sceneJson::clipMembers));
-    CHECK(keysInReadme(readme, "a play |") == namesOf(sceneJson::playMembers));
-    CHECK(keysInReadme(readme, "a `variation`") == namesOf(sceneJson::variationMembers));
-    CHECK(keysInReadme(readme, "a change |") == namesOf(sceneJson::changeMembers));
-    CHECK(keysInSchema(schema) == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf(sceneJson::playMembers));
-    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf(sceneJson::variationMembers));
-    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf(sceneJson::changeMembers));
+    CHECK(keysInReadme(readme, "the scene |") == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInReadme(readme, "an entry of `clips`") == namesOf<sceneFields::DraftClip>(sceneFields::clipEntry));
+    CHECK(keysInReadme(readme, "a play |") == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInReadme(readme, "a `variation`") == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInReadme(readme, "a change |") == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
+    CHECK(keysInSchema(schema) == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
 }

@@ -1,12 +1,12 @@
 #include "io/formats/AhapFormat.h"
 
+#include "io/JsonText.h"
 #include "io/formats/FormatLosses.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/VoiceExport.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -171,10 +171,9 @@ class Writer
 public:
     explicit Writer(const std::string& name)
     {
-        using nlohmann::json;
         text = fmt::format("{{\n  \"Version\": 1.0,\n  \"Metadata\": {{\"Project\": {}, \"Created By\": \"Pacini\"}},\n"
                            "  \"Pattern\": [",
-                           json(name).dump(-1, ' ', false, json::error_handler_t::replace));
+                           inQuotes(name));
     }
 
     void transient(const Transient& event)

@@ -1,7 +1,11 @@
+#include "io/ProfileJson.h"
+
 #include "io/FieldsReader.h"
+#include "io/FieldsWriter.h"
 #include "io/JsonTree.h"
 #include "io/ProfileFields.h"
-#include "io/ProfileJson.h"
+
+#include <utility>
 
 namespace pacini
 {
@@ -23,6 +27,14 @@ Result<Profile> readProfileJson(std::string_view text, ReadWarnings* warnings)
     if (auto valid = validate(profile); !valid)
         return valid.error();
     return profile;
+}
+
+std::string profileJson(const Profile& profile)
+{
+    FieldsWriter writer(FieldsWriter::Layout::spaced);
+    writer.format({profileFormatName, profileFormatVersion});
+    profileFields::visitFields(profile, writer);
+    return std::move(writer).document();
 }
 
 } // namespace pacini

@@ -1,15 +1,16 @@
-#pragma once
+#include "io/SceneJson.h"
 
-// The clips of a scene in JSON and what they are called.
-
+#include "io/FieldsHandler.h"
+#include "io/FieldsWriter.h"
 #include "io/JsonText.h"
-#include "io/SceneJsonRules.h"
+#include "io/SceneFields.h"
 
 #include <pacini/clip/Clip.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -20,11 +21,13 @@
 #include <variant>
 #include <vector>
 
-namespace pacini::sceneJson
+namespace pacini
 {
 
+namespace
+{
 /// A file name fit for an error message: all of it, control characters as '?'.
-inline std::string onOneLine(std::string name)
+std::string onOneLine(std::string name)
 {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
@@ -55,13 +58,21 @@ private:
     std::map<std::string, std::size_t> indices;
 };
 
+/// A number as an index into `size` elements, if it is one.
+std::optional<std::size_t> indexOf(double number, std::size_t size)
+{
+    if (!(number >= 0.0 && number < static_cast<double>(size) && std::trunc(number) == number))
+        return std::nullopt;
+    return static_cast<std::size_t>(number);
+}
+
 /// Puts the clips of a draft into its scene and finds those that are named.
-class ClipShelf
+class SceneClips
 {
 public:
-    ClipShelf(Scene& sceneToFill, const ClipLoader& clipLoader) : scene(sceneToFill), load(clipLoader) {}
+    SceneClips(Scene& sceneToFill, const ClipLoader& clipLoader) : scene(sceneToFill), load(clipLoader) {}
 
-    Result<void> addAll(std::vector<DraftClip>& drafts)
+    Result<void> addAll(std::vector<sceneFields::DraftClip>& drafts)
     {
         for (std::size_t i = 0; i < drafts.size(); ++i)
         {
@@ -83,13 +94,12 @@ public:
         return {};
     }
 
-    Result<std::size_t> find(const Reference& reference, const std::string& where)
+    Result<std::size_t> find(const sceneFields::Reference& reference, const std::string& where)
     {
         if (const auto* number = std::get_if<double>(&reference))
         {
-            std::size_t index = 0;
-            if (!listed.empty() && whole(*number, 0.0, static_cast<double>(listed.size() - 1), index))
-                return listed[index];
+            if (const auto index = indexOf(*number, listed.size()))
+                return listed[*index];
             return Error{ErrorCode::invalidData, where,
                          fmt::format("is {}; the scene lists {} clips, counted from 0", *number, listed.size())};
         }
@@ -145,4 +155,70 @@ private:
     std::size_t points = 0;
 };
 
-} // namespace pacini::sceneJson
+Result<Scene> resolve(sceneFields::Draft draft, const ClipLoader& load)
+{
+    Scene scene = std::move(static_cast<Scene&>(draft));
+    SceneClips clips(scene, load);
+    if (auto added = clips.addAll(draft.clips); !added)
+        return added.error();
+    Names names;
+    for (std::size_t i = 0; i < draft.plays.size(); ++i)
+    {
+        const sceneFields::DraftPlay& named = draft.plays[i];
+        const auto index = clips.find(named.clip, detail::indexed("plays", i) + ".clip");
+        if (!index)
+            return index.error();
+        ScenePlay& play = scene.plays.emplace_back(named);
+        play.clip = *index;
+        if (named.loopsAll)
+            play.loop = scene.clips[*index].duration;
+        names.add(play.name, i);
+    }
+    for (std::size_t i = 0; i < draft.changes.size(); ++i)
+    {
+        const sceneFields::DraftChange& change = draft.changes[i];
+        const auto wrong = [&](std::string message)
+        {
+            return Error{ErrorCode::invalidData, detail::indexed("changes", i) + ".play", std::move(message)};
+        };
+        std::optional<std::size_t> index;
+        if (const auto* number = std::get_if<double>(&change.play))
+        {
+            index = indexOf(*number, scene.plays.size());
+            if (!index)
+                return wrong(fmt::format("is {}; the scene has {} plays, counted from 0", *number, scene.plays.size()));
+        }
+        else
+        {
+            const auto& name = std::get<std::string>(change.play);
+            index = names.find(name);
+            if (!index || *index == Names::several)
+                return wrong(fmt::format("is \"{}\", which {} called; give a play's name or its index", shownText(name),
+                                         index ? "several plays are" : "no play is"));
+        }
+        scene.changes.push_back(change);
+        scene.changes.back().play = *index;
+    }
+    if (auto valid = validate(scene); !valid)
+        return valid.error();
+    return scene;
+}
+} // namespace
+
+Result<Scene> readSceneJson(std::string_view text, const ClipLoader& load, ReadWarnings* warnings)
+{
+    sceneFields::Draft draft;
+    FieldsHandler handler(draft, sceneFields::document);
+    if (auto parsed = parseJson(text, handler, largestSceneText, warnings); !parsed)
+        return parsed.error();
+    return resolve(std::move(draft), load);
+}
+
+std::string writeSceneJson(const Scene& scene)
+{
+    FieldsWriter writer(FieldsWriter::Layout::lines);
+    sceneFields::document(scene, writer);
+    return std::move(writer).document();
+}
+
+} // namespace pacini
