@@ -53,6 +53,13 @@ template <typename T, typename Target>
     return false;
 }
 
+/// Takes a scalar that is one of these types.
+template <typename... T>
+inline constexpr auto takeAny = [](auto& target, JsonScalar& scalar)
+{
+    return (takeAs<T>(scalar, target) || ...) ? Taken::yes : Taken::wrongKind;
+};
+
 /// Takes a number without fraction in a range.
 template <typename Integer>
 [[nodiscard]] Taken takeWhole(JsonScalar& scalar, double lowest, double highest, Integer& value)
@@ -106,16 +113,12 @@ public:
 
     void number(std::string_view name, double& value, Need need)
     {
-        static constexpr Kind kind{.set = setAs<double>};
-        if (asks(name, need))
-            entry = {.kind = &kind, .target = &value, .needed = "a number"};
+        scalar(name, value, need, "a number", takeAny<double>);
     }
 
     void text(std::string_view name, std::string& value, Need need = Need::required)
     {
-        static constexpr Kind kind{.set = setAs<std::string>};
-        if (asks(name, need))
-            entry = {.kind = &kind, .target = &value, .needed = "a text in quotes"};
+        scalar(name, value, need, "a text in quotes", takeAny<std::string>);
     }
 
     template <typename Integer>
@@ -358,12 +361,6 @@ private:
         return values.size() < where.most ? &values.emplace_back() : nullptr;
     }
 
-    template <typename T>
-    static bool setAs(FieldsHandler& handler, const Entry& where, JsonScalar& value)
-    {
-        return takeAs<T>(value, *static_cast<T*>(where.target)) || handler.wrong(Taken::wrongKind, value);
-    }
-
     /// Sets a T by what `Take` makes of a scalar; null without.
     template <typename T, typename Take>
     static constexpr Setter setter()
@@ -430,13 +427,6 @@ private:
         return all;
     }
 
-    static bool setAny(FieldsHandler& handler, const Entry& where, JsonScalar& value)
-    {
-        auto& any = *static_cast<decltype(EncoderParameter::value)*>(where.target);
-        return takeAs<double>(value, any) || takeAs<std::string>(value, any) || takeAs<bool>(value, any) ||
-               handler.wrong(Taken::wrongKind, value);
-    }
-
     static bool checkName(FieldsHandler& handler, const Entry& where, JsonScalar& value)
     {
         const auto& format = *static_cast<const DocumentFormat*>(where.detail);
@@ -456,12 +446,12 @@ private:
             return handler.wrong(Taken::wrongKind, value);
         if (given == format.version)
             return true;
-        const std::string reads = fmt::format("; this program reads version {}", format.version);
+        const std::string readable = fmt::format("; this program reads version {}", format.version);
         if (given > format.version && (std::trunc(given) == given || !format.whole))
             return handler.stop(ErrorCode::unsupportedVersion,
-                                fmt::format("was written by a newer version ({}) of the format{}", given, reads));
+                                fmt::format("was written by a newer version ({}) of the format{}", given, readable));
         return handler.stop(ErrorCode::invalidData, fmt::format("is {}, which is no version of the format{}", given,
-                                                                format.whole ? reads : ""));
+                                                                format.whole ? readable : ""));
     }
 
     void visit(Purpose why)
@@ -498,7 +488,8 @@ private:
 
     bool parameter(std::string_view name)
     {
-        static constexpr Kind kind{.set = setAny};
+        using Value = decltype(EncoderParameter::value);
+        static constexpr Kind kind{.set = setter<Value, decltype(takeAny<double, std::string, bool>)>()};
         if (!parameterNames.emplace(name).second)
             return twice();
         auto& values = *static_cast<std::vector<EncoderParameter>*>(levels.back().object);

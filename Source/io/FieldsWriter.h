@@ -10,6 +10,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -161,20 +162,17 @@ public:
         if (values.empty())
             return;
         key(name);
-        hasFreeNames = true;
         const auto fields = [](const Texts& pairs, FieldsWriter& writer)
         {
             for (const auto& [inner, value] : pairs)
                 writer.text(inner, value);
         };
         object(values, fields, Layout::lines);
-        hasFreeNames = false;
     }
 
     void parameters(std::string_view name, const std::vector<EncoderParameter>& values)
     {
         key(name);
-        hasFreeNames = true;
         const auto fields = [](const std::vector<EncoderParameter>& all, FieldsWriter& writer)
         {
             for (const EncoderParameter& parameter : all)
@@ -188,7 +186,6 @@ public:
             }
         };
         object(values, fields, Layout::lines);
-        hasFreeNames = false;
     }
 
 private:
@@ -206,15 +203,19 @@ private:
             if (!first)
                 output += ',';
             lineBreak(depth);
+            appendJsonString(output, name); // the names of parameters are free
+            output += ": ";
         }
         else
-            output += !first ? std::string_view(", ") : layout == Layout::spaced ? " " : "";
+        {
+            // Names of fields in one piece: long clips have millions.
+            const std::string_view before = !first ? ", \"" : layout == Layout::spaced ? " \"" : "\"", after = "\": ";
+            const std::size_t start = output.size();
+            output.resize(start + before.size() + name.size() + after.size());
+            char* at = std::copy(before.begin(), before.end(), output.data() + start);
+            std::copy(after.begin(), after.end(), std::copy(name.begin(), name.end(), at));
+        }
         first = false;
-        if (hasFreeNames)
-            appendJsonString(output, name);
-        else
-            ((output += '"') += name) += '"';
-        output += ": ";
     }
 
     template <typename T, typename Fields>
@@ -282,7 +283,6 @@ private:
     std::string output = "{";
     Layout layout = Layout::lines; ///< of the object that is open
     bool first = true;             ///< no entry of it is written yet
-    bool hasFreeNames = false;     ///< which may need escapes
     std::size_t depth = 1;         ///< steps by which its lines stand in
 };
 

@@ -73,12 +73,7 @@ template <typename Target, typename Visitor>
 void visitReference(const char* name, Target& target, std::string_view needed, Visitor& visitor)
 {
     if constexpr (isReader<Visitor>)
-        visitor.scalar(name, target, Need::required, needed,
-                       [](Reference& reference, JsonScalar& value) {
-                           return takeAs<double>(value, reference) || takeAs<std::string>(value, reference)
-                                      ? Taken::yes
-                                      : Taken::wrongKind;
-                       });
+        visitor.scalar(name, target, Need::required, needed, takeAny<double, std::string>);
     else
         visitor.integer(name, target);
 }
@@ -156,7 +151,7 @@ inline constexpr auto variationFields = [](auto& variation, auto& visitor)
 /// A variation of which only the amount is given.
 inline constexpr auto takeAmount = [](auto& variation, JsonScalar& value)
 {
-    return takeAs<double>(value, variation.amount) ? Taken::yes : Taken::wrongKind;
+    return takeAny<double>(variation.amount, value);
 };
 
 inline constexpr auto playFields = [](auto& play, auto& visitor)
