@@ -37,7 +37,8 @@ struct MeasureBench
         const auto wristband = readProfile(sourceFolder() / "profiles/l5-wristband.json");
         REQUIRE(wristband.ok());
         session.actuators.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
-        desk = std::make_shared<MeasureDesk>(session, MeasureDesk::Surroundings{nullptr, folder, 0.0, true});
+        desk = std::make_shared<MeasureDesk>(session.actuators, session.transport,
+                                             MeasureDesk::Surroundings{nullptr, folder, 0.0, true});
         params.sampleRate = 8000.0;
         desk->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
         MeasureSettings settings = desk->measurement().settings();

@@ -39,8 +39,7 @@ std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range
 constexpr double lineReach = 7.0; // pixels
 } // namespace
 
-CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing,
-                     Lane first)
+CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Lane first)
     : PlotLane(project, selected, sight, playing), shown(first), pitchButton("Hz"), soloButton("S"), muteButton("M")
 {
     const auto clip = model.clip();
