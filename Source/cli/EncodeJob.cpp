@@ -4,7 +4,6 @@
 #include "cli/Task.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
 #include "io/ClipSeal.h"
 #include "io/Fingerprint.h"
 #include "io/Utf8.h"
@@ -78,13 +77,6 @@ bool dependsOnSound(const EncoderParameter& parameter)
     return parameter.name == "gain" || parameter.name == "channelGain" || parameter.name == clipSealName;
 }
 
-/// Whether a file is a clip, be it a damaged one.
-bool saysItIsAClip(std::string_view bytes)
-{
-    constexpr std::size_t start = 1024;
-    return bytes.starts_with("PACB") || bytes.substr(0, start).find(clipFormatName) != std::string_view::npos;
-}
-
 /// What a clip calls its sound; nothing when that came from standard input.
 std::string sourceName(const fs::path& input)
 {
@@ -103,7 +95,7 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     Result<Existing> existing = Existing::replace;
     if (!makesClip)
         existing = mayReplace(output, signalOrigin(input, output), replaceable);
-    else if (settings.target.foreign == nullptr)
+    else if (settings.format->isOwn())
         existing = lookAt(input, output, replaceable, result);
     if (!existing)
         return existing.error();
@@ -157,14 +149,9 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    return settings.target.foreign == nullptr ? writeOwn(std::move(clip), output, existing)
-                                              : writeForeign(clip, output, replaceable, work, result);
-}
-
-Result<std::size_t> EncodeJob::writeOwn(Clip clip, const fs::path& output, Existing existing) const
-{
-    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
-    const auto written = writeClip(output, std::move(clip), format, existing);
+    if (!settings.format->isOwn())
+        return writeForeign(clip, output, replaceable, work, result);
+    const auto written = writeClip(output, std::move(clip), *settings.format, existing);
     return written ? written : atOutput(output, written.error());
 }
 
@@ -172,7 +159,7 @@ Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& ou
                                             Stopwatch& work, EncodeResult& result) const
 {
     std::optional<Result<ExportedClip>> exported;
-    work.run([&] { exported = exportClip(clip, settings.target, settings.exporting); });
+    work.run([&] { exported = settings.format->write(clip, settings.exporting); });
     if (!*exported)
         return exported->error();
     const auto allowed = mayReplace(output, **exported, replaceable);
@@ -181,10 +168,10 @@ Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& ou
     const auto written = writeExport(output, **exported, *allowed);
     if (!written)
         return atOutput(output, written.error());
-    result.stray = strayCompanion(output, settings.target, **exported);
+    result.stray = strayCompanion(output, *settings.format, **exported);
     std::size_t bytes = 0;
-    for (const WrittenFile& file : *written)
-        bytes += file.bytes;
+    for (const ExportedFile& file : (*exported)->files)
+        bytes += file.bytes.size();
     return bytes;
 }
 
@@ -296,15 +283,16 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output
 {
     if (!isOccupied(output))
         return replaceable == Replaceable::own ? Existing::keep : Existing::replace;
-    const auto bytes = readClipBytes(output);
-    if (!bytes || !saysItIsAClip(*bytes))
+    const ClipFormat* there = ownFormatOf(output);
+    if (there == nullptr)
         return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is no clip"))
                                                : Existing::replace;
-    const auto clip = clipOf(*bytes);
-    const ClipSeal seal = clip ? sealOf(*clip) : ClipSeal::missing;
+    const auto read = readClip(output);
+    const Clip* clip = read ? &read->clip : nullptr;
+    const ClipSeal seal = clip != nullptr ? sealOf(*clip) : ClipSeal::missing;
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
-        isUpToDate(input, output, *clip))
+        there == settings.format && isUpToDate(input, output, *clip))
     {
         std::error_code ignored;
         result.upToDate = true;
@@ -333,8 +321,7 @@ bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, const 
     const auto made = fs::last_write_time(output, error);
     if (error || fs::last_write_time(input, error) > made || error)
         return false;
-    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
-    if (clipFormatOf(output) != format || clip.source.file != sourceName(input))
+    if (clip.source.file != sourceName(input))
         return false;
     if (clip.source.sampleRate < limits::lowestSampleRate || clip.source.sampleRate > limits::highestSampleRate)
         return false;

@@ -2,7 +2,7 @@
 
 // Lists of losses, put together place by place.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <pacini/clip/Curve.h>
 

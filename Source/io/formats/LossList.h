@@ -2,7 +2,7 @@
 
 // What a writer says about its losses.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 #include "io/formats/FormatLosses.h"
 
 #include <pacini/synthesis/SingleVoice.h>

@@ -2,8 +2,8 @@
 
 // A clip as the formats with one voice write it: levels and frequencies of 0 to 1, and events.
 
+#include "io/formats/ClipFormat.h"
 #include "io/formats/EmphasisFit.h"
-#include "io/formats/ForeignFormat.h"
 #include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 

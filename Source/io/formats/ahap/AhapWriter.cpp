@@ -262,6 +262,7 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
             writer.continuous(at(k), at(k + 1.0), joined.intensity, pattern.base);
     }
 }
+} // namespace
 
 bool isAhap(std::string_view bytes)
 {
@@ -270,7 +271,6 @@ bool isAhap(std::string_view bytes)
             bytes.find("\"ParameterCurve\"") != std::string_view::npos ||
             bytes.find("\"Version\"") != std::string_view::npos);
 }
-} // namespace
 
 Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
@@ -301,13 +301,6 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
         result.files.push_back({std::string(ahapTransients), second.finish()});
     result.losses = std::move(voice.losses).sorted();
     return result;
-}
-
-const ForeignFormat& ahapFormat()
-{
-    static const ForeignFormat format{"ahap",        "Apple Core Haptics, AHAP", ".ahap", isAhap, readAhap, writeAhap,
-                                      ahapTransients};
-    return format;
 }
 
 } // namespace pacini

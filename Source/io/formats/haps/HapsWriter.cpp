@@ -41,12 +41,12 @@ std::string melody(const std::string& notes)
     return fmt::format(
         "\n      {{\n        \"m_mute\": 0,\n        \"m_gain\": 1,\n        \"m_notes\": [{}]\n      }}", notes);
 }
+} // namespace
 
 bool isHaps(std::string_view bytes)
 {
     return bytes.find("\"m_vibration\"") != std::string_view::npos;
 }
-} // namespace
 
 Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
 {
@@ -111,12 +111,6 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
                          perception("m_texture", ""), perception("m_stiffness", ""))});
     result.losses = std::move(losses).sorted();
     return result;
-}
-
-const ForeignFormat& hapsFormat()
-{
-    static constexpr ForeignFormat format{"haps", "Interhaptics, version 5", ".haps", isHaps, readHaps, writeHaps};
-    return format;
 }
 
 } // namespace pacini

@@ -125,6 +125,7 @@ void addTimeLoss(const ExportVoice& voice, LossList& losses)
     }
     losses.append(track);
 }
+} // namespace
 
 bool isHaptic(std::string_view bytes)
 {
@@ -135,7 +136,6 @@ bool isHaptic(std::string_view bytes)
     };
     return has("\"signals\"") && has("\"envelopes\"") && !has("\"clipId\"");
 }
-} // namespace
 
 Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
 {
@@ -150,13 +150,6 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
     result.files.push_back({"", textOf(voice, clip.source.file, amplitude, rounded(voice.frequency))});
     result.losses = std::move(voice.losses).sorted();
     return result;
-}
-
-const ForeignFormat& hapticFormat()
-{
-    static const ForeignFormat format{
-        "haptic", "Lofelt and Meta Haptics Studio, version 1", ".haptic", isHaptic, readHaptic, writeHaptic};
-    return format;
 }
 
 } // namespace pacini

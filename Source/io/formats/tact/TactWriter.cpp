@@ -17,13 +17,13 @@ namespace
 {
 constexpr double frame = static_cast<double>(tactFrame) / 1000.0; // s
 constexpr std::array<const char*, 2> positions{"ForearmL", "ForearmR"};
+} // namespace
 
 bool isTact(std::string_view bytes)
 {
     constexpr auto none = std::string_view::npos;
     return bytes.find("\"project\"") != none && bytes.find("\"tracks\"") != none;
 }
-} // namespace
 
 Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
 {
@@ -99,12 +99,6 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
                          name, decimal(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes, end)});
     result.losses = std::move(losses).sorted();
     return result;
-}
-
-const ForeignFormat& tactFormat()
-{
-    static constexpr ForeignFormat format{"tact", "bHaptics, strength only", ".tact", isTact, readTact, writeTact};
-    return format;
 }
 
 } // namespace pacini
