@@ -8,6 +8,7 @@
 #include "io/Fingerprint.h"
 #include "io/Utf8.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/SoundPeak.h>
 
@@ -25,36 +26,59 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
-template <typename Visit>
-Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
+/// Reads a sound part by part. Errors: those of AudioReader, tooLarge beyond 24 hours.
+class SoundFile
 {
-    const auto channels = static_cast<std::size_t>(reader.channels());
-    const double expected = static_cast<double>(reader.frames().value_or(0));
-    std::vector<float> buffer(channels * std::max<std::size_t>(1, 65536 / channels));
-    std::uint64_t frames = 0;
-    for (;;)
+public:
+    SoundFile(AudioReader& opened, const std::function<void(double)>& toTell)
+        : reader(opened),
+          progress(toTell),
+          expected(static_cast<double>(opened.frames().value_or(0))),
+          buffer(soundPartLength(static_cast<std::size_t>(opened.channels())))
     {
+    }
+
+    [[nodiscard]] SoundPart operator()()
+    {
+        if (expected > 0.0 && frames > 0)
+            progress(static_cast<double>(frames) / expected);
         const auto got = reader.read(buffer);
         if (!got)
             return withAdvice(got.error(), true);
-        if (*got == 0)
-            return {};
         frames += *got;
         if (static_cast<double>(frames) / reader.sampleRate() > limits::duration)
             return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
-        visit(std::span<const float>(buffer).first(*got * channels));
-        if (expected > 0.0)
-            progress(static_cast<double>(frames) / expected);
+        return std::span<const float>(buffer).first(*got * static_cast<std::size_t>(reader.channels()));
+    }
+
+private:
+    AudioReader& reader;
+    const std::function<void(double)>& progress;
+    double expected;
+    std::vector<float> buffer;
+    std::uint64_t frames = 0;
+};
+
+/// Hands visit() all parts of a sound. Errors: those of SoundFile.
+template <typename Visit>
+Result<void> forEachPart(SoundFile file, Visit&& visit)
+{
+    for (;;)
+    {
+        const SoundPart part = file();
+        if (!part)
+            return part.error();
+        if (part->empty())
+            return {};
+        visit(*part);
     }
 }
 
 Result<std::vector<float>> readMono(AudioReader& reader, const std::function<void(double)>& progress, Stopwatch& work)
 {
     std::vector<float> samples;
-    const auto read = forEachPiece(reader, progress,
-                                   [&samples](std::span<const float> piece)
-                                   { samples.insert(samples.end(), piece.begin(), piece.end()); });
+    const auto read = forEachPart(SoundFile(reader, progress), [&samples](std::span<const float> part)
+                                  { samples.insert(samples.end(), part.begin(), part.end()); });
     if (!read)
         return read.error();
     work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(reader.channels())); });
@@ -135,17 +159,14 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     auto made = makeClip(reader, input, progress, work);
     if (!made)
         return made.error();
-    // Both formats hold the same data: what lies on the grids of `quantise` bits. A clip of hours is large, so that
-    // there is never a second one.
-    std::vector<std::byte> packed;
+    // Both of Pacini's formats hold the same: what lies on the grids of `quantise` bits.
+    Clip clip;
     work.run(
         [&]
         {
-            const PackParams grids = packParamsFor(*made);
-            packed = packClip(std::move(*made), grids);
+            clip = onGrids(std::move(*made));
+            sealClip(clip);
         });
-    Clip clip = unpackClip(packed).value();
-    work.run([&] { sealClip(clip); });
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
@@ -241,14 +262,26 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& inpu
             return found.error();
         peak = *found;
     }
-    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak); });
-    const auto read = forEachPiece(
-        reader, [&](double part) { progress(done + (1.0 - done) * part); },
-        [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
-    if (!read)
-        return read.error();
-    Clip clip;
-    work.run([&] { clip = encoder.finish(); });
+    const std::function<void(double)> rest = [&](double part)
+    {
+        progress(done + (1.0 - done) * part);
+    };
+    SoundFile file(reader, rest);
+    Stopwatch reading;
+    Result<Clip> clip = Clip();
+    work.run(
+        [&]
+        {
+            const auto next = [&]
+            {
+                SoundPart part = std::span<const float>();
+                reading.run([&] { part = file(); });
+                return part;
+            };
+            clip = encodePrecisely(encoder, {reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak},
+                                   next);
+        });
+    work.leaveOut(reading);
     return clip;
 }
 
@@ -259,8 +292,8 @@ Result<double> EncodeJob::peakOf(const fs::path& input, const Progress& progress
         return withAdvice(reader.error(), true);
     SoundPeak peak(Encoder::bandsOf(settings.params));
     peak.start(reader->sampleRate(), reader->channels());
-    const auto read =
-        forEachPiece(*reader, progress, [&](std::span<const float> piece) { work.run([&] { peak.push(piece); }); });
+    const auto read = forEachPart(SoundFile(*reader, progress),
+                                  [&](std::span<const float> part) { work.run([&] { peak.push(part); }); });
     if (!read)
         return read.error();
     double found = 0.0;
