@@ -2,7 +2,7 @@
 
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/samples/DriveSamples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // What a format can say comes back when a clip made of it is written again.
 
 #include "io/formats/FormatSamples.h"
-#include "io/formats/PlayedClip.h"
 #include "io/formats/players/AndroidPlayer.h"
 #include "io/formats/players/HjifPlayer.h"
 #include "support/Catch.h"

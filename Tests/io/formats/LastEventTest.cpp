@@ -2,7 +2,7 @@
 
 #include "io/formats/ClipFormat.h"
 #include "io/formats/ImportedClip.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/samples/DriveSamples.h"
 #include "support/Catch.h"
 
 #include <cmath>

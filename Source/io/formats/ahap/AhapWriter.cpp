@@ -1,6 +1,6 @@
-#include "io/formats/FormatLosses.h"
+#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
-#include "io/formats/VoiceExport.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/ahap/AhapFormat.h"
 
 #include <fmt/compile.h>
@@ -103,7 +103,7 @@ void addRaised(Pattern& pattern, const Curve& level, double from, double to, dou
 }
 
 /// The curves of a voice and, unless they have a file of their own, its events compensated for them.
-Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
+Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
 {
     Pattern pattern;
     const auto [lowest, highest] =
@@ -276,7 +276,7 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(
+    NormalisedVoice voice = normalisedVoice(
         clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
     constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
     voice.losses.addCrowding(voice.events, resolved);

@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/haps/HapsFormat.h"
 
 #include <fmt/format.h>
@@ -50,11 +50,7 @@ bool isHaps(std::string_view bytes)
 
 Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
 {
-    SingleVoice voice = oneVoice(clip, params.profile, hapsMotorFrequency);
-    LossList losses;
-    losses.addOneVoice(clip, voice);
-    losses.addText(clip, true);
-    losses.limit(voice.amplitude, 1.0); // players take gains of notes above 1
+    auto [voice, losses] = reducedVoice(clip, params, hapsMotorFrequency); // players take gains of notes above 1
     if (!isSingleVoice(clip) || params.amplitudePoints)
     {
         const Curve before = voice.amplitude;

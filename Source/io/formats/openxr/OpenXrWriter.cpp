@@ -1,5 +1,5 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/samples/DriveSamples.h"
 

@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/tact/TactFormat.h"
 
 #include <fmt/format.h>
@@ -27,12 +27,7 @@ bool isTact(std::string_view bytes)
 
 Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
 {
-    SingleVoice voice = oneVoice(clip, params.profile, tactMotorFrequency);
-    LossList losses;
-    losses.addStrengthOnly(clip, voice);
-    losses.addText(clip, true);
-    losses.limit(voice.amplitude, 1.0);
-    losses.limit(voice.events, 1.0);
+    auto [voice, losses] = reducedStrength(clip, params, tactMotorFrequency);
     losses.addCrowding(voice.events, 2.0 * frame);
     losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * frame, "times are those of frames of 20 ms");
     std::vector<double> levels = strengthOf(voice, frame, frame);
