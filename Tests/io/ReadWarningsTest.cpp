@@ -238,7 +238,7 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
         put("s.json", R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a.json", "tempo": 2}]})");
     const auto read = readClipOrScene(scene);
     REQUIRE(read.ok());
-    CHECK(read->format == "scene");
+    CHECK(read->formatName() == "scene");
     CHECK(read->warnings == Strings{R"(plays[0].tempo: is not known; did you mean "stretch"?)",
                                     R"(a.json: tranients: is not known; did you mean "transients"?)"});
     CHECK_FALSE(readClipOrScene(scene, {{}, true}).ok());

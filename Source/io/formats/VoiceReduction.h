@@ -44,8 +44,8 @@ struct ReducedVoice
     LossList losses;
 };
 
-/// As oneVoice(), with amplitudes of at most 1. Lost are frequencies of others than the strongest band, noise, parts that
-/// are too weak to be there, and all texts but the clip's name.
+/// As oneVoice(), with amplitudes of at most 1. Lost are frequencies of others than the strongest band, noise, parts
+/// that are too weak to be there, and all texts but the clip's name.
 [[nodiscard]] ReducedVoice reducedVoice(const Clip& clip, const ExportParams& params, double otherwise);
 
 /// The same for motors, which have a strength without frequency and sharpness; events are at most 1 too.
