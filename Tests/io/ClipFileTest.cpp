@@ -47,6 +47,26 @@ TEST_CASE("Files that hold no clip are refused with one clear line", "[io]")
     CHECK(readClip(folder.path()).error().code == ErrorCode::io);
 }
 
+TEST_CASE("A file in a format that is only written is named as that", "[io][formats]")
+{
+    const TempFolder folder;
+    const auto clip = randomFullClip(3);
+    for (const ClipFormat& format : clipFormats())
+        if (format.isWritten() && !format.isRead() && format.extension != ".wav")
+        {
+            CAPTURE(format.name);
+            const auto path = folder / ("clip" + std::string(format.extension));
+            put(path, format.write(clip)->files.at(0).bytes);
+            CHECK(looksLikeClip(path));
+            const auto read = readClip(path);
+            REQUIRE_FALSE(read.ok());
+            CHECK(read.error().message == "is a file of format " + std::string(format.name) + " (" +
+                                              std::string(format.title) + "), which Pacini writes but does not read");
+        }
+    put(folder / "other.h", "#pragma once");
+    CHECK_FALSE(looksLikeClip(folder / "other.h"));
+}
+
 TEST_CASE("A clip that breaks a rule is not written", "[io]")
 {
     const TempFolder folder;

@@ -258,6 +258,8 @@ TEST_CASE("Every format writes every clip, the same bytes each time, and reads w
             REQUIRE(first);
             CHECK(first->files.at(0).bytes == second->files.at(0).bytes);
             CHECK(first->losses == second->losses);
+            const ClipFormat* told = clipFormatOf(format.extension, first->files.at(0).bytes);
+            CHECK((told == &format || format.extension == ".wav")); // which is read as a sound
             CHECK(std::is_sorted(first->losses.begin(), first->losses.end(),
                                  [](const FormatLoss& a, const FormatLoss& b) { return a.time < b.time; }));
             if (format.isRead())
