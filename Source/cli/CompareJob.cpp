@@ -2,7 +2,7 @@
 
 #include "cli/ReadingAdvice.h"
 #include "cli/Stopwatch.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     std::vector<double> events = target.judge.onsets;
     if (!pair.events.empty())
     {
-        const auto read = readAnyClip(pair.events, settings.strict);
+        const auto read = readClip(pair.events, settings.strict);
         if (!read)
             return InputFailure{pair.events, read.error()};
         result.warnings = read->warnings;

@@ -23,7 +23,7 @@ namespace pacini::cli
 struct CompareSettings
 {
     bool allowTruncated = false;
-    bool strict = false; ///< see readAnyClip()
+    bool strict = false; ///< see readClip()
     std::optional<Onsets> onsets;
     Onsets ambiguous; ///< events that count neither for nor against
 };
@@ -52,7 +52,7 @@ public:
 
     /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 768 kHz.
     /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
-    /// hours, and of readAnyClip.
+    /// hours, and of readClip.
     [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,
                                                                 const std::function<void(double)>& progress);
 

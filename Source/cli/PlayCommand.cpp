@@ -2,7 +2,7 @@
 
 #include "cli/Checks.h"
 #include "cli/ControllerInput.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -182,7 +182,7 @@ Exit PlayCommand::run(Console& console)
         console.error("", *wrong);
         return Exit::usage;
     }
-    const auto read = readAnyClip(input, console.isStrict());
+    const auto read = readClip(input, console.isStrict());
     if (!read)
     {
         console.error(input, read.error());

@@ -9,8 +9,8 @@
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/ProfileFigure.h"
 #include "cli/plot/SceneFigure.h"
-#include "io/AnyClip.h"
 #include "io/AudioReader.h"
+#include "io/ClipFile.h"
 
 #include <pacini/synthesis/ScenePlayer.h>
 

@@ -9,7 +9,8 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 #include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
@@ -252,11 +253,10 @@ CLI::App* RenderCommand::declare(CLI::App& app)
 
 InputFiles RenderCommand::findClips() const
 {
-    InputFiles found = findInputs(inputs, anyClipExtensions());
+    InputFiles found = findInputs(inputs, clipFileExtensions());
     const auto isOwn = [](const InputFile& file)
     {
-        const auto& own = clipExtensions();
-        return std::find(own.begin(), own.end(), lowerExtension(file.path)) != own.end();
+        return isOwnExtension(lowerExtension(file.path));
     };
     std::set<std::filesystem::path> ownNames;
     for (const InputFile& file : found.files)

@@ -1,6 +1,7 @@
 #include "io/AudioWriter.h"
 
 #include "io/AudioReader.h"
+#include "io/FileExtension.h"
 #include "io/SoundHandle.h"
 
 #include <pacini/foundation/Random.h>
@@ -73,9 +74,7 @@ Error badArgument(std::string message)
 /// The libsndfile format for `path`, or what is wrong with the parameters.
 Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
 {
-    auto extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lowerExtension(path);
     const bool flac = extension == ".flac";
     if (!flac && extension != ".wav" && !isStream(path)) // WAV is what a stream gets
         return badArgument("audio is written as .wav or .flac; choose one of these extensions");

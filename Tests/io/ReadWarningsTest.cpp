@@ -2,7 +2,6 @@
 
 #include "io/ReadWarnings.h"
 
-#include "io/AnyClip.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/ProfileFile.h"
@@ -231,25 +230,25 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
         return folder / name;
     };
     const auto clip = put("a.json", clipStart + R"("bands": [], "tranients": []})");
-    CHECK(readAnyClip(clip)->warnings == Strings{R"(tranients: is not known; did you mean "transients"?)"});
-    CHECK_FALSE(readAnyClip(clip, true).ok());
-    CHECK(readAnyClip(clip, true).error().where == "tranients");
+    CHECK(readClip(clip)->warnings == Strings{R"(tranients: is not known; did you mean "transients"?)"});
+    CHECK_FALSE(readClip(clip, true).ok());
+    CHECK(readClip(clip, true).error().where == "tranients");
     const auto scene =
         put("s.json", R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a.json", "tempo": 2}]})");
     const auto read = readClipOrScene(scene);
     REQUIRE(read.ok());
-    CHECK(read->format == "scene");
+    CHECK(read->formatName() == "scene");
     CHECK(read->warnings == Strings{R"(plays[0].tempo: is not known; did you mean "stretch"?)",
                                     R"(a.json: tranients: is not known; did you mean "transients"?)"});
     CHECK_FALSE(readClipOrScene(scene, {{}, true}).ok());
-    CHECK(readAnyClip(scene).error().message.starts_with("is a scene"));
+    CHECK(readClip(scene).error().message.starts_with("is a scene"));
     // A scene may name clips of other programs.
     put("tap.ahap", R"({"Version": 1, "Pattern": [{"Event": {"Time": 0, "EventType": "HapticTransient"}}]})");
     const auto foreign =
         readClipOrScene(put("f.json", R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "tap.ahap"}]})"));
     REQUIRE(foreign.ok());
     CHECK(std::get<Scene>(foreign->content).clips[0].transients.size() == 1);
-    CHECK(readClipOrScene(folder / "tap.ahap")->format == "ahap");
+    CHECK(readClipOrScene(folder / "tap.ahap")->formatName() == "ahap");
 }
 
 TEST_CASE("The page about scenes lists every key, as the schema and the reader know them", "[io][keys]")

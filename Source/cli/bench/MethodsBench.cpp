@@ -1,7 +1,7 @@
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/methods/Method.h>
 #include <pacini/clip/PackedClip.h>
@@ -169,7 +169,12 @@ void measureOwn(Measurement& measurement, const BenchSound& sound, const Encoder
 {
     Encoder encoder(params); // kept between sounds by `pacini encode`, so its making is not timed
     measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params), true,
-                     [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
+                     [&]
+                     {
+                         return encodePrecisely(encoder, {sound.sampleRate, sound.channels},
+                                                SoundParts(sound.interleaved, sound.channels))
+                             .value();
+                     });
 }
 
 void measureMethods(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)

@@ -5,6 +5,7 @@
 #include "cli/ProfileInput.h"
 #include "cli/plot/ResponseFigure.h"
 #include "io/AtomicFile.h"
+#include "io/FileExtension.h"
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 

@@ -4,6 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
+#include "io/FileExtension.h"
 
 #include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>

@@ -2,7 +2,7 @@
 // PACINI_SOUNDS names a folder, for the sounds there: pacini_tests "[formatquality]"
 
 #include "io/formats/DemoSounds.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/ahap/AhapFormat.h"
 #include "io/formats/android/AndroidFormat.h"
 #include "io/formats/haps/HapsFormat.h"

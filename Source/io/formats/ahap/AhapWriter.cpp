@@ -1,7 +1,7 @@
 #include "io/JsonText.h"
-#include "io/formats/FormatLosses.h"
+#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
-#include "io/formats/VoiceExport.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/ahap/AhapFormat.h"
 
 #include <fmt/compile.h>
@@ -103,7 +103,7 @@ void addRaised(Pattern& pattern, const Curve& level, double from, double to, dou
 }
 
 /// The curves of a voice and, unless they have a file of their own, its events compensated for them.
-Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
+Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
 {
     Pattern pattern;
     const auto [lowest, highest] =
@@ -261,6 +261,7 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
             writer.continuous(at(k), at(k + 1.0), joined.intensity, pattern.base);
     }
 }
+} // namespace
 
 bool isAhap(std::string_view bytes)
 {
@@ -269,13 +270,12 @@ bool isAhap(std::string_view bytes)
             bytes.find("\"ParameterCurve\"") != std::string_view::npos ||
             bytes.find("\"Version\"") != std::string_view::npos);
 }
-} // namespace
 
 Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(
+    NormalisedVoice voice = normalisedVoice(
         clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
     constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
     voice.losses.addCrowding(voice.events, resolved);
@@ -300,13 +300,6 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
         result.files.push_back({std::string(ahapTransients), second.finish()});
     result.losses = std::move(voice.losses).sorted();
     return result;
-}
-
-const ForeignFormat& ahapFormat()
-{
-    static const ForeignFormat format{"ahap",        "Apple Core Haptics, AHAP", ".ahap", isAhap, readAhap, writeAhap,
-                                      ahapTransients};
-    return format;
 }
 
 } // namespace pacini

@@ -1,10 +1,10 @@
 #include "io/formats/hjif/HjifVoices.h"
 
-#include "io/formats/PlayedClip.h"
 #include "io/formats/hjif/HjifEvents.h"
 #include "io/formats/hjif/HjifFit.h"
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifLikeness.h"
+#include "io/formats/hjif/PlayedClip.h"
 #include "io/formats/hjif/WithinShare.h"
 
 #include <pacini/synthesis/DecoderChoice.h>

@@ -1,7 +1,7 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
+#include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/samples/DriveSamples.h"
-#include "io/formats/samples/PcmFormat.h"
 
 #include <fmt/format.h>
 
@@ -80,6 +80,17 @@ std::vector<std::span<const float>> buffersOf(const std::vector<float>& samples)
 }
 } // namespace
 
+bool isOpenXrHeader(std::string_view bytes)
+{
+    return bytes.starts_with("/* XR_FB_haptic_pcm:");
+}
+
+bool isOpenXrJson(std::string_view bytes)
+{
+    return bytes.find("\"amplitudeEnvelopeVibration\"") != std::string_view::npos ||
+           bytes.find("\"pcmVibration\"") != std::string_view::npos;
+}
+
 Result<ExportedClip> writeOpenXrHeader(const Clip& clip, const ExportParams& params)
 {
     auto made = openXrOf(clip, params);
@@ -142,20 +153,6 @@ Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& param
                                             made->amplitudes.size(), numbersInLines(made->amplitudes, 10, number))});
     result.losses = std::move(made.value().drive.losses).sorted();
     return result;
-}
-
-const ForeignFormat& openXrHeaderFormat()
-{
-    static constexpr ForeignFormat format{
-        "openxr", "OpenXR PCM and amplitude envelope, C header", ".h", nullptr, nullptr, writeOpenXrHeader};
-    return format;
-}
-
-const ForeignFormat& openXrJsonFormat()
-{
-    static constexpr ForeignFormat format{
-        "openxr-json", "OpenXR PCM and amplitude envelope, JSON", ".json", nullptr, nullptr, writeOpenXrJson};
-    return format;
 }
 
 } // namespace pacini

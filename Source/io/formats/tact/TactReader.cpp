@@ -1,6 +1,6 @@
 #include "io/FieldsReader.h"
 #include "io/formats/ForeignText.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/tact/TactFormat.h"
 
 #include <fmt/format.h>

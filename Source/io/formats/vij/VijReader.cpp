@@ -112,12 +112,12 @@ private:
     ImportReport report;
     Clip clip;
 };
+} // namespace
 
 bool isVij(std::string_view bytes)
 {
     return bytes.find("\"voices\"") != std::string_view::npos && bytes.find("\"envelopes\"") != std::string_view::npos;
 }
-} // namespace
 
 Result<ImportedClip> readVij(std::string_view bytes)
 {
@@ -130,12 +130,6 @@ Result<ImportedClip> readVij(std::string_view bytes)
         return clip.error();
     result.clip = std::move(*clip);
     return result;
-}
-
-const ForeignFormat& vijFormat()
-{
-    static const ForeignFormat format{"vij", "Lofelt Studio Desktop, version 0.2", ".vij", isVij, readVij, nullptr};
-    return format;
 }
 
 } // namespace pacini

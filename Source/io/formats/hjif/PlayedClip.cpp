@@ -1,13 +1,9 @@
-#include "io/formats/PlayedClip.h"
+#include "io/formats/hjif/PlayedClip.h"
 
-#include <pacini/simplify/Simplify.h>
 #include <pacini/synthesis/CarrierBank.h>
-#include <pacini/synthesis/ClipAdaptation.h>
-#include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/PulseLevel.h>
-#include <pacini/synthesis/ScenePlayer.h>
 
 #include <algorithm>
 #include <array>
@@ -150,103 +146,6 @@ Clip playedClip(const Clip& clip, double pitchStep, double timeStep)
     played.envelope.clear();
     played.centroid.clear();
     return played;
-}
-
-SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, double otherwise)
-{
-    AdaptationParams onlyFrequencies;
-    onlyFrequencies.voices = false;
-    onlyFrequencies.dynamicRange = false;
-    onlyFrequencies.maxBoost = 0_dB;
-    SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
-    if (voice.frequency.empty())
-        voice.frequency = {{0.0, otherwise}};
-    if (voice.amplitude.empty())
-        voice.amplitude = {{0.0, 0.0}, {clip.duration, 0.0}};
-    std::erase_if(voice.events, [](const Transient& event) { return event.amplitude <= 0.0; });
-    return voice;
-}
-
-Clip clipOfVoice(SingleVoice voice)
-{
-    Clip clip;
-    clip.duration = voice.duration;
-    clip.transients = std::move(voice.events);
-    const bool silent = std::all_of(voice.amplitude.begin(), voice.amplitude.end(),
-                                    [](const Breakpoint& point) { return point.value == 0.0; });
-    if (silent)
-        return clip;
-    Band band;
-    band.amplitude = std::move(voice.amplitude);
-    const auto lower = [](const Breakpoint& a, const Breakpoint& b)
-    {
-        return a.value < b.value;
-    };
-    const auto [lowest, highest] = std::minmax_element(voice.frequency.begin(), voice.frequency.end(), lower);
-    band.lowFrequency = lowest->value;
-    band.highFrequency = highest->value;
-    band.centreFrequency = std::clamp(std::sqrt(lowest->value * highest->value), lowest->value, highest->value);
-    if (band.lowFrequency < band.highFrequency)
-        band.pitch = std::move(voice.frequency);
-    clip.bands.push_back(std::move(band));
-    return clip;
-}
-
-double burstLength(const std::vector<Transient>& events, std::size_t i, double burst)
-{
-    const double gap = i + 1 < events.size() ? events[i + 1].time - events[i].time : burst;
-    return gap < burst ? 0.6 * gap : burst;
-}
-
-std::vector<double> strengthOf(const SingleVoice& voice, double step, double burst)
-{
-    std::vector<double> strength(static_cast<std::size_t>(std::ceil(voice.duration / step - 1e-9)));
-    CurveReader amplitude(voice.amplitude);
-    for (std::size_t n = 0; n < strength.size(); ++n)
-        strength[n] = amplitude.at((static_cast<double>(n) + 0.5) * step);
-    for (std::size_t i = 0; i < voice.events.size(); ++i)
-    {
-        const Transient& event = voice.events[i];
-        const double length = burstLength(voice.events, i, burst);
-        // The nearest step: the one that it falls into may begin almost a step too early.
-        const auto first = static_cast<std::size_t>(std::lround(event.time / step));
-        const auto last = std::max(first + 1, static_cast<std::size_t>(std::lround((event.time + length) / step)));
-        for (std::size_t n = first; n < std::min(last, strength.size()); ++n)
-            strength[n] = std::hypot(strength[n], event.amplitude);
-    }
-    return strength;
-}
-
-Curve thinned(const Curve& curve, double pointsPerSecond, double duration)
-{
-    SimplifyParams params;
-    params.count = static_cast<std::size_t>(std::ceil(pointsPerSecond * std::max(duration, 0.1))) + 1;
-    const auto simple = simplify(curve, params);
-    return simple ? *simple : curve;
-}
-
-Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate, const std::optional<Profile>& profile)
-{
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.emplace_back();
-    CompileParams params;
-    params.sampleRate = sampleRate;
-    auto plan = compilePlan(scene, profile ? &*profile : nullptr, params);
-    if (!plan)
-        return plan.error();
-    ScenePlayerParams playing;
-    playing.sampleRate = sampleRate;
-    ScenePlayer player(std::move(*plan), playing);
-    std::vector<float> samples(static_cast<std::size_t>(std::max<std::int64_t>(player.totalFrames(), 0)));
-    constexpr std::size_t block = 4096;
-    for (std::size_t at = 0; at < samples.size(); at += block)
-    {
-        const std::span<float> out = std::span(samples).subspan(at, std::min(block, samples.size() - at));
-        const std::span<float> outputs[] = {out};
-        player.process(outputs);
-    }
-    return samples;
 }
 
 } // namespace pacini

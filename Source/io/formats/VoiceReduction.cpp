@@ -1,19 +1,19 @@
-#include "io/formats/VoiceExport.h"
+#include "io/formats/VoiceReduction.h"
 
-#include "io/formats/FormatLosses.h"
 #include "io/formats/RootCurve.h"
 
 #include <pacini/simplify/AnchoredCurve.h>
 #include <pacini/simplify/HatBasis.h>
 #include <pacini/simplify/Refit.h>
+#include <pacini/simplify/Simplify.h>
 #include <pacini/synthesis/ClipAdaptation.h>
-#include <pacini/synthesis/SingleVoice.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace pacini
 {
@@ -21,6 +21,30 @@ namespace pacini
 namespace
 {
 constexpr double shortest = 0.01; // s
+
+constexpr const char* inVoice = "residual noise becomes part of the voice";
+
+double largestValue(const Curve& curve)
+{
+    double largest = 0.0;
+    for (const Breakpoint& point : curve)
+        largest = std::max(largest, point.value);
+    return largest;
+}
+
+/// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are too
+/// weak to be there.
+void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
+{
+    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; bands more than a third of an octave "
+                                                 "away are played at its frequency",
+                                                 clip.bands.size()));
+    for (const Breakpoint& point : voice.displaced)
+        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
+    losses.append(bands);
+    losses.addNoise(clip, inVoice);
+    addEmptyParts(losses, voice);
+}
 
 /// `curve` at both sides of every time of `dense`: visit(time, exact, approximate).
 template <typename Visit>
@@ -109,7 +133,7 @@ std::size_t pointCount(double perSecond, double duration)
 constexpr double halfStep = 0.5 * leastAmplitude; // of 8 bits
 
 /// Sets the level to few points of a dense one, and adds what that loses.
-void fewLevels(ExportVoice& result, const Curve& level, const EmphasisPlayer* player, LevelScale scale,
+void fewLevels(NormalisedVoice& result, const Curve& level, const EmphasisPlayer* player, LevelScale scale,
                double pointsPerSecond)
 {
     result.level = fewPoints(level, result.events, player, {pointCount(pointsPerSecond, result.duration), halfStep});
@@ -128,8 +152,8 @@ void fewLevels(ExportVoice& result, const Curve& level, const EmphasisPlayer* pl
 }
 
 /// Likewise the frequency, of which the loud parts count most.
-void fewFrequencies(ExportVoice& result, const Curve& frequency, const Curve& amplitude, const NormalisedRange& range,
-                    double pointsPerSecond)
+void fewFrequencies(NormalisedVoice& result, const Curve& frequency, const Curve& amplitude,
+                    const NormalisedRange& range, double pointsPerSecond)
 {
     std::vector<double> weights = timeShares(frequency);
     CurveReader level(amplitude);
@@ -155,17 +179,147 @@ void fewFrequencies(ExportVoice& result, const Curve& frequency, const Curve& am
 }
 } // namespace
 
-ExportVoice exportVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
+void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
+{
+    if (!clip.bands.empty())
+        losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
+                   fmt::format("only the strength of {} is kept, not the frequency",
+                               clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
+    for (const Transient& event : voice.events)
+        losses.add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
+    losses.addNoise(clip, inVoice);
+    addEmptyParts(losses, voice);
+}
+
+void addEmptyParts(LossList& losses, const SingleVoice& voice)
+{
+    constexpr double shortest = 0.25; // s: less is the end of a decay
+    const Curve& curve = voice.amplitude;
+    double strongest = 0.0;
+    for (const Transient& event : voice.events)
+        strongest = std::max(strongest, event.amplitude);
+    if (std::max(strongest, largestValue(curve)) < leastAmplitude)
+        return losses.add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
+                          "nothing here is strong enough to be felt");
+    std::size_t event = 0, end = 0;
+    for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
+    {
+        double peak = 0.0;
+        for (end = begin; end < curve.size() && curve[end].value < leastAmplitude; ++end)
+            peak = std::max(peak, curve[end].value);
+        const double from = curve[begin].time;
+        const double to = end == curve.size() ? voice.duration : end > begin ? curve[end - 1].time : from;
+        while (event < voice.events.size() && voice.events[event].time < from)
+            ++event;
+        const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
+        if (peak > 0.0 && to - from >= shortest && !hasEvent)
+            losses.add(LossKind::empty, from, to - from, peak, "nothing here is strong enough to be felt");
+    }
+}
+
+SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, double otherwise)
+{
+    AdaptationParams onlyFrequencies;
+    onlyFrequencies.voices = false;
+    onlyFrequencies.dynamicRange = false;
+    onlyFrequencies.maxBoost = 0_dB;
+    SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
+    if (voice.frequency.empty())
+        voice.frequency = {{0.0, otherwise}};
+    if (voice.amplitude.empty())
+        voice.amplitude = {{0.0, 0.0}, {clip.duration, 0.0}};
+    std::erase_if(voice.events, [](const Transient& event) { return event.amplitude <= 0.0; });
+    return voice;
+}
+
+Clip clipOfVoice(SingleVoice voice)
+{
+    Clip clip;
+    clip.duration = voice.duration;
+    clip.transients = std::move(voice.events);
+    const bool silent = std::all_of(voice.amplitude.begin(), voice.amplitude.end(),
+                                    [](const Breakpoint& point) { return point.value == 0.0; });
+    if (silent)
+        return clip;
+    Band band;
+    band.amplitude = std::move(voice.amplitude);
+    const auto lower = [](const Breakpoint& a, const Breakpoint& b)
+    {
+        return a.value < b.value;
+    };
+    const auto [lowest, highest] = std::minmax_element(voice.frequency.begin(), voice.frequency.end(), lower);
+    band.lowFrequency = lowest->value;
+    band.highFrequency = highest->value;
+    band.centreFrequency = std::clamp(std::sqrt(lowest->value * highest->value), lowest->value, highest->value);
+    if (band.lowFrequency < band.highFrequency)
+        band.pitch = std::move(voice.frequency);
+    clip.bands.push_back(std::move(band));
+    return clip;
+}
+
+double burstLength(const std::vector<Transient>& events, std::size_t i, double burst)
+{
+    const double gap = i + 1 < events.size() ? events[i + 1].time - events[i].time : burst;
+    return gap < burst ? 0.6 * gap : burst;
+}
+
+std::vector<double> strengthOf(const SingleVoice& voice, double step, double burst)
+{
+    std::vector<double> strength(static_cast<std::size_t>(std::ceil(voice.duration / step - 1e-9)));
+    CurveReader amplitude(voice.amplitude);
+    for (std::size_t n = 0; n < strength.size(); ++n)
+        strength[n] = amplitude.at((static_cast<double>(n) + 0.5) * step);
+    for (std::size_t i = 0; i < voice.events.size(); ++i)
+    {
+        const Transient& event = voice.events[i];
+        const double length = burstLength(voice.events, i, burst);
+        // The nearest step: the one that it falls into may begin almost a step too early.
+        const auto first = static_cast<std::size_t>(std::lround(event.time / step));
+        const auto last = std::max(first + 1, static_cast<std::size_t>(std::lround((event.time + length) / step)));
+        for (std::size_t n = first; n < std::min(last, strength.size()); ++n)
+            strength[n] = std::hypot(strength[n], event.amplitude);
+    }
+    return strength;
+}
+
+Curve thinned(const Curve& curve, double pointsPerSecond, double duration)
+{
+    SimplifyParams params;
+    params.count = static_cast<std::size_t>(std::ceil(pointsPerSecond * std::max(duration, 0.1))) + 1;
+    const auto simple = simplify(curve, params);
+    return simple ? *simple : curve;
+}
+
+ReducedVoice reducedVoice(const Clip& clip, const ExportParams& params, double otherwise)
+{
+    ReducedVoice result{oneVoice(clip, params.profile, otherwise), {}};
+    addVoiceLosses(result.losses, clip, result.voice);
+    result.losses.addText(clip, true);
+    result.losses.limit(result.voice.amplitude, 1.0);
+    return result;
+}
+
+ReducedVoice reducedStrength(const Clip& clip, const ExportParams& params, double otherwise)
+{
+    ReducedVoice result{oneVoice(clip, params.profile, otherwise), {}};
+    addStrengthLosses(result.losses, clip, result.voice);
+    result.losses.addText(clip, true);
+    result.losses.limit(result.voice.amplitude, 1.0);
+    result.losses.limit(result.voice.events, 1.0);
+    return result;
+}
+
+NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
-    SingleVoice voice = params.profile
-                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip,
-                                            range.low, range.high)
-                            : singleVoiceOf(clip, range.low, range.high);
-    ExportVoice result;
+    SingleVoice voice =
+        params.profile
+            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip, range.low, range.high)
+            : singleVoiceOf(clip, range.low, range.high);
+    NormalisedVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);
-    result.losses.addOneVoice(clip, voice);
+    addVoiceLosses(result.losses, clip, voice);
     result.losses.addMarkers(clip);
     result.losses.limit(voice.amplitude, 1.0);
     result.losses.limit(voice.events, 1.0);
