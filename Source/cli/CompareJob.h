@@ -8,7 +8,7 @@
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/Hts.h>
-#include <pacini/evaluate/Judge.h>
+#include <pacini/evaluate/SignalMetrics.h>
 
 #include <cstdint>
 #include <functional>
@@ -39,7 +39,7 @@ struct CompareResult
     HtsScore hts;
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
-    JudgeMeasures measures;
+    SignalMetrics measures;
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only
     std::optional<EventScore> eventsNarrow; ///< within 10 ms
 };

@@ -116,7 +116,8 @@ void addBody(Lines& lines, const BodyParams& body)
 void addMeasurement(Lines& lines, const ProfileMeasurement& measurement)
 {
     lines.start("measured");
-    lines.add("measurement", fmt::format("{} fitting{}", measurement.fittings, measurement.fittings == 1 ? "" : "s"));
+    lines.add("measurement",
+              fmt::format("{} placement{}", measurement.placements, measurement.placements == 1 ? "" : "s"));
     lines.add("measurement", fmt::format("{:.3g} dB below full drive", -measurement.drive));
     if (measurement.distortionDrive)
         lines.add("measurement", fmt::format("10 % distortion at {:.3g} dB", *measurement.distortionDrive));

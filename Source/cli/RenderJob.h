@@ -70,7 +70,7 @@ struct RenderResult
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;
-    std::size_t mostSounding = 0;   ///< decoders at a time
+    std::size_t maxSounding = 0;    ///< decoders at a time
     double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measured; ///< dB, the error that leaving out really cost
     std::vector<Adaptation> adaptations;

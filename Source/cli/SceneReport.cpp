@@ -20,7 +20,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t mostListed = 20;
+constexpr std::size_t maxListed = 20;
 
 std::string_view lawName(PanLaw law)
 {
@@ -79,10 +79,10 @@ std::string playText(const TimedPlay& timed, const Scene& scene)
 template <typename Line>
 void appendList(std::string& text, std::size_t count, std::string_view one, Line line)
 {
-    for (std::size_t i = 0; i < std::min(count, mostListed); ++i)
+    for (std::size_t i = 0; i < std::min(count, maxListed); ++i)
         text += line(i);
-    if (count > mostListed)
-        text += fmt::format("  and {} more\n", counted(count - mostListed, one));
+    if (count > maxListed)
+        text += fmt::format("  and {} more\n", counted(count - maxListed, one));
 }
 } // namespace
 

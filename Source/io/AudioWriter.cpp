@@ -78,9 +78,9 @@ Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
     const bool flac = extension == ".flac";
     if (!flac && extension != ".wav" && !isStream(path)) // WAV is what a stream gets
         return badArgument("audio is written as .wav or .flac; choose one of these extensions");
-    const int mostChannels = flac ? 8 : limits::channels;
-    if (params.channels < 1 || params.channels > mostChannels)
-        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, mostChannels));
+    const int maxChannels = flac ? 8 : limits::channels;
+    if (params.channels < 1 || params.channels > maxChannels)
+        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, maxChannels));
     if (params.sampleRate < limits::lowestWrittenRate || params.sampleRate > limits::highestSampleRate)
         return badArgument(fmt::format("a sample rate of {} Hz cannot be written, {} to {} Hz can", params.sampleRate,
                                        limits::lowestWrittenRate, limits::highestSampleRate));

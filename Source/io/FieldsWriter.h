@@ -136,13 +136,13 @@ public:
     void timeline(std::string_view name, const Events& events, Need, Fields fields)
     {
         constexpr double linesPerSecond = 4.0;
-        constexpr int mostPerLine = 6;
+        constexpr int maxPerLine = 6;
         int onLine = 0;
         double quarter = -1.0;
         const auto separate = [&](const auto& event)
         {
             const double itsQuarter = std::floor(event.time * linesPerSecond);
-            const bool starts = onLine == 0 || onLine == mostPerLine || itsQuarter != quarter;
+            const bool starts = onLine == 0 || onLine == maxPerLine || itsQuarter != quarter;
             quarter = itsQuarter;
             onLine = starts ? 1 : onLine + 1;
             return starts;
@@ -268,8 +268,8 @@ private:
 
     void lineBreak(std::size_t steps)
     {
-        constexpr std::size_t mostKept = std::size_t(1) << 18;
-        if (receiver != nullptr && output.size() >= mostKept)
+        constexpr std::size_t maxKept = std::size_t(1) << 18;
+        if (receiver != nullptr && output.size() >= maxKept)
         {
             (*receiver)(output);
             output.clear();

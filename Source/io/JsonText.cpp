@@ -271,14 +271,14 @@ std::string inQuotes(std::string_view value)
 
 std::string shownText(std::string_view text)
 {
-    constexpr std::size_t mostCharacters = 40;
+    constexpr std::size_t maxCharacters = 40;
     std::string shown;
     std::size_t characters = 0;
     for (char c : text)
     {
         const auto byte = static_cast<unsigned char>(c);
         const bool continues = (byte & 0xC0u) == 0x80u;
-        if (!continues && ++characters > mostCharacters)
+        if (!continues && ++characters > maxCharacters)
         {
             shown += "...";
             break;

@@ -167,7 +167,7 @@ TEST_CASE("Of very many warnings the first are kept and the others counted, quic
     ReadWarnings warnings;
     const double without = timed(nullptr), with = timed(&warnings);
     const Strings all = warnings.texts();
-    REQUIRE(all.size() == ReadWarnings::mostKept + 1);
+    REQUIRE(all.size() == ReadWarnings::maxKept + 1);
     CHECK(all[1] == R"(envelope[1].volumen: is not known; did you mean "amplitude"?)");
     CHECK(all.back() == "and " + std::to_string(count - 20) + " more of these");
     CHECK(with < 3.0 * without + 0.5);

@@ -245,14 +245,14 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     std::vector<FrequencyResponse> responses;
     for (const AnalysedRecording& recording : result.recordings)
         responses.push_back(recording.measurement.response());
-    auto average = averageFittings(responses);
+    auto average = averagePlacements(responses);
     if (!average)
     {
         console.error("", average.error());
         return std::nullopt;
     }
     result.average = std::move(*average);
-    for (const FittingOutlier& outlier : result.average.outliers)
+    for (const PlacementOutlier& outlier : result.average.outliers)
         console.warning(options.recordings[outlier.index],
                         fmt::format("is unlike the others and left out of the average: {} dB, shape {:.1f} dB off",
                                     signedText(outlier.offset, 1), outlier.shape));

@@ -17,12 +17,12 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostControlPoints = 16; // of a curve; the last is the first of the next
-constexpr double neutral = 0.5;               // sharpness of the continuous events, to which curves add
-constexpr double transientLength = 0.015;     // s in which a transient needs its curve
-constexpr double lead = 0.001;                // s before it, for players that round times to floats
-constexpr double shortestSection = 0.001;     // s; shorter ones become part of their neighbour: rounded to a duration
-                                              // of 0 they would have no end
+constexpr std::size_t maxControlPoints = 16; // of a curve; the last is the first of the next
+constexpr double neutral = 0.5;              // sharpness of the continuous events, to which curves add
+constexpr double transientLength = 0.015;    // s in which a transient needs its curve
+constexpr double lead = 0.001;               // s before it, for players that round times to floats
+constexpr double shortestSection = 0.001;    // s; shorter ones become part of their neighbour: rounded to a duration
+                                             // of 0 they would have no end
 
 /// Six decimals are a microsecond, and 1/4000 of the steps that players tell apart.
 double rounded(double value)
@@ -196,9 +196,9 @@ public:
     /// A curve as curves of at most 16 points, whose times count from the first of each.
     void curve(const char* id, const Curve& points)
     {
-        for (std::size_t first = 0; first + 1 < points.size(); first += mostControlPoints - 1)
+        for (std::size_t first = 0; first + 1 < points.size(); first += maxControlPoints - 1)
         {
-            const std::size_t last = std::min(first + mostControlPoints, points.size());
+            const std::size_t last = std::min(first + maxControlPoints, points.size());
             const double start = rounded(points[first].time);
             begin();
             fmt::format_to(out(),

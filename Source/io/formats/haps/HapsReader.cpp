@@ -14,7 +14,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostElements = 5'000'000;
+constexpr std::size_t maxElements = 5'000'000;
 
 struct Keyframe
 {
@@ -50,7 +50,7 @@ void readModulation(FieldsReader& reader, const char* name, std::vector<Keyframe
     reader.object(name, keyframes, Need::optional,
                   [&](std::vector<Keyframe>& points)
                   {
-                      reader.list("m_keyframes", points, mostElements, "keyframes",
+                      reader.list("m_keyframes", points, maxElements, "keyframes",
                                   [&](Keyframe& keyframe)
                                   {
                                       reader.number("m_time", keyframe.time, Need::required);
@@ -67,7 +67,7 @@ void readVibration(FieldsReader& reader, Vibration& vibration)
                 {
                     reader.number("m_gain", melody.gain, Need::optional);
                     reader.number("m_mute", melody.mute, Need::optional);
-                    reader.list("m_notes", melody.notes, mostElements, "notes",
+                    reader.list("m_notes", melody.notes, maxElements, "notes",
                                 [&](Note& note)
                                 {
                                     reader.number("m_startingPoint", note.start, Need::required);

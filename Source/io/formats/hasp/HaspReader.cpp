@@ -42,11 +42,11 @@ std::vector<ProjectClip> clipsOf(const nlohmann::json& clips)
 
 std::string namesOf(const std::vector<ProjectClip>& clips)
 {
-    constexpr std::size_t mostNamed = 5;
+    constexpr std::size_t maxNamed = 5;
     std::string names;
-    for (std::size_t i = 0; i < std::min(clips.size(), mostNamed); ++i)
+    for (std::size_t i = 0; i < std::min(clips.size(), maxNamed); ++i)
         names += fmt::format("{}'{}'", i > 0 ? ", " : "", shownText(clips[i].name));
-    return names + (clips.size() > mostNamed ? ", ..." : "");
+    return names + (clips.size() > maxNamed ? ", ..." : "");
 }
 } // namespace
 

@@ -16,8 +16,8 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostSamples = 4000; // in one buffer or envelope
-constexpr int usualRate = 2000;           // Hz, that of Quest controllers
+constexpr std::size_t maxSamples = 4000; // in one buffer or envelope
+constexpr int usualRate = 2000;          // Hz, that of Quest controllers
 
 struct OpenXrClip
 {
@@ -48,7 +48,7 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     SingleVoice voice = oneVoice(clip, params.profile);
     const double rate = params.amplitudePoints.value_or(100.0);
     const double wanted = std::ceil(clip.duration * rate);
-    const double count = std::clamp(wanted, 1.0, static_cast<double>(mostSamples));
+    const double count = std::clamp(wanted, 1.0, static_cast<double>(maxSamples));
     LossList& losses = result.drive.losses;
     if (wanted > count)
         losses.add(LossKind::points, 0.0, clip.duration, 0.0,
@@ -74,8 +74,8 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
 std::vector<std::span<const float>> buffersOf(const std::vector<float>& samples)
 {
     std::vector<std::span<const float>> buffers;
-    for (std::size_t at = 0; at < samples.size(); at += mostSamples)
-        buffers.push_back(std::span(samples).subspan(at, std::min(mostSamples, samples.size() - at)));
+    for (std::size_t at = 0; at < samples.size(); at += maxSamples)
+        buffers.push_back(std::span(samples).subspan(at, std::min(maxSamples, samples.size() - at)));
     return buffers;
 }
 } // namespace
@@ -118,7 +118,7 @@ static const uint32_t {1}_amplitude_count = {6};
 static const float {1}_amplitudes[{6}] = {{{7}
 }};
 )",
-             mostSamples, name, made->drive.sampleRate, samples.size(),
+             maxSamples, name, made->drive.sampleRate, samples.size(),
              numbersInLines(samples, 10, [](float x) { return floatNumber(static_cast<double>(x)); }), made->duration,
              made->amplitudes.size(), numbersInLines(made->amplitudes, 10, floatNumber))});
     result.losses = std::move(made.value().drive.losses).sorted();
