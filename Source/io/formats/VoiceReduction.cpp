@@ -312,10 +312,10 @@ ReducedVoice reducedStrength(const Clip& clip, const ExportParams& params, doubl
 NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format)
 {
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
-    SingleVoice voice =
-        params.profile
-            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip, range.low, range.high)
-            : singleVoiceOf(clip, range.low, range.high);
+    SingleVoice voice = params.profile
+                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip,
+                                            range.low, range.high)
+                            : singleVoiceOf(clip, range.low, range.high);
     NormalisedVoice result;
     result.name = params.name.empty() ? clip.name : params.name;
     result.duration = std::max(clip.duration, shortest);
