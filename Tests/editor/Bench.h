@@ -20,6 +20,8 @@ inline std::filesystem::path demoSound(const std::string& name)
     return sourceFolder() / "Resources/demo" / (name + ".flac");
 }
 
+constexpr Lane envelope{LaneKind::envelope, 0};
+
 /// A session with one clip in a window of 1280 x 800.
 struct EditorBench
 {

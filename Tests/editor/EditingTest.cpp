@@ -12,8 +12,6 @@ using namespace pacini::test;
 
 namespace
 {
-constexpr Lane envelope{LaneKind::envelope, 0};
-
 /// A point away from both ends and from its neighbours, and not near silence.
 std::size_t freePoint(const Curve& curve, double distance)
 {

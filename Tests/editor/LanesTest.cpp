@@ -12,8 +12,6 @@ using namespace pacini::test;
 
 namespace
 {
-constexpr Lane envelope{LaneKind::envelope, 0};
-
 template <typename T>
 T& childOf(juce::Component& parent)
 {
