@@ -109,7 +109,7 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
     plan["actuators"] = result.actuators;
     plan["givenPlays"] = result.givenPlays;
     plan["keptPlays"] = result.keptPlays;
-    plan["maxSounding"] = result.maxSounding;
+    plan["mostSounding"] = result.maxSounding;
     plan["tolerance"] = params.leaveOut ? Json(params.tolerance) : Json(nullptr);
     plan["predictedError"] = decibels(result.predictedError);
     if (result.measured)

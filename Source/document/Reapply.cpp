@@ -36,22 +36,30 @@ public:
                           {
                               const double frequency = i < edit.frequencies.size() ? edit.frequencies[i] : 0.0;
                               ++i;
-                              if (const std::size_t k = nearest(lane.kind, frequency); k != nowhere)
+                              if (const std::size_t k = bandOf(lane, frequency); k != nowhere)
                                   claim(lane.kind, k, frequency);
                           });
         }
     }
 
-    /// The index of the lane's band, or `nowhere`.
-    [[nodiscard]] std::size_t find(LaneKind kind, double frequency) const
+    /// The index of the band of a lane that had this frequency, or `nowhere`.
+    [[nodiscard]] std::size_t find(const Lane& lane, double frequency) const
     {
-        if (kind == LaneKind::envelope || kind == LaneKind::centroid)
+        if (lane.kind == LaneKind::envelope || lane.kind == LaneKind::centroid)
             return 0;
-        const std::size_t k = nearest(kind, frequency);
-        return k != nowhere && holders.at({kind, k}) == frequency ? k : nowhere;
+        const std::size_t k = bandOf(lane, frequency);
+        return k != nowhere && holders.at({lane.kind, k}) == frequency ? k : nowhere;
     }
 
 private:
+    /// The band of that number where nothing has moved: several may have the same centre, as after transposing to the
+    /// end of the range. Else the one that is nearest.
+    [[nodiscard]] std::size_t bandOf(const Lane& lane, double frequency) const
+    {
+        const std::size_t count = lane.kind == LaneKind::noise ? clip.noise.size() : clip.bands.size();
+        return lane.index < count && centreOf(clip, lane) == frequency ? lane.index : nearest(lane.kind, frequency);
+    }
+
     [[nodiscard]] std::size_t nearest(LaneKind kind, double frequency) const
     {
         const bool noise = kind == LaneKind::noise;
@@ -199,7 +207,7 @@ std::string placeLanes(Edit& edit, const BandFinder& bands)
                   {
                       const double frequency = i < edit.frequencies.size() ? edit.frequencies[i] : 0.0;
                       ++i;
-                      lane.index = bands.find(lane.kind, frequency);
+                      lane.index = bands.find(lane, frequency);
                       if (lane.index == nowhere)
                           missing += fmt::format("{}{:.0f} Hz", missing.empty() ? "" : ", ", frequency);
                   });
