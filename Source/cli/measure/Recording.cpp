@@ -5,6 +5,7 @@
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
 
+#include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
 
@@ -24,10 +25,8 @@ namespace
 {
 std::optional<double> number(std::string_view text)
 {
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return failure == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? std::optional(value)
-                                                                                              : std::nullopt;
+    const auto value = parseNumber(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// m/s^2 from a number of them, or of g.
