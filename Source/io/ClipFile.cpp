@@ -64,7 +64,7 @@ Result<std::string> readClipBytes(const std::filesystem::path& path)
 Result<Clip> clipOf(std::string_view bytes, ReadWarnings* warnings)
 {
     if (bytes.starts_with(packedMagic))
-        return unpackClip(std::as_bytes(std::span(bytes)));
+        return unpackClip(std::as_bytes(std::span<const char>(bytes)));
     if (looksLikeJson(bytes))
         return readClipJson(bytes, largestClipText, warnings);
     if (bytes.empty())
@@ -105,7 +105,7 @@ Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, Clip
                   [&](std::string_view piece)
                   {
                       bytes += piece.size();
-                      file->write(std::as_bytes(std::span(piece)));
+                      file->write(std::as_bytes(std::span<const char>(piece)));
                   });
     if (auto done = file->commit(); !done)
         return done.error();
