@@ -1,5 +1,5 @@
 """A clip has the same bytes on every machine: the demo sounds encoded, packed, unpacked and rendered on this one, on
-64-bit ARM (by qemu) and on 32-bit x86, and with other versions of the functions of the mathematical library. Clips must
+64-bit ARM (by qemu) and on 32-bit x86, by another compiler and with other versions of mathematical functions. Clips must
 be those of the command byte for byte, and drives the same to -120 dB; by how much they differ at all is said.
 
 check_bytes.py SOURCE PACINI EIGEN
@@ -22,6 +22,8 @@ MACHINES = {
     "this one": ("g++", [], [], {}),
     # glibc has versions of its functions with and without fused multiply-add, whose last bits differ.
     "no fused multiply-add in the library": ("g++", [], [], {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}),
+    # Its library sorts and searches in other ways.
+    "Clang with libc++": ("clang++", ["-stdlib=libc++"], [], {}),
     "64-bit ARM": ("aarch64-linux-gnu-g++", [], ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"], {}),
     "32-bit x86": ("i686-linux-gnu-g++", ["-msse2", "-mfpmath=sse", "-static"],
                    [] if platform.machine() == "x86_64" else ["qemu-i386"], {}),
