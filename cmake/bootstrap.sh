@@ -207,6 +207,12 @@ slow-tests)
     install_packages "${portability_packages[@]}"
     run_tests release --label-regex slow --no-tests=ignore
     ;;
+# The command, and the rooms whose code leans most on the library.
+clang-tests)
+    install_packages "${portability_packages[@]}"
+    build clang-libc++ "pacini pacini_tests" "-DPACINI_TEST_ROOMS=foundation;filters;clip;simplify;io;io/formats;devices"
+    run_tests clang-libc++ --tests-regex '^(tests|cli)-' --label-exclude slow
+    ;;
 sanitized-tests)
     build asan all
     run_tests asan
