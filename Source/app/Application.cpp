@@ -2,7 +2,7 @@
 
 // The plugin as a program of its own.
 
-#include "app/AudioRig.h"
+#include "app/AudioDevices.h"
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
 
@@ -22,15 +22,15 @@ public:
 
     void initialise(const juce::String&) override
     {
-        if (const auto code = readWishes(wishes, getCommandLineParameterArray()))
+        if (const auto code = readCommandLine(choices, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);
             return quit();
         }
-        if (!wishes.fresh)
+        if (!choices.fresh)
             settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
         processor = std::make_unique<plugin::Plugin>();
-        rig = std::make_unique<AudioRig>(*processor);
+        rig = std::make_unique<AudioDevices>(*processor);
         Routing routing;
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
@@ -41,15 +41,15 @@ public:
             if (juce::Base64::convertFromBase64(state, settings->getValue("state")))
                 processor->setStateInformation(state.getData(), static_cast<int>(state.getDataSize()));
         }
-        if (wishes.testSignal)
+        if (choices.testSignal)
             routing.input = InputChoice::test;
-        routing.hapticOutput = wishes.hapticOutput.value_or(routing.hapticOutput);
-        routing.mainOutput = wishes.soundOutput.value_or(routing.mainOutput);
+        routing.hapticOutput = choices.hapticOutput.value_or(routing.hapticOutput);
+        routing.mainOutput = choices.soundOutput.value_or(routing.mainOutput);
         rig->setRouting(routing);
-        if (const auto error = rig->open(devices.get(), wishes.deviceType); error.isNotEmpty())
+        if (const auto error = rig->open(devices.get(), choices.deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        if (wishes.file != juce::File())
-            if (const auto played = rig->play(wishes.file); !played)
+        if (choices.file != juce::File())
+            if (const auto played = rig->play(choices.file); !played)
                 juce::Logger::writeToLog("Pacini: " + juce::String(played.error().text()));
         window = std::make_unique<StandaloneWindow>(*processor, *rig);
     }
@@ -86,10 +86,10 @@ private:
         return options;
     }
 
-    CommandLineWishes wishes;
+    CommandLineChoices choices;
     std::unique_ptr<juce::PropertiesFile> settings;
     std::unique_ptr<plugin::Plugin> processor;
-    std::unique_ptr<AudioRig> rig;
+    std::unique_ptr<AudioDevices> rig;
     std::unique_ptr<StandaloneWindow> window;
 };
 

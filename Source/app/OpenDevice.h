@@ -10,22 +10,22 @@ namespace pacini::app
 
 /// Opens the default device of a kind such as "JACK"; without one the saved device, or else the system's. An error
 /// text, empty when all is well. [message]
-inline juce::String openDevice(juce::AudioDeviceManager& manager, int mostInputs, int mostOutputs,
+inline juce::String openDevice(juce::AudioDeviceManager& manager, int maxInputs, int maxOutputs,
                                const juce::XmlElement* saved, const juce::String& deviceType)
 {
     if (deviceType.isEmpty())
-        return manager.initialise(mostInputs, mostOutputs, saved, true);
+        return manager.initialise(maxInputs, maxOutputs, saved, true);
     manager.getAvailableDeviceTypes();
     manager.setCurrentAudioDeviceType(deviceType, true);
     juce::AudioDeviceManager::AudioDeviceSetup setup;
     if (auto* type = manager.getCurrentDeviceTypeObject())
     {
         type->scanForDevices();
-        if (mostInputs > 0)
+        if (maxInputs > 0)
             setup.inputDeviceName = type->getDeviceNames(true)[type->getDefaultDeviceIndex(true)];
         setup.outputDeviceName = type->getDeviceNames(false)[type->getDefaultDeviceIndex(false)];
     }
-    return manager.initialise(mostInputs, mostOutputs, nullptr, false, {}, &setup);
+    return manager.initialise(maxInputs, maxOutputs, nullptr, false, {}, &setup);
 }
 
 } // namespace pacini::app

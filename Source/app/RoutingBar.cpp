@@ -22,7 +22,7 @@ juce::String channelText(const juce::StringArray& names, int channel)
 }
 } // namespace
 
-RoutingBar::RoutingBar(AudioRig& wanted)
+RoutingBar::RoutingBar(AudioDevices& wanted)
     : rig(wanted),
       devicesButton("Devices" + juce::String::fromUTF8("…")),
       fileButton("File" + juce::String::fromUTF8("…"))

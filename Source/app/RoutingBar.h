@@ -3,7 +3,7 @@
 
 // What goes in and where it comes out, above the plugin's window.
 
-#include "app/AudioRig.h"
+#include "app/AudioDevices.h"
 #include "editor/Theme.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -17,7 +17,7 @@ namespace pacini::app
 class RoutingBar final : public juce::Component, private juce::ChangeListener
 {
 public:
-    explicit RoutingBar(AudioRig& wanted);
+    explicit RoutingBar(AudioDevices& wanted);
     ~RoutingBar() override;
 
     void paint(juce::Graphics& g) override;
@@ -31,7 +31,7 @@ private:
     void readMenus();
     void chooseFile();
 
-    AudioRig& rig;
+    AudioDevices& rig;
     juce::TextButton devicesButton, fileButton;
     juce::ComboBox input, sidechain, heard, haptic;
     juce::Label inputLabel, sidechainLabel, heardLabel, hapticLabel;

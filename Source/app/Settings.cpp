@@ -7,7 +7,7 @@
 namespace pacini::app
 {
 
-std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray& arguments)
+std::optional<int> readCommandLine(CommandLineChoices& choices, const juce::StringArray& arguments)
 {
     // Installed it has another name than where it is built.
     const auto name = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getFileNameWithoutExtension();
@@ -15,8 +15,8 @@ std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray
                      name.toStdString());
     std::string deviceType, file;
     int hapticOutput = -1, soundOutput = -1;
-    options.add_flag("--fresh", wishes.fresh, "Start with the default settings, and leave the saved ones as they are");
-    options.add_flag("--test-signal", wishes.testSignal, "Listen to a test signal");
+    options.add_flag("--fresh", choices.fresh, "Start with the default settings, and leave the saved ones as they are");
+    options.add_flag("--test-signal", choices.testSignal, "Listen to a test signal");
     options.add_option("--play", file, "Listen to a sound file")->type_name("FILE");
     options.add_option("--device-type", deviceType, "Kind of sound device, such as ALSA or JACK")->type_name("TYPE");
     const CLI::Range channels(0, 1024);
@@ -28,13 +28,13 @@ std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray
         ->check(channels);
     if (const auto code = readCommandLine(options, JucePlugin_VersionString, arguments))
         return code;
-    wishes.deviceType = editor::toText(deviceType);
+    choices.deviceType = editor::toText(deviceType);
     if (!file.empty())
-        wishes.file = juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(file));
+        choices.file = juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(file));
     if (hapticOutput >= 0)
-        wishes.hapticOutput = hapticOutput - 1;
+        choices.hapticOutput = hapticOutput - 1;
     if (soundOutput >= 0)
-        wishes.soundOutput = soundOutput - 1;
+        choices.soundOutput = soundOutput - 1;
     return std::nullopt;
 }
 

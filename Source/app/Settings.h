@@ -3,7 +3,7 @@
 
 // What the standalone program remembers, and what its command line says instead.
 
-#include "app/AudioRig.h"
+#include "app/AudioDevices.h"
 
 #include <juce_data_structures/juce_data_structures.h>
 
@@ -13,7 +13,7 @@ namespace pacini::app
 {
 
 /// See the help of the program, `--help`.
-struct CommandLineWishes
+struct CommandLineChoices
 {
     bool fresh = false;
     bool testSignal = false;
@@ -23,7 +23,7 @@ struct CommandLineWishes
 };
 
 /// Returns the code to end with where the program is not to start: see readCommandLine().
-[[nodiscard]] std::optional<int> readWishes(CommandLineWishes& wishes, const juce::StringArray& arguments);
+[[nodiscard]] std::optional<int> readCommandLine(CommandLineChoices& choices, const juce::StringArray& arguments);
 
 /// Reads what was remembered; defaults where nothing was.
 [[nodiscard]] Routing routingOf(juce::PropertiesFile& settings);

@@ -13,7 +13,7 @@ constexpr int barHeight = 5 * editor::grid + 2;
 class StandaloneWindow::Content final : public juce::Component, private juce::ComponentListener
 {
 public:
-    Content(plugin::Plugin& processor, AudioRig& wanted) : rig(wanted), plugin(processor), bar(wanted)
+    Content(plugin::Plugin& processor, AudioDevices& wanted) : rig(wanted), plugin(processor), bar(wanted)
     {
         bar.setLookAndFeel(&plugin.getLookAndFeel());
         plugin.onThemeChange = [this]
@@ -68,12 +68,12 @@ private:
         options.launchAsync();
     }
 
-    AudioRig& rig;
+    AudioDevices& rig;
     plugin::PluginWindow plugin;
     RoutingBar bar;
 };
 
-StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioRig& rig)
+StandaloneWindow::StandaloneWindow(plugin::Plugin& processor, AudioDevices& rig)
     : DocumentWindow("Pacini", juce::Colours::black, DocumentWindow::allButtons)
 {
     setUsingNativeTitleBar(true);

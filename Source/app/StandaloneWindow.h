@@ -3,7 +3,7 @@
 
 // The plugin's window with the routing bar above it.
 
-#include "app/AudioRig.h"
+#include "app/AudioDevices.h"
 #include "app/RoutingBar.h"
 #include "plugin/window/PluginWindow.h"
 
@@ -17,7 +17,7 @@ namespace pacini::app
 class StandaloneWindow final : public juce::DocumentWindow
 {
 public:
-    StandaloneWindow(plugin::Plugin& processor, AudioRig& rig);
+    StandaloneWindow(plugin::Plugin& processor, AudioDevices& rig);
     ~StandaloneWindow() override;
 
     void closeButtonPressed() override;

@@ -122,8 +122,9 @@ CLI::App* CompareCommand::declare(CLI::App& app)
         ->required()
         ->type_name("REF");
     command
-        ->add_option("candidate", candidate,
-                     "What it became, such as a rendered clip: an audio file, or a folder of files with the same names")
+        ->add_option(
+            "candidate", candidate,
+            "The haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names")
         ->required()
         ->type_name("CAND");
     auto* onsetOption =
@@ -145,9 +146,9 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
-        "  of REF          the HTS of the sound itself, played as it is: what keeping everything reaches. It is below\n"
-        "                  100 where much of the sound cannot be felt; a translation that brings that within reach\n"
-        "                  can pass it\n"
+        "  of REF          the HTS of the sound itself, played as it is: the score of keeping everything. It is below\n"
+        "                  100 where much of the sound cannot be felt; a translation that makes this part felt can\n"
+        "                  score higher\n"
         "  HTS-F           as HTS, comparing only what is felt on both sides\n"
         "  LSD             log-spectral distance in third octaves; 0 is equal\n"
         "  wide SNR        of the envelope of the whole band; 60 is equal\n"

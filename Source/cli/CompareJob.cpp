@@ -2,7 +2,7 @@
 
 #include "cli/ReadingAdvice.h"
 #include "cli/Stopwatch.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ struct Features
 {
     HtsFeatures hts;
     HtsFeatures itself; ///< of a source: as its own candidate
-    JudgeFeatures judge;
+    SignalFeatures judge;
 };
 } // namespace
 
@@ -92,7 +92,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
         .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
     CompareResult result;
     Stopwatch work;
-    std::optional<JudgeAnalyzer> judge;
+    std::optional<SignalAnalyzer> judge;
     const auto analyze = [&](const fs::path& path, HtsRole role) -> std::variant<Features, InputFailure>
     {
         const auto sound = readMono(path, reading, work);
@@ -107,8 +107,8 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
             {
                 // The reader has checked the rate, the only thing that can be wrong here.
                 if (role == HtsRole::source)
-                    judge.emplace(judgeLength(samples.size(), sound->sampleRate));
-                features.judge = judgeFeatures(*judge, samples, sound->sampleRate).value();
+                    judge.emplace(signalAnalysisLength(samples.size(), sound->sampleRate));
+                features.judge = signalFeatures(*judge, samples, sound->sampleRate).value();
                 HtsFeatures& asCandidate = role == HtsRole::source ? features.itself : features.hts;
                 asCandidate = htsCandidateFeatures(hts, samples, sound->sampleRate).value();
                 if (role == HtsRole::source)
@@ -129,7 +129,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     std::vector<double> events = target.judge.onsets;
     if (!pair.events.empty())
     {
-        const auto read = readAnyClip(pair.events, settings.strict);
+        const auto read = readClip(pair.events, settings.strict);
         if (!read)
             return InputFailure{pair.events, read.error()};
         result.warnings = read->warnings;

@@ -8,7 +8,7 @@
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/Hts.h>
-#include <pacini/evaluate/Judge.h>
+#include <pacini/evaluate/SignalMetrics.h>
 
 #include <cstdint>
 #include <functional>
@@ -23,7 +23,7 @@ namespace pacini::cli
 struct CompareSettings
 {
     bool allowTruncated = false;
-    bool strict = false; ///< see readAnyClip()
+    bool strict = false; ///< see readClip()
     std::optional<Onsets> onsets;
     Onsets ambiguous; ///< events that count neither for nor against
 };
@@ -39,7 +39,7 @@ struct CompareResult
     HtsScore hts;
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
-    JudgeMeasures measures;
+    SignalMetrics measures;
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only
     std::optional<EventScore> eventsNarrow; ///< within 10 ms
 };
@@ -52,7 +52,7 @@ public:
 
     /// Compares over the reference's length. Channels are mixed down to their mean; rates from 2 to 768 kHz.
     /// `progress(share)` is called now and then. A failure names the file: those of AudioReader, tooLarge beyond 24
-    /// hours, and of readAnyClip.
+    /// hours, and of readClip.
     [[nodiscard]] std::variant<CompareResult, InputFailure> run(const ComparePair& pair,
                                                                 const std::function<void(double)>& progress);
 

@@ -1,6 +1,6 @@
 #include "cli/ComparePairs.h"
 
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 
 #include <map>
 #include <set>
@@ -64,7 +64,7 @@ Result<ComparePairs> pairFiles(const std::string& reference, const std::string& 
 
     const InputFiles references = findInputs({reference}, audioExtensions());
     const InputFiles candidates = findInputs({candidate}, audioExtensions());
-    const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, anyClipExtensions());
+    const InputFiles clips = events.empty() ? InputFiles{} : findInputs({events}, clipFileExtensions());
     for (const InputFiles* found : {&references, &candidates, &clips})
         result.failures.insert(result.failures.end(), found->failures.begin(), found->failures.end());
     const FilesByStem candidatesByStem = byStem(candidates);

@@ -25,7 +25,7 @@ struct Column
 };
 
 /// A measure of the judge, which a silent reference has not.
-template <double JudgeMeasures::*member>
+template <double SignalMetrics::*member>
 std::optional<double> judged(const CompareResult& r)
 {
     return r.measures.silentReference ? std::nullopt : std::optional(r.measures.*member);
@@ -53,12 +53,12 @@ constexpr std::array<Column, 11> columns{{
      {
          return std::optional(r.htsFidelity.score);
      }},
-    {"lsd", "LSD dB", 2, judged<&JudgeMeasures::logSpectralDistance>},
-    {"wideSnr", "wide SNR dB", 2, judged<&JudgeMeasures::wideSnr>},
-    {"bandSnr", "band SNR dB", 2, judged<&JudgeMeasures::envelopeSnr>},
-    {"bandSnrPerBand", "", 2, judged<&JudgeMeasures::envelopeSnrPerBand>},
-    {"centroidError", "centroid error %", 1, judged<&JudgeMeasures::centroidError>},
-    {"centroidBias", "", 1, judged<&JudgeMeasures::centroidBias>},
+    {"lsd", "LSD dB", 2, judged<&SignalMetrics::logSpectralDistance>},
+    {"wideSnr", "wide SNR dB", 2, judged<&SignalMetrics::wideSnr>},
+    {"bandSnr", "band SNR dB", 2, judged<&SignalMetrics::envelopeSnr>},
+    {"bandSnrPerBand", "", 2, judged<&SignalMetrics::envelopeSnrPerBand>},
+    {"centroidError", "centroid error %", 1, judged<&SignalMetrics::centroidError>},
+    {"centroidBias", "", 1, judged<&SignalMetrics::centroidBias>},
     {"f1", "F1", 3, scored<&CompareResult::events>},
     {"f1Within10ms", "", 3, scored<&CompareResult::eventsNarrow>},
 }};

@@ -289,7 +289,7 @@ std::string fishScript(const CommandText& program)
 CLI::App* CompletionsCommand::declare(CLI::App& app)
 {
     program = &app;
-    auto* command = app.add_subcommand("completions", "Print a script by which a shell completes commands and options");
+    auto* command = app.add_subcommand("completions", "Print the completion script of a shell");
     command->add_option("shell", shell, "Which shell")
         ->required()
         ->check(oneOf({"bash", "zsh", "fish"}))

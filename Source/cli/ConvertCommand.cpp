@@ -5,7 +5,8 @@
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 #include "io/ProfileFile.h"
 #include "io/ProfileJson.h"
 #include "io/Sha256.h"
@@ -108,21 +109,23 @@ ManifestEntry entryOf(const ConvertTask& task)
 
 CLI::App* ConvertCommand::declare(CLI::App& app)
 {
-    auto* command = app.add_subcommand(
-        "convert", "Convert clips between formats, Pacini's own and others', or a profile between JSON and ACF");
+    auto* command = app.add_subcommand("convert", "Convert clips between formats, or a profile between JSON and ACF");
     command
-        ->add_option("inputs", inputs,
-                     "Clips or folders of them, - for standard input, or a profile; then what to write unless -o says "
-                     "it; a file "
-                     "there is replaced only if it was the same anyway")
+        ->add_option(
+            "inputs", inputs,
+            "Clips or folders of them, - for standard input, or a profile; then the output unless -o names it; a "
+            "file there is replaced only if its content stays the same")
         ->required()
         ->type_name("IN... OUT");
     command->add_option("-o,--output", output, "File, folder for several inputs, or - for standard output")
         ->type_name("OUT|DIR");
     std::vector<std::string> names;
-    for (const ClipTarget& target : clipTargets())
-        names.emplace_back(target.name);
-    command->add_option("--format", format, "What to write; 'pacini lint --targets' explains [by the extension of OUT]")
+    for (const ClipFormat& known : clipFormats())
+        if (known.isWritten())
+            names.emplace_back(known.name);
+    command
+        ->add_option("--format", format,
+                     "Format to write; 'pacini lint --targets' explains them [by the extension of OUT]")
         ->check(oneOf(names));
     command
         ->add_option("--quantise", quantise,
@@ -130,9 +133,8 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
         ->check(wholeNumberFrom(4, 16));
     options.declare(*command);
     command
-        ->add_option(
-            "--manifest", manifest,
-            fmt::format("Where to record what became of each input [{} in the folder of several]", manifestName))
+        ->add_option("--manifest", manifest,
+                     fmt::format("File that records the result of each input [{} in the output folder]", manifestName))
         ->type_name("FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     overwriting.declare(*command);
@@ -263,25 +265,25 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
         console.error(where, {ErrorCode::invalidArgument, "", message});
         return std::nullopt;
     };
-    const ClipTarget* target = clipTargetNamed(format);
+    const ClipFormat* target = clipFormatNamed(format);
     if (target == nullptr && several)
         return wrongUsage(output, "is a folder for clips of one format; say which with --format");
     if (target == nullptr)
-        target = clipTargetOf(lowerExtension(output));
+        target = clipFormatWrittenTo(lowerExtension(output));
     if (target == nullptr)
         return wrongUsage(output,
                           "has neither the extension .json nor .pacb nor that of another format; say which with "
                           "--format");
-    if (target->foreign == nullptr && options.given())
+    if (target->isOwn() && options.given())
         return wrongUsage(output, "holds all of a clip; --points, --split, --sample-rate and --profile are for other "
                                   "formats");
-    if (target->foreign != nullptr && quantise > 0)
+    if (!target->isOwn() && quantise > 0)
         return wrongUsage(output, "is no packed clip; --quantise is for those");
     const auto params = options.params(console);
     if (!params)
         return std::nullopt;
     ConvertSettings settings;
-    settings.target = *target;
+    settings.format = target;
     settings.params = *params;
     settings.quantise = quantise;
     settings.force = force;
@@ -297,7 +299,7 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
 
 InputFiles ConvertCommand::findClips() const
 {
-    InputFiles found = findInputs(inputs, anyClipExtensions());
+    InputFiles found = findInputs(inputs, clipFileExtensions());
     std::erase_if(found.files,
                   [&](const InputFile& file)
                   {
@@ -326,7 +328,7 @@ Exit ConvertCommand::convertClips(Console& console)
     if (isStandardOutput(output))
         console.keepStdoutFree();
 
-    const std::string extension(settings->target.extension);
+    const std::string extension(settings->format->extension);
     auto tasks =
         makeTasks<ConvertResult>(found, {several ? output + "/" : output, extension, extension}, overwriting, !dryRun);
     for (ConvertTask& task : tasks)

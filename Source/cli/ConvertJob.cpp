@@ -1,7 +1,7 @@
 #include "cli/ConvertJob.h"
 
 #include "cli/Task.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 #include "io/InputFile.h"
 #include "io/Sha256.h"
 
@@ -56,7 +56,7 @@ Result<Existing> mayConvertTo(const std::filesystem::path& main, const ExportedC
 Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
                                   Replaceable replaceable, const ConvertSettings& settings, const ManifestEntry* before)
 {
-    auto read = readAnyClip(input, settings.strict);
+    auto read = readClip(input, settings.strict);
     if (!read)
         return read.error();
     ConvertResult result;
@@ -73,7 +73,7 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
     }
     if (settings.quantise > 0)
         setQuantise(read->clip, settings.quantise);
-    auto exported = exportClip(read->clip, settings.target, settings.params);
+    auto exported = settings.format->write(read->clip, settings.params);
     if (!exported)
         return exported.error();
     const auto existing = mayConvertTo(output, *exported, replaceable, settings.folder, before);
@@ -86,12 +86,12 @@ Result<ConvertResult> convertClip(const std::filesystem::path& input, const std:
         return atOutput(output, written.error());
     for (std::size_t i = 0; i < written->size(); ++i)
     {
-        result.entry.outputs.push_back(
-            {nameIn(settings.folder, (*written)[i].path), (*written)[i].bytes, sha256(exported->files[i].bytes)});
+        const std::string& bytes = exported->files[i].bytes;
+        result.entry.outputs.push_back({nameIn(settings.folder, (*written)[i]), bytes.size(), sha256(bytes)});
     }
     result.entry.duration = read->clip.duration;
     result.entry.warnings = std::move(read->warnings);
-    if (const auto stray = strayCompanion(output, settings.target, *exported); !stray.empty())
+    if (const auto stray = strayCompanion(output, *settings.format, *exported); !stray.empty())
         result.entry.warnings.push_back(strayWarning(stray));
     result.losses = std::move(exported->losses);
     result.entry.losses = lossesByKind(result.losses);

@@ -4,7 +4,7 @@
 
 #include "cli/ConvertManifest.h"
 #include "cli/Overwrite.h"
-#include "io/ClipExport.h"
+#include "io/ClipFile.h"
 
 #include <filesystem>
 #include <string>
@@ -14,14 +14,14 @@ namespace pacini::cli
 
 struct ConvertSettings
 {
-    ClipTarget target;
+    const ClipFormat* format = nullptr; ///< never null
     ExportParams params;
     int quantise = 0;             ///< bits of the values of a packed clip; 0: as the clip says
     std::string record;           ///< what of the settings the outputs depend on
     std::filesystem::path folder; ///< the outputs' names in the entry count from here
     bool force = false;
     bool dryRun = false; ///< write nothing
-    bool strict = false; ///< see readAnyClip()
+    bool strict = false; ///< see readClip()
 };
 
 /// What came of one clip.
@@ -34,8 +34,8 @@ struct ConvertResult
 
 /// Converts `input` to `output` and whatever further files the format needs. Does nothing when `before` says that the
 /// same input with the same settings became these outputs, and they are still what was written then. Errors: those of
-/// readAnyClip, exportClip and writeExport; io when what is at an output is not to be replaced: neither the same nor
-/// what `before` says was written.
+/// readClip, ClipFormat::write and writeExport; io when what is at an output is not to be replaced: neither the same
+/// nor what `before` says was written.
 [[nodiscard]] Result<ConvertResult> convertClip(const std::filesystem::path& input, const std::filesystem::path& output,
                                                 Replaceable replaceable, const ConvertSettings& settings,
                                                 const ManifestEntry* before);

@@ -3,7 +3,7 @@
 // The record of what a folder was converted to.
 
 #include "io/FileHandle.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <nlohmann/json.hpp>
 

@@ -19,7 +19,7 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
     command->footer(
         "'pacini play CLIP --device N' plays on the one with that number.\n"
         "Known are Joy-Con, Switch Pro, DualShock 4, DualSense and, on Bluetooth, Xbox controllers, and as\n"
-        "'Waveforms' what has waveforms of HID page 0x0E: some touchpads, mice, pens and dials.");
+        "'Waveforms' devices with waveforms of HID page 0x0E: some touchpads, mice, pens and dials.");
     return command;
 }
 

@@ -6,6 +6,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
+#include "io/FileExtension.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -139,8 +140,9 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->type_name("NAME");
     command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
     std::vector<std::string> formats;
-    for (const ClipTarget& target : clipTargets())
-        formats.emplace_back(target.name);
+    for (const ClipFormat& known : clipFormats())
+        if (known.isWritten())
+            formats.emplace_back(known.name);
     command
         ->add_option("--format", format,
                      "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
@@ -174,7 +176,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
         ->check(numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan,
-                      "Take samples that are no numbers or absurdly large as 0 instead of refusing the file");
+                      "Read samples that are not finite, or absurdly large, as 0 instead of refusing the file");
     command->add_flag("--allow-truncated", allowTruncated, "Encode what is there of a file that was cut off");
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     overwriting.declare(*command);
@@ -220,8 +222,7 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
         if (!format.empty())
             return wrongUsage("--format", fmt::format("is for clips, but {} writes a WAV file; clips come from {}",
                                                       method.name, clips));
-        if (const auto extension = lowerExtension(output);
-            std::find(clipExtensions().begin(), clipExtensions().end(), extension) != clipExtensions().end())
+        if (isOwnExtension(lowerExtension(output)))
             return wrongUsage(
                 "--output",
                 fmt::format("is named like a clip, but {} writes a WAV file; clips come from {}", method.name, clips));
@@ -252,7 +253,7 @@ Result<void> EncodeCommand::checkFormat() const
                                                   ".pacb, or render the clip afterwards",
                                                   output));
     if (inputs.size() == 1 && !std::filesystem::is_directory(inputs.front(), ignored) &&
-        clipTargetOf(extension) == nullptr)
+        clipFormatWrittenTo(extension) == nullptr)
         return wrongUsage("--output", fmt::format("{} has the extension of no clip; name it .json or .pacb, say which "
                                                   "with --format, or write {}/ for a folder",
                                                   output, output));
@@ -294,12 +295,12 @@ Exit EncodeCommand::run(Console& console)
     settings.reading = {allowTruncated, allowNan};
     settings.force = force;
     settings.dryRun = dryRun;
-    const ClipTarget* target = clipTargetNamed(format);
+    const ClipFormat* target = clipFormatNamed(format);
     if (target == nullptr)
-        target = clipTargetOf(lowerExtension(output));
+        target = clipFormatWrittenTo(lowerExtension(output));
     if (target != nullptr)
-        settings.target = *target;
-    if (settings.target.foreign == nullptr && exporting.given())
+        settings.format = target;
+    if (settings.format->isOwn() && exporting.given())
     {
         console.error("", wrongUsage("--format", "must be a format of other programs for --points, --split, "
                                                  "--sample-rate and --profile"));
@@ -309,7 +310,7 @@ Exit EncodeCommand::run(Console& console)
     if (!exportParams)
         return Exit::failed;
     settings.exporting = *exportParams;
-    const std::string extension(settings.target.extension);
+    const std::string extension(settings.format->extension);
     OutputNames names{output, extension, extension};
     if (method.output == MethodOutput::signal) // beside its recording a signal must not replace it
         names = {output, ".wav", fmt::format(".{}.wav", method.name)};

@@ -4,11 +4,11 @@
 #include "cli/Task.h"
 #include "io/AudioWriter.h"
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
 #include "io/ClipSeal.h"
 #include "io/Fingerprint.h"
 #include "io/Utf8.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/SoundPeak.h>
 
@@ -26,36 +26,59 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// Hands visit() the next samples until the file ends. Errors: those of AudioReader, tooLarge beyond 24 hours.
-template <typename Visit>
-Result<void> forEachPiece(AudioReader& reader, const std::function<void(double)>& progress, Visit&& visit)
+/// Reads a sound part by part. Errors: those of AudioReader, tooLarge beyond 24 hours.
+class SoundFile
 {
-    const auto channels = static_cast<std::size_t>(reader.channels());
-    const double expected = static_cast<double>(reader.frames().value_or(0));
-    std::vector<float> buffer(channels * std::max<std::size_t>(1, 65536 / channels));
-    std::uint64_t frames = 0;
-    for (;;)
+public:
+    SoundFile(AudioReader& opened, const std::function<void(double)>& toTell)
+        : reader(opened),
+          progress(toTell),
+          expected(static_cast<double>(opened.frames().value_or(0))),
+          buffer(soundPartLength(static_cast<std::size_t>(opened.channels())))
     {
+    }
+
+    [[nodiscard]] SoundPart operator()()
+    {
+        if (expected > 0.0 && frames > 0)
+            progress(static_cast<double>(frames) / expected);
         const auto got = reader.read(buffer);
         if (!got)
             return withAdvice(got.error(), true);
-        if (*got == 0)
-            return {};
         frames += *got;
         if (static_cast<double>(frames) / reader.sampleRate() > limits::duration)
             return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
-        visit(std::span<const float>(buffer).first(*got * channels));
-        if (expected > 0.0)
-            progress(static_cast<double>(frames) / expected);
+        return std::span<const float>(buffer).first(*got * static_cast<std::size_t>(reader.channels()));
+    }
+
+private:
+    AudioReader& reader;
+    const std::function<void(double)>& progress;
+    double expected;
+    std::vector<float> buffer;
+    std::uint64_t frames = 0;
+};
+
+/// Hands visit() all parts of a sound. Errors: those of SoundFile.
+template <typename Visit>
+Result<void> forEachPart(SoundFile file, Visit&& visit)
+{
+    for (;;)
+    {
+        const SoundPart part = file();
+        if (!part)
+            return part.error();
+        if (part->empty())
+            return {};
+        visit(*part);
     }
 }
 
 Result<std::vector<float>> readMono(AudioReader& reader, const std::function<void(double)>& progress, Stopwatch& work)
 {
     std::vector<float> samples;
-    const auto read = forEachPiece(reader, progress,
-                                   [&samples](std::span<const float> piece)
-                                   { samples.insert(samples.end(), piece.begin(), piece.end()); });
+    const auto read = forEachPart(SoundFile(reader, progress), [&samples](std::span<const float> part)
+                                  { samples.insert(samples.end(), part.begin(), part.end()); });
     if (!read)
         return read.error();
     work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(reader.channels())); });
@@ -78,13 +101,6 @@ bool dependsOnSound(const EncoderParameter& parameter)
     return parameter.name == "gain" || parameter.name == "channelGain" || parameter.name == clipSealName;
 }
 
-/// Whether a file is a clip, be it a damaged one.
-bool saysItIsAClip(std::string_view bytes)
-{
-    constexpr std::size_t start = 1024;
-    return bytes.starts_with("PACB") || bytes.substr(0, start).find(clipFormatName) != std::string_view::npos;
-}
-
 /// What a clip calls its sound; nothing when that came from standard input.
 std::string sourceName(const fs::path& input)
 {
@@ -103,7 +119,7 @@ Result<EncodeResult> EncodeJob::run(const fs::path& input, const fs::path& outpu
     Result<Existing> existing = Existing::replace;
     if (!makesClip)
         existing = mayReplace(output, signalOrigin(input, output), replaceable);
-    else if (settings.target.foreign == nullptr)
+    else if (settings.format->isOwn())
         existing = lookAt(input, output, replaceable, result);
     if (!existing)
         return existing.error();
@@ -143,28 +159,20 @@ Result<std::size_t> EncodeJob::encodeClip(AudioReader& reader, const fs::path& i
     auto made = makeClip(reader, input, progress, work);
     if (!made)
         return made.error();
-    // Both formats hold the same data: what lies on the grids of `quantise` bits. A clip of hours is large, so that
-    // there is never a second one.
-    std::vector<std::byte> packed;
+    // Both of Pacini's formats hold the same: what lies on the grids of `quantise` bits.
+    Clip clip;
     work.run(
         [&]
         {
-            const PackParams grids = packParamsFor(*made);
-            packed = packClip(std::move(*made), grids);
+            clip = onGrids(std::move(*made));
+            sealClip(clip);
         });
-    Clip clip = unpackClip(packed).value();
-    work.run([&] { sealClip(clip); });
     result.duration = clip.duration;
     result.breakpoints = breakpointCount(clip);
     result.transients = clip.transients.size();
-    return settings.target.foreign == nullptr ? writeOwn(std::move(clip), output, existing)
-                                              : writeForeign(clip, output, replaceable, work, result);
-}
-
-Result<std::size_t> EncodeJob::writeOwn(Clip clip, const fs::path& output, Existing existing) const
-{
-    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
-    const auto written = writeClip(output, std::move(clip), format, existing);
+    if (!settings.format->isOwn())
+        return writeForeign(clip, output, replaceable, work, result);
+    const auto written = writeClip(output, std::move(clip), *settings.format, existing);
     return written ? written : atOutput(output, written.error());
 }
 
@@ -172,7 +180,7 @@ Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& ou
                                             Stopwatch& work, EncodeResult& result) const
 {
     std::optional<Result<ExportedClip>> exported;
-    work.run([&] { exported = exportClip(clip, settings.target, settings.exporting); });
+    work.run([&] { exported = settings.format->write(clip, settings.exporting); });
     if (!*exported)
         return exported->error();
     const auto allowed = mayReplace(output, **exported, replaceable);
@@ -181,10 +189,10 @@ Result<std::size_t> EncodeJob::writeForeign(const Clip& clip, const fs::path& ou
     const auto written = writeExport(output, **exported, *allowed);
     if (!written)
         return atOutput(output, written.error());
-    result.stray = strayCompanion(output, settings.target, **exported);
+    result.stray = strayCompanion(output, *settings.format, **exported);
     std::size_t bytes = 0;
-    for (const WrittenFile& file : *written)
-        bytes += file.bytes;
+    for (const ExportedFile& file : (*exported)->files)
+        bytes += file.bytes.size();
     return bytes;
 }
 
@@ -254,14 +262,26 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& inpu
             return found.error();
         peak = *found;
     }
-    work.run([&] { encoder.start(reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak); });
-    const auto read = forEachPiece(
-        reader, [&](double part) { progress(done + (1.0 - done) * part); },
-        [&](std::span<const float> piece) { work.run([&] { encoder.push(piece); }); });
-    if (!read)
-        return read.error();
-    Clip clip;
-    work.run([&] { clip = encoder.finish(); });
+    const std::function<void(double)> rest = [&](double part)
+    {
+        progress(done + (1.0 - done) * part);
+    };
+    SoundFile file(reader, rest);
+    Stopwatch reading;
+    Result<Clip> clip = Clip();
+    work.run(
+        [&]
+        {
+            const auto next = [&]
+            {
+                SoundPart part = std::span<const float>();
+                reading.run([&] { part = file(); });
+                return part;
+            };
+            clip = encodePrecisely(encoder, {reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak},
+                                   next);
+        });
+    work.leaveOut(reading);
     return clip;
 }
 
@@ -272,8 +292,8 @@ Result<double> EncodeJob::peakOf(const fs::path& input, const Progress& progress
         return withAdvice(reader.error(), true);
     SoundPeak peak(Encoder::bandsOf(settings.params));
     peak.start(reader->sampleRate(), reader->channels());
-    const auto read =
-        forEachPiece(*reader, progress, [&](std::span<const float> piece) { work.run([&] { peak.push(piece); }); });
+    const auto read = forEachPart(SoundFile(*reader, progress),
+                                  [&](std::span<const float> part) { work.run([&] { peak.push(part); }); });
     if (!read)
         return read.error();
     double found = 0.0;
@@ -296,15 +316,16 @@ Result<Existing> EncodeJob::lookAt(const fs::path& input, const fs::path& output
 {
     if (!isOccupied(output))
         return replaceable == Replaceable::own ? Existing::keep : Existing::replace;
-    const auto bytes = readClipBytes(output);
-    if (!bytes || !saysItIsAClip(*bytes))
+    const ClipFormat* there = ownFormatOf(output);
+    if (there == nullptr)
         return replaceable == Replaceable::own ? Result<Existing>(notReplaced(output, "exists and is no clip"))
                                                : Existing::replace;
-    const auto clip = clipOf(*bytes);
-    const ClipSeal seal = clip ? sealOf(*clip) : ClipSeal::missing;
+    const auto read = readClip(output);
+    const Clip* clip = read ? &read->clip : nullptr;
+    const ClipSeal seal = clip != nullptr ? sealOf(*clip) : ClipSeal::missing;
     const bool mayBeEdited = seal == ClipSeal::missing;
     if (clip && seal != ClipSeal::broken && !(mayBeEdited && replaceable == Replaceable::any) && !settings.force &&
-        isUpToDate(input, output, *clip))
+        there == settings.format && isUpToDate(input, output, *clip))
     {
         std::error_code ignored;
         result.upToDate = true;
@@ -333,8 +354,7 @@ bool EncodeJob::isUpToDate(const fs::path& input, const fs::path& output, const 
     const auto made = fs::last_write_time(output, error);
     if (error || fs::last_write_time(input, error) > made || error)
         return false;
-    const auto format = settings.target.name == "packed" ? ClipFormat::packed : ClipFormat::json;
-    if (clipFormatOf(output) != format || clip.source.file != sourceName(input))
+    if (clip.source.file != sourceName(input))
         return false;
     if (clip.source.sampleRate < limits::lowestSampleRate || clip.source.sampleRate > limits::highestSampleRate)
         return false;

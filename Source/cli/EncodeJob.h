@@ -5,7 +5,7 @@
 #include "cli/Overwrite.h"
 #include "cli/Stopwatch.h"
 #include "io/AudioReader.h"
-#include "io/ClipExport.h"
+#include "io/ClipFile.h"
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/methods/Method.h>
@@ -23,10 +23,10 @@ namespace pacini::cli
 struct EncodeSettings
 {
     Method method = Method::a2vt;
-    EncoderParams params;  ///< of a2vt
-    MethodChoices choices; ///< of the other methods
-    ClipTarget target = *clipTargetNamed("json");
-    ExportParams exporting; ///< for formats of others
+    EncoderParams params;                     ///< of a2vt
+    MethodChoices choices;                    ///< of the other methods
+    const ClipFormat* format = &jsonFormat(); ///< never null
+    ExportParams exporting;                   ///< for formats of others
     AudioReadOptions reading;
     bool dryRun = false; ///< only look at the sound, write nothing
     bool force = false;  ///< encode even what is up to date; signals and formats of others, which have no record of the
@@ -91,7 +91,6 @@ private:
     [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Path& input, const Progress& progress,
                                               Stopwatch& work);
     [[nodiscard]] Result<double> peakOf(const Path& input, const Progress& progress, Stopwatch& work) const;
-    [[nodiscard]] Result<std::size_t> writeOwn(Clip clip, const Path& output, Existing existing) const;
     [[nodiscard]] Result<std::size_t> writeForeign(const Clip& clip, const Path& output, Replaceable replaceable,
                                                    Stopwatch& work, EncodeResult& result) const;
 

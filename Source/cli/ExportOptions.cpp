@@ -13,22 +13,21 @@ void ExportOptions::declare(CLI::App& command)
     command
         .add_option("--points", points,
                     "For other formats: at most this many points of amplitude per second; without it a clip of one "
-                    "voice keeps its points [as the format is mostly used]")
+                    "voice keeps its points [as usual for the format]")
         ->check(numberFrom(0.5, 10000.0));
     command
         .add_option("--frequency-points", frequencyPoints,
                     "For other formats: at most this many points of frequency per second [three quarters of --points]")
         ->check(numberFrom(0.5, 10000.0));
     command.add_flag("--split", split, "For formats that can be one file or several: write several");
-    command.add_flag("--quick", quick,
-                     "For formats whose best file is searched for (hjif): write one that is mostly good, in a fraction "
-                     "of the time");
-    command.add_option("--sample-rate", rate, "For formats that are samples, Hz [the format's own]")
+    command.add_flag(
+        "--quick", quick,
+        "Write without a search for the best file (hjif): much faster, mostly a little less like the sound");
+    command.add_option("--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]")
         ->check(wholeNumberFrom(100, 384000));
     command
         .add_option("--profile", profile,
-                    "For formats without a range of frequencies: the actuator that has it, a file or a shipped "
-                    "profile")
+                    "Actuator whose frequency range is used by formats that state none: a file or a shipped profile")
         ->type_name("PROFILE");
 }
 

@@ -3,7 +3,7 @@
 // Options of the commands that write clips for other programs.
 
 #include "cli/Console.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <CLI/CLI.hpp>
 

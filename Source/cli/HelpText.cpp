@@ -71,7 +71,7 @@ std::string helpText(const CommandText& command, std::size_t width)
         text += "\nArguments:\n";
     for (const OptionText& argument : command.arguments)
         text += entry(termOf(argument), wholeDescription(argument), width);
-    text += "\nOptions (what is taken without them stands in brackets):\n";
+    text += "\nOptions (defaults in brackets):\n";
     for (const OptionText& option : command.options)
         text += entry(termOf(option), wholeDescription(option), width);
     if (!command.notes.empty())

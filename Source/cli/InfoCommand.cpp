@@ -3,8 +3,8 @@
 #include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
 #include "cli/SceneReport.h"
-#include "io/AnyClip.h"
 #include "io/AudioReader.h"
+#include "io/ClipFile.h"
 #include "io/ClipJson.h"
 
 #include <pacini/clip/Clip.h>
@@ -33,14 +33,14 @@ std::size_t thesisBits(const Clip& clip, int bits) noexcept
     return (breakpointCount(clip) + clip.transients.size()) * 2 * static_cast<std::size_t>(bits);
 }
 
-Json describe(const Clip& clip, const std::string& format)
+Json describe(const Clip& clip, const ClipFormat& format)
 {
     Json encoder = Json::object();
     for (const EncoderParameter& parameter : clip.encoder)
         std::visit([&](const auto& value) { encoder[parameter.name] = value; }, parameter.value);
     const auto packed = packClip(clip, packParamsFor(clip)).size();
     return {{"kind", "clip"},
-            {"format", format},
+            {"format", format.name},
             {"name", clip.name},
             {"duration", clip.duration},
             {"source",
@@ -71,10 +71,9 @@ std::string encoderText(const std::vector<EncoderParameter>& encoder)
 }
 
 /// Of a clip of another program, the program.
-std::string titleOf(const std::string& formatName)
+std::string titleOf(const ClipFormat& format)
 {
-    const ForeignFormat* format = foreignFormatNamed(formatName);
-    return format == nullptr ? "" : fmt::format(" ({})", format->title);
+    return format.isOwn() ? "" : fmt::format(" ({})", format.title);
 }
 
 /// " (48000 Hz, 2 channels)", as far as it is known.
@@ -89,7 +88,7 @@ std::string soundText(const ClipSource& source)
     return text.empty() ? "" : " (" + text + ")";
 }
 
-std::string text(const std::string& file, const Clip& clip, const std::string& format)
+std::string text(const std::string& file, const Clip& clip, const ClipFormat& format)
 {
     const Json j = describe(clip, format);
     std::string lines = fmt::format("{}: haptic clip \"{}\"{}, {}\n", printable(file), printable(clip.name),
@@ -140,7 +139,7 @@ Result<Json> describeAudio(const std::string& file)
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
     auto* command =
-        app.add_subcommand("info", "Say what a clip of any format, a scene, a sound or an actuator profile holds");
+        app.add_subcommand("info", "Show what is in a clip of any format, a scene, a sound or an actuator profile");
     command->add_option("inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles")
         ->required()
         ->type_name("FILE|PROFILE");
@@ -184,8 +183,8 @@ Exit InfoCommand::run(Console& console)
             console.warnings(file, read->warnings);
             if (const auto* clip = std::get_if<Clip>(&read->content))
             {
-                add(file, describe(*clip, read->format));
-                console.print(text(file, *clip, read->format));
+                add(file, describe(*clip, *read->format));
+                console.print(text(file, *clip, *read->format));
             }
             else
             {

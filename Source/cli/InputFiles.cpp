@@ -1,12 +1,11 @@
 #include "cli/InputFiles.h"
 
 #include "cli/ConvertManifest.h"
-#include "io/AnyClip.h"
 #include "io/AtomicFile.h"
-#include "io/ClipExport.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -38,7 +37,7 @@ bool isFileExtension(const std::string& extension)
     {
         return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
     };
-    return clipTargetOf(extension) != nullptr || among(audioExtensions()) || among(anyClipExtensions());
+    return clipFormatWrittenTo(extension) != nullptr || among(audioExtensions()) || among(clipFileExtensions());
 }
 
 void addFolder(const fs::path& folder, const std::vector<std::string>& extensions, InputFiles& found)
@@ -97,12 +96,6 @@ const std::vector<std::string>& audioExtensions()
     static const std::vector<std::string> extensions = {".wav",  ".wave", ".aif",  ".aiff", ".aifc", ".flac",
                                                         ".ogg",  ".oga",  ".opus", ".mp3",  ".caf",  ".w64",
                                                         ".rf64", ".bwf",  ".au",   ".snd"};
-    return extensions;
-}
-
-const std::vector<std::string>& clipExtensions()
-{
-    static const std::vector<std::string> extensions = {".json", ".pacb"};
     return extensions;
 }
 
@@ -172,14 +165,6 @@ fs::path realPlace(const fs::path& path)
     std::error_code error;
     const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
     return error || place.empty() ? sameFileKey(path) : place;
-}
-
-std::string lowerExtension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
 }
 
 } // namespace pacini::cli

@@ -40,9 +40,6 @@ struct InputFiles
 /// The extensions of audio files that are looked for in folders.
 [[nodiscard]] const std::vector<std::string>& audioExtensions();
 
-/// The extensions of clips.
-[[nodiscard]] const std::vector<std::string>& clipExtensions();
-
 /// How results are called.
 struct OutputNames
 {
@@ -73,8 +70,5 @@ struct OutputPlace
 
 /// Where a file really is, with its own links resolved too, as far as they can be.
 [[nodiscard]] std::filesystem::path realPlace(const std::filesystem::path& path);
-
-/// The extension in lower case.
-[[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
 
 } // namespace pacini::cli

@@ -6,8 +6,7 @@
 #include "cli/InputFiles.h"
 #include "cli/SceneCheck.h"
 #include "cli/SceneTimeline.h"
-#include "io/AnyClip.h"
-#include "io/ClipExport.h"
+#include "io/ClipFile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,22 +25,25 @@ using Json = nlohmann::ordered_json;
 std::string targetList()
 {
     std::string lines;
-    for (const ForeignFormat& format : foreignFormats())
-        lines += fmt::format("{}{:<14} {:<10} {}{}", lines.empty() ? "" : "\n", format.name, format.extension,
-                             format.title, format.write == nullptr ? " (read only)" : "");
+    for (const ClipFormat& format : clipFormats())
+        if (!format.isOwn())
+            lines += fmt::format("{}{:<14} {:<10} {}{}", lines.empty() ? "" : "\n", format.name, format.extension,
+                                 format.title, !format.isWritten() ? " (read only)" : "");
     return lines;
 }
 
 Json targetsJson()
 {
     Json targets = Json::array();
-    for (const ForeignFormat& format : foreignFormats())
-        targets.push_back({{"name", format.name},
-                           {"extension", format.extension},
-                           {"title", format.title},
-                           {"readOnly", format.write == nullptr}});
+    for (const ClipFormat& format : clipFormats())
+        if (!format.isOwn())
+            targets.push_back({{"name", format.name},
+                               {"extension", format.extension},
+                               {"title", format.title},
+                               {"readOnly", !format.isWritten()}});
     return {{"targets", targets}};
 }
+
 /// What is found in a scene itself, among the kinds of losses.
 constexpr std::string_view sceneKind = "scene";
 
@@ -76,13 +78,13 @@ std::string errorText(const FormatLoss& loss)
 CLI::App* LintCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
-        "lint", "Say what another format will lose of clips, where and how much, and what a scene does not play");
+        "lint", "Show what clips lose in another format, where and how much, and what a scene never plays");
     command->add_option("inputs", inputs, "Clips of any format, scenes, or folders of them")->type_name("CLIP");
     std::vector<std::string> names;
-    for (const ClipTarget& known : clipTargets())
-        if (known.foreign != nullptr)
+    for (const ClipFormat& known : clipFormats())
+        if (known.isWritten() && !known.isOwn())
             names.emplace_back(known.name);
-    command->add_option("--target", target, "The format, see --targets; scenes are also looked at without one")
+    command->add_option("--target", target, "Format to check, see --targets; scenes are checked without one too")
         ->check(oneOf(names));
     command->add_flag("--targets", listTargets, "List the formats and do nothing else");
     options.declare(*command);
@@ -136,7 +138,7 @@ nlohmann::ordered_json LintCommand::lintScene(Console& console, const std::strin
 Result<nlohmann::ordered_json> LintCommand::lintClip(Console& console, const std::string& name, const Clip& clip,
                                                      const ExportParams& params, std::size_t& tooMuch) const
 {
-    const auto exported = foreignFormatNamed(target)->write(clip, params);
+    const auto exported = clipFormatNamed(target)->write(clip, params);
     if (!exported)
         return exported.error();
     Json losses = Json::array();
@@ -196,9 +198,12 @@ Result<nlohmann::ordered_json> LintCommand::lint(Console& console, const InputFi
     if (found.empty() && losses.empty())
         console.note(fmt::format("{}: {}", printable(name), target.empty() ? "plays all" : "loses nothing"));
     tooMuch += beyond;
-    Json report{
-        {"input", name},        {"format", read->format}, {"target", target.empty() ? Json(nullptr) : Json(target)},
-        {"duration", duration}, {"ok", beyond == 0},      {"losses", std::move(losses)}};
+    Json report{{"input", name},
+                {"format", read->formatName()},
+                {"target", target.empty() ? Json(nullptr) : Json(target)},
+                {"duration", duration},
+                {"ok", beyond == 0},
+                {"losses", std::move(losses)}};
     if (scene != nullptr)
         report["findings"] = std::move(found);
     return report;
@@ -222,7 +227,7 @@ Exit LintCommand::run(Console& console)
     if (!params)
         return Exit::failed;
 
-    const InputFiles found = findInputs(inputs, anyClipExtensions());
+    const InputFiles found = findInputs(inputs, clipFileExtensions());
     Json files = Json::array();
     bool failed = false, wrongUsage = false;
     const auto fail = [&](const std::string& file, const Error& error)

@@ -88,7 +88,7 @@ std::string manualPage(const CommandText& program)
                                    ".SH NAME\npacini \\- sound to touch\n"
                                    ".SH SYNOPSIS\n.B pacini\n.I COMMAND\n[\\fIOPTIONS\\fR] ...\n"
                                    ".SH DESCRIPTION\n{}\n"
-                                   "What is taken without an option stands in brackets behind its description.\n"
+                                   "Defaults stand in brackets behind the description of an option.\n"
                                    ".SH OPTIONS\nOf every command:\n",
                                    upperCase("pacini"), PACINI_VERSION, plain(program.summary));
     for (const OptionText& option : program.options)

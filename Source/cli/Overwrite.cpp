@@ -1,6 +1,6 @@
 #include "cli/Overwrite.h"
 
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 #include "io/InputFile.h"
 
 #include <fmt/format.h>

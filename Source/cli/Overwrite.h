@@ -8,7 +8,7 @@
 
 #include "io/AtomicFile.h"
 #include "io/FileOrigin.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <pacini/foundation/Result.h>
 

@@ -2,7 +2,7 @@
 
 #include "cli/Checks.h"
 #include "cli/ControllerInput.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -78,7 +78,7 @@ CLI::App* PlayCommand::declare(CLI::App& app)
                      "Its number in 'pacini devices', its path, or a part of its name [the only "
                      "game controller]")
         ->type_name("N|NAME");
-    command->add_option("--intensity", intensity, "How much stronger it is played, dB; below 0 weaker")
+    command->add_option("--intensity", intensity, "Gain of the playback, dB")
         ->capture_default_str()
         ->check(numberFrom(-60.0, 40.0));
     command->add_option("--from", from, "Start of the part to play, s")
@@ -93,7 +93,7 @@ CLI::App* PlayCommand::declare(CLI::App& app)
     command->add_flag("--dry-run", dryRun, "Only print what would be sent: seconds and bytes");
     command->add_option("--like", like, "With --dry-run: for this kind of controller, whatever is connected")
         ->check(oneOf(modelNames()));
-    command->footer("The controller stands still when the clip ends, on Ctrl-C, and when the program fails.\n"
+    command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
                     "  pacini play door.json --dry-run --like switch");
@@ -182,7 +182,7 @@ Exit PlayCommand::run(Console& console)
         console.error("", *wrong);
         return Exit::usage;
     }
-    const auto read = readAnyClip(input, console.isStrict());
+    const auto read = readClip(input, console.isStrict());
     if (!read)
     {
         console.error(input, read.error());

@@ -9,8 +9,8 @@
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/ProfileFigure.h"
 #include "cli/plot/SceneFigure.h"
-#include "io/AnyClip.h"
 #include "io/AudioReader.h"
+#include "io/ClipFile.h"
 
 #include <pacini/synthesis/ScenePlayer.h>
 
@@ -145,7 +145,7 @@ CLI::App* PlotCommand::declare(CLI::App& app)
     command->add_option("--to", to, "End of the part to show, s [the end]")
         ->check(numberFrom(0.0, limits::duration, "24 h"))
         ->type_name("S");
-    command->add_flag("--dark", dark, "On a dark ground");
+    command->add_flag("--dark", dark, "Dark background");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
                     "  pacini plot door.wav -o door.svg --from 0.5 --to 1.5\n"

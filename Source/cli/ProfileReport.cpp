@@ -76,7 +76,7 @@ void addDrive(Lines& lines, const ActuatorDrive& drive)
     lines.start("drive");
     add("drive.impedance", drive.impedance, 1.0, "{:.3g} ohm");
     add("drive.maxVoltageRms", drive.maxVoltageRms, 1.0, "{:.3g} V rms");
-    add("drive.maxPower", drive.maxPower, 1.0, "{:.3g} W for ever");
+    add("drive.maxPower", drive.maxPower, 1.0, "{:.3g} W continuous");
     add("drive.thermalTime", drive.thermalTime, 1.0, "warms up in {:.3g} s");
     add("drive.excursion", drive.excursion, milli, "moves {:.3g} mm far below resonance");
     add("drive.maxExcursion", drive.maxExcursion, milli, "at most {:.3g} mm");
@@ -116,7 +116,8 @@ void addBody(Lines& lines, const BodyParams& body)
 void addMeasurement(Lines& lines, const ProfileMeasurement& measurement)
 {
     lines.start("measured");
-    lines.add("measurement", fmt::format("{} fitting{}", measurement.fittings, measurement.fittings == 1 ? "" : "s"));
+    lines.add("measurement",
+              fmt::format("{} placement{}", measurement.placements, measurement.placements == 1 ? "" : "s"));
     lines.add("measurement", fmt::format("{:.3g} dB below full drive", -measurement.drive));
     if (measurement.distortionDrive)
         lines.add("measurement", fmt::format("10 % distortion at {:.3g} dB", *measurement.distortionDrive));
@@ -200,8 +201,8 @@ std::string profileText(const std::string& file, const Profile& profile)
     lines.add("response.fallTime", fmt::format("falls in {:.3g} ms", profile.response.fallTime / milli));
     lines.start("voices");
     lines.add("polyphony", voicesText(profile.polyphony));
-    lines.add("frequencyMapping",
-              fmt::format("other frequencies: {}", nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
+    lines.add("frequencyMapping", fmt::format("frequencies outside the range: {}",
+                                              nameOf(profile.frequencyMapping, profileFields::frequencyMappings)));
     addDrive(lines, profile.drive);
     addEqualizer(lines, profile.equalizer);
     lines.start("events");

@@ -9,7 +9,8 @@
 #include "cli/RenderReport.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 #include "io/ProfileJson.h"
 
 #include <pacini/actuator/Wearer.h>
@@ -115,7 +116,8 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
-    command = app.add_subcommand("render", "Turn clips and scenes into drive signals, or what is felt of them (WAV)");
+    command = app.add_subcommand(
+        "render", "Turn clips and scenes into drive signals, or into the acceleration of the skin (WAV)");
     command
         ->add_option("inputs", inputs,
                      "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input")
@@ -192,7 +194,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->type_name("DIR");
     command
         ->add_option("--tolerance", tolerance,
-                     "Leave out what costs less, all together, than this many dB below the whole")
+                     "Largest error that everything left out may cause together, dB relative to the whole")
         ->capture_default_str()
         ->check(numberFrom(-300.0, 0.0))
         ->type_name("DB");
@@ -231,9 +233,9 @@ CLI::App* RenderCommand::declare(CLI::App& app)
         ->check(wholeNumberFrom(0u, simulatedWearers))
         ->needs(asFelt)
         ->type_name("N");
-    command->add_flag("--explain", explain, "Say what is played, what is left out, why, and what that costs");
+    command->add_flag("--explain", explain, "Show what is played, and what is left out, why, and with what error");
     command->add_flag("--measured", measured,
-                      "Like --explain, and play everything too, to measure what leaving out costs");
+                      "Like --explain, and also render everything, to measure the error of what is left out");
     command->add_flag("-f,--force", force, "Render also what is up to date");
     overwriting.declare(*command);
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
@@ -251,11 +253,10 @@ CLI::App* RenderCommand::declare(CLI::App& app)
 
 InputFiles RenderCommand::findClips() const
 {
-    InputFiles found = findInputs(inputs, anyClipExtensions());
+    InputFiles found = findInputs(inputs, clipFileExtensions());
     const auto isOwn = [](const InputFile& file)
     {
-        const auto& own = clipExtensions();
-        return std::find(own.begin(), own.end(), lowerExtension(file.path)) != own.end();
+        return isOwnExtension(lowerExtension(file.path));
     };
     std::set<std::filesystem::path> ownNames;
     for (const InputFile& file : found.files)

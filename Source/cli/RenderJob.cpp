@@ -296,8 +296,8 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     }
     if (whole)
         result.measured = error.decibels();
-    result.mostSounding = player->mostSounding();
-    result.reduction = player->mostReduction();
+    result.maxSounding = player->maxSounding();
+    result.reduction = player->maxReduction();
     if (settings.describe)
         result.plays = describe(player->decodedPlays(), names);
     const auto report = writer->finish();

@@ -4,8 +4,8 @@
 
 #include "cli/Felt.h"
 #include "cli/Overwrite.h"
-#include "io/AnyClip.h"
 #include "io/AudioWriter.h"
+#include "io/ClipFile.h"
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -37,7 +37,7 @@ struct RenderSettings
     std::optional<Profile> profile;
     std::optional<FeltSettings> felt; ///< write what is felt instead of the drive signal
     bool protect = true;              ///< keep within full drive and the limits of the profile
-    AnyReadParams reading;
+    ClipReadParams reading;
     SampleEncoding encoding = SampleEncoding::float32;
     std::string record;    ///< all that the output depends on besides the input
     bool resume = true;    ///< do nothing where an output that was not named is up to date
@@ -70,7 +70,7 @@ struct RenderResult
     std::size_t actuators = 1;
     std::size_t givenPlays = 0;
     std::size_t keptPlays = 0;
-    std::size_t mostSounding = 0;   ///< decoders at a time
+    std::size_t maxSounding = 0;    ///< decoders at a time
     double predictedError = 0.0;    ///< dB, of all that is left out; -infinity: nothing is lost
     std::optional<double> measured; ///< dB, the error that leaving out really cost
     std::vector<Adaptation> adaptations;

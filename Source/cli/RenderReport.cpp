@@ -19,7 +19,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t mostShown = 20;
+constexpr std::size_t maxShown = 20;
 
 Json decibels(double value)
 {
@@ -73,7 +73,8 @@ std::string playText(const PlayReport& play)
     text += fmt::format(" at an inner rate of {:.0f} Hz{}, {}", d.innerRate,
                         d.levelled ? ", levelled to the envelope" : "", counted(d.pulses, "pulse", "pulses"));
     if (d.maskedTransients > 0)
-        text += fmt::format(" ({} that the bands reach by themselves)", counted(d.maskedTransients, "event", "events"));
+        text += fmt::format(" ({} without a pulse: the bands alone are as strong)",
+                            counted(d.maskedTransients, "event", "events"));
     return text;
 }
 
@@ -108,7 +109,7 @@ nlohmann::ordered_json planJson(const RenderResult& result, const CompileParams&
     plan["actuators"] = result.actuators;
     plan["givenPlays"] = result.givenPlays;
     plan["keptPlays"] = result.keptPlays;
-    plan["mostSounding"] = result.mostSounding;
+    plan["maxSounding"] = result.maxSounding;
     plan["tolerance"] = params.leaveOut ? Json(params.tolerance) : Json(nullptr);
     plan["predictedError"] = decibels(result.predictedError);
     if (result.measured)
@@ -138,27 +139,27 @@ std::string planText(const RenderResult& result, const CompileParams& params)
 {
     std::string text = fmt::format(
         "  {} of {} on {}, at most {} at a time", result.keptPlays, counted(result.givenPlays, "play", "plays"),
-        counted(result.actuators, "actuator", "actuators"), counted(result.mostSounding, "decoder", "decoders"));
-    for (std::size_t i = 0; i < std::min(result.plays.size(), mostShown); ++i)
+        counted(result.actuators, "actuator", "actuators"), counted(result.maxSounding, "decoder", "decoders"));
+    for (std::size_t i = 0; i < std::min(result.plays.size(), maxShown); ++i)
         text += "\n  " + playText(result.plays[i]);
-    if (result.plays.size() > mostShown)
-        text += fmt::format("\n  and {} more plays; --json lists them", result.plays.size() - mostShown);
+    if (result.plays.size() > maxShown)
+        text += fmt::format("\n  and {} more plays; --json lists them", result.plays.size() - maxShown);
 
     if (!result.adaptations.empty())
         text += "\n  fitted to the actuator:";
-    for (std::size_t i = 0; i < std::min(result.adaptations.size(), mostShown); ++i)
+    for (std::size_t i = 0; i < std::min(result.adaptations.size(), maxShown); ++i)
         text += fmt::format("\n    {}: {}", result.adaptations[i].where, result.adaptations[i].what);
-    if (result.adaptations.size() > mostShown)
-        text += fmt::format("\n    and {} more", result.adaptations.size() - mostShown);
+    if (result.adaptations.size() > maxShown)
+        text += fmt::format("\n    and {} more", result.adaptations.size() - maxShown);
     if (!result.protection.empty())
         text += "\n  protection: " + result.protection;
     text += result.leftOut.empty() ? "\n  nothing is left out" : "\n  left out:";
     for (const auto& [reason, items] : kindsOf(result.leftOut))
     {
-        for (std::size_t i = 0; i < std::min(items.size(), mostShown); ++i)
+        for (std::size_t i = 0; i < std::min(items.size(), maxShown); ++i)
             text += fmt::format("\n    {} {}: {}", items[i]->where, reason, decibelText(items[i]->error));
-        if (items.size() > mostShown)
-            text += fmt::format("\n    and {} more of the same kind", items.size() - mostShown);
+        if (items.size() > maxShown)
+            text += fmt::format("\n    and {} more of the same kind", items.size() - maxShown);
     }
     text += "\n  predicted error: " + decibelText(result.predictedError);
     if (params.leaveOut)

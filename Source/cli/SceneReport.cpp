@@ -2,7 +2,7 @@
 
 #include "cli/Console.h"
 #include "cli/SceneTimeline.h"
-#include "io/SceneJsonRules.h"
+#include "io/SceneFields.h"
 
 #include <pacini/clip/Clip.h>
 
@@ -20,11 +20,11 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t mostListed = 20;
+constexpr std::size_t maxListed = 20;
 
 std::string_view lawName(PanLaw law)
 {
-    return sceneJson::panLaws[static_cast<std::size_t>(law)];
+    return nameOf(law, sceneFields::panLaws);
 }
 
 std::vector<std::size_t> playCounts(const Scene& scene)
@@ -79,10 +79,10 @@ std::string playText(const TimedPlay& timed, const Scene& scene)
 template <typename Line>
 void appendList(std::string& text, std::size_t count, std::string_view one, Line line)
 {
-    for (std::size_t i = 0; i < std::min(count, mostListed); ++i)
+    for (std::size_t i = 0; i < std::min(count, maxListed); ++i)
         text += line(i);
-    if (count > mostListed)
-        text += fmt::format("  and {} more\n", counted(count - mostListed, one));
+    if (count > maxListed)
+        text += fmt::format("  and {} more\n", counted(count - maxListed, one));
 }
 } // namespace
 

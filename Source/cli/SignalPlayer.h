@@ -22,8 +22,8 @@ public:
     SignalPlayer(RenderPlan plan, ScenePlayerParams params, const std::optional<FeltSettings>& felt);
 
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return player.totalFrames(); }
-    [[nodiscard]] std::size_t mostSounding() const noexcept { return player.mostSounding(); }
-    [[nodiscard]] double mostReduction() const noexcept { return player.mostReduction(); }
+    [[nodiscard]] std::size_t maxSounding() const noexcept { return player.maxSounding(); }
+    [[nodiscard]] double maxReduction() const noexcept { return player.maxReduction(); }
 
     /// What the decoder of every play plays, in order of start. Those that have not sounded yet are made for it.
     [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays();

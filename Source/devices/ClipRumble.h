@@ -4,7 +4,7 @@
 
 #include "devices/ClipPackets.h"
 #include "devices/ControllerReports.h"
-#include "devices/RumbleHandover.h"
+#include "devices/RumbleMapper.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,7 @@ namespace pacini::devices
 /// HD rumble with the pulse of an event in it. The pulse belongs to the carrier that it is nearest to and is joined
 /// with what that plays. It jumps to its strength and is over with the packet, while bands go to theirs smoothly: an
 /// event shall be felt as a jump. It is not made weaker for being shorter than a packet: an actuator that comes within
-/// 37 % of a level in 10 ms (see RumbleHandoverParams) gets to 78 % of it in a packet of 15 ms. The rule is ours:
+/// 37 % of a level in 10 ms (see RumbleMapperParams) gets to 78 % of it in a packet of 15 ms. The rule is ours:
 /// Nintendo has published none. [any]
 [[nodiscard]] RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept;
 
@@ -56,7 +56,7 @@ private:
     ControllerModel model;
     Seconds interval;
     ClipPackets packets;
-    RumbleHandover handover;
+    RumbleMapper handover;
     EventPulse motorEvent;
     std::int64_t motorEventEnd = 0; ///< the packet after it
     WaveformState played;

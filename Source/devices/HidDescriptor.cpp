@@ -12,9 +12,9 @@ namespace pacini::devices
 
 namespace
 {
-constexpr std::size_t mostNested = 16;              // collections, and saved states
-constexpr std::size_t mostFields = 256;             // haptic devices have some tens
-constexpr std::uint64_t mostReportBits = 8 * 16384; // Linux, HID_MAX_BUFFER_SIZE
+constexpr std::size_t maxNested = 16;              // collections, and saved states
+constexpr std::size_t maxFields = 256;             // haptic devices have some tens
+constexpr std::uint64_t maxReportBits = 8 * 16384; // Linux, HID_MAX_BUFFER_SIZE
 
 /// What holds until it is changed.
 struct GlobalState
@@ -85,7 +85,7 @@ private:
             done = addFields(HidReportType::feature, item.number);
             break;
         case 0xA:
-            if (collections.size() >= mostNested)
+            if (collections.size() >= maxNested)
                 return failure(ErrorCode::tooLarge, "collections are too deep");
             collections.push_back(usages.empty() ? 0 : usages.at(0, global.page));
             break;
@@ -141,7 +141,7 @@ private:
             global.count = item.number;
             break;
         case 0xA:
-            if (saved.size() >= mostNested)
+            if (saved.size() >= maxNested)
                 return failure(ErrorCode::tooLarge, "pushes too often");
             saved.push_back(global);
             break;
@@ -161,13 +161,13 @@ private:
     {
         std::uint32_t& used = reports.bits[static_cast<std::size_t>(type)][global.report];
         const std::uint64_t added = std::uint64_t{global.size} * global.count;
-        if (added > mostReportBits - used)
+        if (added > maxReportBits - used)
             return failure(ErrorCode::tooLarge, "the report is too long");
         const bool isVariable = (flags & 2u) != 0;
         const bool isWanted = std::find(collections.begin(), collections.end(), wanted) != collections.end();
         if (isWanted && isVariable && global.size >= 1 && global.size <= 32 && !usages.empty())
         {
-            if (global.count > mostFields - reports.fields.size())
+            if (global.count > maxFields - reports.fields.size())
                 return failure(ErrorCode::tooLarge, "holds too many values");
             for (std::uint32_t i = 0; i < global.count; ++i)
                 reports.fields.push_back({type, global.report, used + i * global.size,

@@ -1,10 +1,9 @@
 #include "document/Analysis.h"
 
-#include <pacini/clip/PackedClip.h>
+#include <pacini/analysis/EncodeSound.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 
 namespace pacini
 {
@@ -23,23 +22,21 @@ Result<Clip> analyse(const AudioData& audio, const EncoderParams& params, const 
     if (audio.channels < 1 || audio.sampleRate < limits::lowestSampleRate)
         return Error{ErrorCode::invalidData, "", "is no sound that can be analysed"};
     Encoder encoder(params);
-    encoder.start(audio.sampleRate, audio.channels);
-    const auto channels = static_cast<std::size_t>(audio.channels);
-    const std::size_t piece = channels * std::max<std::size_t>(1, 65536 / channels);
-    const std::span<const float> samples(audio.samples);
-    const Error stopped{ErrorCode::invalidData, "", "was stopped before its end"};
-    for (std::size_t done = 0; done < samples.size(); done += piece)
+    SoundParts parts(audio.samples, audio.channels);
+    const auto size = static_cast<double>(std::max<std::size_t>(1, audio.samples.size()));
+    const auto next = [&]() -> SoundPart
     {
-        if (goOn && !goOn(shareOfReading * static_cast<double>(done) / static_cast<double>(samples.size())))
-            return stopped;
-        encoder.push(samples.subspan(done, std::min(piece, samples.size() - done)));
+        if (goOn && !goOn(shareOfReading * (1.0 - static_cast<double>(parts.samplesLeft()) / size)))
+            return Error{ErrorCode::invalidData, "", "was stopped before its end"};
+        return parts();
+    };
+    auto clip = encodeSound(encoder, {audio.sampleRate, audio.channels}, next);
+    if (clip)
+    {
+        clip->source.file = reference.path.filename().string();
+        clip->name = reference.path.stem().string();
     }
-    if (goOn && !goOn(shareOfReading))
-        return stopped;
-    Clip clip = encoder.finish();
-    clip.source.file = reference.path.filename().string();
-    clip.name = reference.path.stem().string();
-    return unpackClip(packClip(clip, packParamsFor(clip)));
+    return clip;
 }
 
 } // namespace pacini

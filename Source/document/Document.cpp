@@ -169,7 +169,7 @@ bool Document::redo()
     return true;
 }
 
-Result<std::size_t> Document::exportClip(int id, const fs::path& path, ClipFormat format) const
+Result<std::size_t> Document::exportClip(int id, const fs::path& path, const ClipFormat& format) const
 {
     const auto item = clip(id);
     return item ? writeClip(path, *item->clip, format) : Result<std::size_t>(noSuchClip(id));

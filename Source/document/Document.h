@@ -135,7 +135,8 @@ public:
     void goTo(std::size_t state);
 
     /// Writes a clip for use elsewhere and returns its size in bytes. Errors: those of writeClip().
-    [[nodiscard]] Result<std::size_t> exportClip(int id, const std::filesystem::path& path, ClipFormat format) const;
+    [[nodiscard]] Result<std::size_t> exportClip(int id, const std::filesystem::path& path,
+                                                 const ClipFormat& format) const;
 
 private:
     Document(Project project, std::filesystem::path path, bool saved);

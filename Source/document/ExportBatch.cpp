@@ -1,8 +1,8 @@
 #include "document/ExportBatch.h"
 
 #include "io/AudioWriter.h"
-#include "io/ClipExport.h"
-#include "io/formats/PlayedClip.h"
+#include "io/ClipFile.h"
+#include "io/formats/samples/DriveSamples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +37,13 @@ std::optional<Profile> profileOf(const ExportChoice& choice)
 
 Result<ExportedClip> exportedAs(const Clip& clip, const ExportChoice& choice)
 {
-    const ClipTarget* target = clipTargetNamed(choice.format);
-    if (target == nullptr)
+    const ClipFormat* target = clipFormatNamed(choice.format);
+    if (target == nullptr || !target->isWritten())
         return Error{ErrorCode::invalidArgument, "format", "'" + choice.format + "' is not known"};
     ExportParams params;
     params.profile = profileOf(choice);
     params.sampleRate = choice.sampleRate;
-    return pacini::exportClip(clip, *target, params);
+    return target->write(clip, params);
 }
 
 Result<void> writeRendered(const Clip& clip, const ExportChoice& choice, const std::filesystem::path& path)
@@ -65,16 +65,10 @@ const std::vector<ExportFormat>& exportFormats()
     static const std::vector<ExportFormat> formats = []
     {
         std::vector<ExportFormat> list;
-        for (const ClipTarget& target : clipTargets())
-        {
-            if (target.foreign != nullptr)
-                list.push_back({std::string(target.name), std::string(target.foreign->title),
-                                std::string(target.extension), target.name == "pcm"});
-            else
-                list.push_back({std::string(target.name),
-                                target.name == "json" ? "Pacini clip (JSON)" : "Pacini clip (packed)",
-                                std::string(target.extension), false});
-        }
+        for (const ClipFormat& format : clipFormats())
+            if (format.isWritten())
+                list.push_back({std::string(format.name), std::string(format.title), std::string(format.extension),
+                                format.isSamples});
         list.insert(list.begin() + 2, {"wav", "Drive signal (WAV)", ".wav", true});
         return list;
     }();
@@ -83,13 +77,10 @@ const std::vector<ExportFormat>& exportFormats()
 
 std::string_view whatIsKept(std::string_view format)
 {
-    if (format == "json")
-        return "Keeps everything: curves, events, noise, markers, source.";
-    if (format == "packed")
-        return "Keeps everything on the grids of the clip's quantiser, in a small file.";
-    if (format == "wav")
-        return "Samples of the drive signal for the chosen actuator, its limits kept. It cannot be edited further.";
-    return "A format of other programs. What this clip loses in it is listed below.";
+    const ClipFormat* known = clipFormatNamed(format);
+    return known != nullptr
+               ? known->keeps
+               : "Samples of the drive signal for the chosen actuator, its limits kept. It cannot be edited further.";
 }
 
 std::string exportName(const Clip& clip, const ExportFormat& format)
@@ -154,8 +145,7 @@ Result<std::vector<ExportReport>> exportClips(const std::vector<std::shared_ptr<
             auto written = writeExport(path, *exported);
             if (!written)
                 return failed(written.error());
-            for (const WrittenFile& file : *written)
-                report.files.push_back(file.path);
+            report.files = std::move(written).value();
             report.losses = std::move(exported->losses);
         }
         reports.push_back(std::move(report));

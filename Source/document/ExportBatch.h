@@ -2,7 +2,7 @@
 
 // Clips of a project into a folder, in one format.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
@@ -20,10 +20,10 @@ namespace pacini
 /// A format that an export can choose.
 struct ExportFormat
 {
-    std::string name;      ///< of a ClipTarget, or `wav`
+    std::string name;      ///< of a ClipFormat, or `wav`
     std::string title;     ///< for people
     std::string extension; ///< with dot
-    bool rendered = false; ///< samples: the rate and the actuator count
+    bool rendered = false; ///< samples, whose rate can be chosen
 };
 
 /// All formats: Pacini's two, rendered WAV, then every foreign one that can be written.

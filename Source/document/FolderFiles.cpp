@@ -1,9 +1,9 @@
 #include "document/FolderFiles.h"
 
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 namespace pacini
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> openableExtensions()
 {
     std::vector<std::string> all = {".wav", ".flac", ".ogg", ".opus", ".mp3", ".aif", ".aiff", ".caf", ".w64", ".au"};
-    for (std::string extension : anyClipExtensions())
+    for (std::string extension : clipFileExtensions())
         if (std::find(all.begin(), all.end(), extension) == all.end())
             all.push_back(std::move(extension));
     return all;
@@ -35,9 +35,7 @@ std::vector<fs::path> openableFiles(const fs::path& folder)
                 entry.disable_recursion_pending();
             continue;
         }
-        auto extension = entry->path().extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const auto extension = lowerExtension(entry->path());
         if (entry->is_regular_file(ignored) &&
             std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
             files.push_back(entry->path());

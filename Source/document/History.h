@@ -2,7 +2,7 @@
 
 // Undo and redo without a limit.
 
-#include "document/FrozenClip.h"
+#include "document/ClipSnapshot.h"
 #include "document/Project.h"
 
 #include <cstddef>
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] Project goTo(std::size_t state)
     {
         position = state;
-        return thaw(states[position].project);
+        return restore(states[position].project);
     }
 
     /// What the clips of a state cost beside those of the state before, in bytes.
@@ -63,47 +63,47 @@ public:
         std::size_t sum = 0;
         for (const auto& item : states[state].project.clips)
         {
-            const FrozenItem* before = nullptr;
+            const ItemSnapshot* before = nullptr;
             if (state > 0)
                 for (const auto& other : states[state - 1].project.clips)
                     if (other->bare.id == item->bare.id)
                         before = other.get();
             if (before != item.get())
-                sum += item->clip.bytesBeside(before != nullptr ? before->clip : FrozenClip{}) +
+                sum += item->clip.bytesBeside(before != nullptr ? before->clip : ClipSnapshot{}) +
                        item->bare.edits.bytesBeside(before != nullptr ? before->bare.edits : EditList{});
         }
         return sum;
     }
 
 private:
-    struct FrozenItem
+    struct ItemSnapshot
     {
         ClipItem bare; ///< without its clip
-        FrozenClip clip;
+        ClipSnapshot clip;
     };
 
-    struct FrozenProject
+    struct ProjectSnapshot
     {
         Project bare; ///< without its clips
-        std::vector<std::shared_ptr<const FrozenItem>> clips;
+        std::vector<std::shared_ptr<const ItemSnapshot>> clips;
     };
 
     struct State
     {
         std::string name;
         std::uint64_t id = 0;
-        FrozenProject project;
+        ProjectSnapshot project;
     };
 
-    FrozenProject freeze(const Project& project)
+    ProjectSnapshot freeze(const Project& project)
     {
-        FrozenProject frozen{project, {}};
+        ProjectSnapshot frozen{project, {}};
         frozen.bare.clips.clear();
         decltype(live) now;
         for (const auto& item : project.clips)
         {
-            std::shared_ptr<const FrozenItem> kept;
-            const FrozenItem* before = nullptr;
+            std::shared_ptr<const ItemSnapshot> kept;
+            const ItemSnapshot* before = nullptr;
             for (const auto& [known, itsFrozen] : live)
             {
                 if (known == item)
@@ -113,10 +113,10 @@ private:
             }
             if (!kept)
             {
-                auto made = std::make_shared<FrozenItem>();
+                auto made = std::make_shared<ItemSnapshot>();
                 made->bare = *item;
                 made->bare.clip = nullptr;
-                made->clip = FrozenClip(*item->clip, before != nullptr ? &before->clip : nullptr);
+                made->clip = ClipSnapshot(*item->clip, before != nullptr ? &before->clip : nullptr);
                 kept = std::move(made);
             }
             now.emplace_back(item, kept);
@@ -126,7 +126,7 @@ private:
         return frozen;
     }
 
-    Project thaw(const FrozenProject& frozen)
+    Project restore(const ProjectSnapshot& frozen)
     {
         Project project = frozen.bare;
         decltype(live) now;
@@ -139,7 +139,7 @@ private:
             if (!found)
             {
                 auto made = std::make_shared<ClipItem>(item->bare);
-                made->clip = std::make_shared<const Clip>(item->clip.thaw());
+                made->clip = std::make_shared<const Clip>(item->clip.restore());
                 found = std::move(made);
             }
             now.emplace_back(found, item);
@@ -152,7 +152,7 @@ private:
     std::vector<State> states;
     std::size_t position = 0;
     std::uint64_t nextId = 1;
-    std::vector<std::pair<std::shared_ptr<const ClipItem>, std::shared_ptr<const FrozenItem>>>
+    std::vector<std::pair<std::shared_ptr<const ClipItem>, std::shared_ptr<const ItemSnapshot>>>
         live; ///< of the current state
 };
 

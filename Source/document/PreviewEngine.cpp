@@ -288,7 +288,7 @@ void PreviewEngine::processBlock(std::span<float> haptic, std::span<const std::s
                                  std::size_t n) noexcept
 {
     const std::uint64_t wantedStart = playing.load(std::memory_order_acquire);
-    HandOver<Piece>::Parcel* const rising = fadingIn();
+    HandOver<Piece>::Node* const rising = fadingIn();
     // What has stopped does not go on while the piece of a new start is being built.
     const bool mayRise =
         rising != nullptr || level > 0.0 || (current != nullptr && current->content.start == wantedStart);
@@ -372,9 +372,9 @@ void PreviewEngine::meter(std::span<const float> haptic) noexcept
     for (const float sample : haptic)
         peak = std::max(peak, std::abs(sample));
     double reduction = 0.0;
-    for (const auto* parcel : {current, fadingIn()})
-        if (parcel != nullptr && parcel->content.player && isPlaying())
-            if (const ProtectionMeter* protection = parcel->content.player->protectionMeter())
+    for (const auto* node : {current, fadingIn()})
+        if (node != nullptr && node->content.player && isPlaying())
+            if (const ProtectionMeter* protection = node->content.player->protectionMeter())
                 reduction = std::max(reduction, protection->gainReduction);
     // A reader between the two lines only takes one block's reading twice.
     if (peak > peakHeard.load(std::memory_order_relaxed))

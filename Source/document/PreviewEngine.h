@@ -133,7 +133,7 @@ private:
     Result<Piece> build(const Wanted& wanted, std::int64_t from) const;
     void take() noexcept;
     void catchUp(std::size_t frames) noexcept;
-    [[nodiscard]] HandOver<Piece>::Parcel* fadingIn() const noexcept { return ready ? next : nullptr; }
+    [[nodiscard]] HandOver<Piece>::Node* fadingIn() const noexcept { return ready ? next : nullptr; }
     void processBlock(std::span<float> haptic, std::span<const std::span<float>> sound, std::size_t at,
                       std::size_t n) noexcept;
     void renderPiece(Piece& piece, std::span<float> out) noexcept;
@@ -162,10 +162,10 @@ private:
     std::atomic<std::int64_t> builtTo{0};
 
     // Of the audio thread.
-    HandOver<Piece>::Parcel* current = nullptr;
-    HandOver<Piece>::Parcel* next = nullptr; ///< fades in
-    bool ready = false;                      ///< next has caught up with current
-    std::size_t faded = 0;                   ///< frames of that fade
+    HandOver<Piece>::Node* current = nullptr;
+    HandOver<Piece>::Node* next = nullptr; ///< fades in
+    bool ready = false;                    ///< next has caught up with current
+    std::size_t faded = 0;                 ///< frames of that fade
     double level = 0.0, hapticLevel = 1.0, sourceLevel = 0.0;
     std::optional<ProtectionParams> limits;
     Protection bounds; ///< behind all pieces

@@ -21,12 +21,6 @@
 namespace pacini::projectFields
 {
 
-template <typename Visitor>
-inline constexpr bool isReader = requires(Visitor visitor)
-{
-    visitor.error;
-};
-
 inline constexpr std::size_t most = 10'000'000; ///< entries of a list
 
 inline constexpr std::array<Choice<LaneKind>, 5> laneKinds = {{{"envelope", LaneKind::envelope},

@@ -2,12 +2,13 @@
 
 #include "document/Base64.h"
 #include "document/ProjectFields.h"
+#include "io/ClipFields.h"
 #include "io/ClipJson.h"
-#include "io/ClipJsonHandler.h"
+#include "io/FieldsHandler.h"
 #include "io/FieldsReader.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
-#include "io/JsonTreeBuilder.h"
+#include "io/JsonTree.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,7 @@ using ClipPointer = std::shared_ptr<const Clip>;
 class Writer : public FieldsWriter
 {
 public:
-    Writer() : FieldsWriter(projectFormatName, projectFormatVersion) {}
+    Writer() : FieldsWriter(Layout::spaced) { format({projectFormatName, projectFormatVersion}); }
 
     void clip(const char* name, const ClipPointer& value)
     {
@@ -46,72 +47,30 @@ public:
 
     bool openObject() override
     {
-        if (embedded)
-            return pass([](auto& clip) { return clip.openObject(); }, 1);
-        if (clipComes)
-        {
-            clipComes = false;
-            embedded.emplace();
-            return pass([](auto& clip) { return clip.openObject(); }, 1);
-        }
-        return JsonTreeBuilder::openObject();
+        if (!std::exchange(clipComes, false))
+            return JsonTreeBuilder::openObject();
+        clip = std::make_shared<Clip>();
+        return passOn(reader.emplace(*clip, clipFields::embedded));
+    }
+    bool passedOn() override
+    {
+        clips.push_back(std::move(clip));
+        return number(static_cast<double>(clips.size() - 1));
     }
     bool openList() override
     {
-        if (embedded)
-            return pass([](auto& clip) { return clip.openList(); }, 1);
         clipComes = false;
         return JsonTreeBuilder::openList();
     }
-    bool close() override
-    {
-        return embedded ? pass([](auto& clip) { return clip.close(); }, -1) : JsonTreeBuilder::close();
-    }
     bool key(std::string_view name) override
     {
-        if (embedded)
-            return pass([&](auto& clip) { return clip.key(name); });
         clipComes = name == "clip" || name == "analysis";
         return JsonTreeBuilder::key(name);
     }
-    bool number(double value) override
-    {
-        return embedded ? pass([&](auto& clip) { return clip.number(value); }) : JsonTreeBuilder::number(value);
-    }
-    bool text(std::string& value) override
-    {
-        return embedded ? pass([&](auto& clip) { return clip.text(value); }) : JsonTreeBuilder::text(value);
-    }
-    bool truth(bool value) override
-    {
-        return embedded ? pass([&](auto& clip) { return clip.truth(value); }) : JsonTreeBuilder::truth(value);
-    }
-    bool null() override
-    {
-        return embedded ? pass([&](auto& clip) { return clip.null(); }) : JsonTreeBuilder::null();
-    }
 
 private:
-    /// An event of an embedded clip, which is complete when its object closes.
-    template <typename Event>
-    bool pass(Event&& event, int deeper = 0)
-    {
-        if (!event(*embedded))
-            return stop(embedded->reason().code, embedded->reason().message, embedded->reason().where);
-        depth += deeper;
-        if (depth > 0)
-            return true;
-        Clip clip = std::move(embedded->draft.clip);
-        embedded.reset();
-        if (const auto valid = validate(clip); !valid)
-            return stop(valid.error().code, valid.error().message,
-                        valid.error().where.empty() ? "" : "." + valid.error().where);
-        clips.push_back(std::make_shared<const Clip>(std::move(clip)));
-        return JsonTreeBuilder::number(static_cast<double>(clips.size() - 1));
-    }
-
-    std::optional<clipJson::Handler> embedded;
-    int depth = 0;
+    std::shared_ptr<Clip> clip; ///< that is being read
+    std::optional<FieldsHandler> reader;
     bool clipComes = false;
 };
 

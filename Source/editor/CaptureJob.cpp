@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/CaptureJob.h"
 
-#include <pacini/analysis/Encoder.h>
-#include <pacini/clip/PackedClip.h>
+#include <pacini/analysis/EncodeSound.h>
 
 #include <cmath>
 #include <utility>
@@ -18,11 +17,10 @@ Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std:
     if (static_cast<double>(capture.samples.size()) < 0.1 * sampleRate)
         return Error{ErrorCode::invalidData, "", "less than a tenth of a second was heard"};
     Encoder encoder{EncoderParams{}};
-    encoder.start(rate, 1);
-    encoder.push(capture.samples);
-    Clip clip = encoder.finish();
-    clip.name = name;
-    return unpackClip(packClip(clip, packParamsFor(clip)));
+    auto clip = encodeSound(encoder, {rate, 1}, SoundParts(capture.samples, 1));
+    if (clip)
+        clip->name = name;
+    return clip;
 }
 
 CaptureJob::~CaptureJob()

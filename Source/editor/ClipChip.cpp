@@ -18,7 +18,7 @@ Result<juce::File> writeForDragging(const Clip& clip)
     folder.createDirectory();
     const juce::String name = juce::File::createLegalFileName(toText(clip.name).replaceCharacter(' ', '-'));
     const auto file = folder.getChildFile((name.isEmpty() ? juce::String("clip") : name) + ".json");
-    if (const auto written = writeClip(pathOf(file), clip, ClipFormat::json); !written)
+    if (const auto written = writeClip(pathOf(file), clip, jsonFormat()); !written)
         return written.error();
     return file;
 }

@@ -1,6 +1,7 @@
 #include "io/AcfFile.h"
 
 #include "io/AtomicFile.h"
+#include "io/FileExtension.h"
 #include "io/InputFile.h"
 
 #include <fmt/format.h>
@@ -82,10 +83,7 @@ std::vector<std::string> beyondAcf(const Profile& profile)
 
 bool hasAcfExtension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".acf";
+    return lowerExtension(path) == ".acf";
 }
 
 ProfileOfAcf profileOfAcf(const Acf& acf)

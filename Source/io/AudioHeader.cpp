@@ -67,11 +67,11 @@ AudioDataSize sizes(std::uint64_t promised, std::uint64_t start, std::uint64_t f
 
 std::optional<AudioDataSize> walk(std::FILE* file, const ChunkLayout& layout, std::uint64_t fileBytes)
 {
-    constexpr int mostChunks = 10000;
+    constexpr int maxChunks = 10000;
     const auto headerBytes = layout.idBytes + layout.sizeBytes;
     std::optional<std::uint64_t> longSize;
     auto offset = layout.firstChunk;
-    for (int chunk = 0; chunk < mostChunks && offset + headerBytes <= fileBytes; ++chunk)
+    for (int chunk = 0; chunk < maxChunks && offset + headerBytes <= fileBytes; ++chunk)
     {
         Bytes bytes{};
         if (!seekStream(file, static_cast<std::int64_t>(offset), SEEK_SET))

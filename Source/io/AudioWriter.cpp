@@ -1,6 +1,7 @@
 #include "io/AudioWriter.h"
 
 #include "io/AudioReader.h"
+#include "io/FileExtension.h"
 #include "io/SoundHandle.h"
 
 #include <pacini/foundation/Random.h>
@@ -73,15 +74,13 @@ Error badArgument(std::string message)
 /// The libsndfile format for `path`, or what is wrong with the parameters.
 Result<int> formatOf(const fs::path& path, const AudioWriteParams& params)
 {
-    auto extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lowerExtension(path);
     const bool flac = extension == ".flac";
     if (!flac && extension != ".wav" && !isStream(path)) // WAV is what a stream gets
         return badArgument("audio is written as .wav or .flac; choose one of these extensions");
-    const int mostChannels = flac ? 8 : limits::channels;
-    if (params.channels < 1 || params.channels > mostChannels)
-        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, mostChannels));
+    const int maxChannels = flac ? 8 : limits::channels;
+    if (params.channels < 1 || params.channels > maxChannels)
+        return badArgument(fmt::format("{} channels cannot be written, 1 to {} can", params.channels, maxChannels));
     if (params.sampleRate < limits::lowestWrittenRate || params.sampleRate > limits::highestSampleRate)
         return badArgument(fmt::format("a sample rate of {} Hz cannot be written, {} to {} Hz can", params.sampleRate,
                                        limits::lowestWrittenRate, limits::highestSampleRate));

@@ -1,33 +1,41 @@
 #include "io/ClipFile.h"
 
 #include "io/ClipJson.h"
+#include "io/FileExtension.h"
 #include "io/InputFile.h"
+#include "io/ReadWarnings.h"
+#include "io/SceneFile.h"
+#include "io/formats/ImportedClip.h"
+#include "io/formats/json/JsonFormat.h"
+#include "io/formats/packed/PackedFormat.h"
 
-#include <pacini/clip/PackedClip.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
 #include <span>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace pacini
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
-constexpr std::string_view packedMagic = "PACB";
+// Haptics Studio writes NAME.continuous.ahap and NAME.transients.ahap, for two players.
+constexpr std::string_view studioContinuous = ".continuous";
+constexpr std::string_view studioTransients = ".transients";
 
-bool looksLikeJson(std::string_view bytes)
+/// Whether files of this extension (lower case) are clips of other programs, whatever they hold.
+bool isForeignExtension(std::string_view extension)
 {
-    // UTF-16 is refused by the reader of JSON, which says so.
-    if (bytes.starts_with(std::string_view("\xFF\xFE{\0", 4)) || bytes.starts_with(std::string_view("\xFE\xFF\0{", 4)))
-        return true;
-    if (bytes.starts_with("\xEF\xBB\xBF"))
-        bytes.remove_prefix(3);
-    const auto first = bytes.find_first_not_of(" \t\r\n");
-    return first != std::string_view::npos && bytes[first] == '{';
+    const auto formats = clipFormats();
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const ClipFormat& format)
+                       { return format.isRead() && !format.isOwn() && format.extension == extension; });
 }
 
 bool isBlank(std::string_view bytes)
@@ -35,73 +43,174 @@ bool isBlank(std::string_view bytes)
     return bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
 }
 
-/// The first bytes of a file; empty when it cannot be read.
-std::string startOf(const std::filesystem::path& path)
+/// The first bytes of a file, which tell its format; empty when it cannot be read.
+std::string firstBytesOf(const fs::path& path)
 {
     const auto file = openForReading(path);
-    std::string start(64, '\0');
+    std::string start(1024, '\0');
     start.resize(file ? std::fread(start.data(), 1, start.size(), file->get()) : 0);
     return start;
+}
+
+bool startsAsOwn(std::string_view bytes)
+{
+    return isPackedClip(bytes) || looksLikeJson(bytes);
 }
 
 Error notAClip()
 {
     return {ErrorCode::invalidData, "", "is not a clip: neither JSON nor packed; encode audio to get a clip"};
 }
-} // namespace
 
-Result<std::string> readClipBytes(const std::filesystem::path& path)
+Error notRead(const ClipFormat& format)
 {
+    return {
+        ErrorCode::invalidData, "",
+        fmt::format("is a file of format {} ({}), which Pacini writes but does not read", format.name, format.title)};
+}
+
+Result<std::string> readBytes(const fs::path& path)
+{
+    const std::string extension = lowerExtension(path);
     // A recording of hundreds of megabytes is not read just to find that it is no clip. Pipes can be read only once.
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored))
-        if (const auto start = startOf(path);
-            !isBlank(start) && !start.starts_with(packedMagic) && !looksLikeJson(start))
-            return notAClip();
+    if (!isForeignExtension(extension) && fs::is_regular_file(path, ignored))
+        if (const auto start = firstBytesOf(path); !isBlank(start) && !startsAsOwn(start))
+        {
+            const ClipFormat* format = clipFormatOf(extension, start);
+            return format != nullptr && !format->isRead() ? notRead(*format) : notAClip();
+        }
     return readWholeFile(path, largestClipText);
 }
 
-Result<Clip> clipOf(std::string_view bytes, ReadWarnings* warnings)
+/// Adds the events of the second file.
+Result<void> addCompanion(const fs::path& path, ReadClip& read)
 {
-    if (bytes.starts_with(packedMagic))
-        return unpackClip(std::as_bytes(std::span<const char>(bytes)));
-    if (looksLikeJson(bytes))
-        return readClipJson(bytes, largestClipText, warnings);
-    if (bytes.empty())
-        return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
-    return notAClip();
+    const auto bytes = readWholeFile(path, largestClipText);
+    auto more = bytes ? read.format->read(*bytes) : Result<ImportedClip>(bytes.error());
+    if (!more)
+    {
+        Error error = more.error();
+        error.where = path.filename().string() + (error.where.empty() ? "" : ": " + error.where);
+        return error;
+    }
+    read.bytes += *bytes;
+    Clip& clip = read.clip;
+    lengthen(clip, more->clip.duration);
+    std::vector<Transient> events;
+    std::merge(clip.transients.begin(), clip.transients.end(), more->clip.transients.begin(),
+               more->clip.transients.end(), std::back_inserter(events),
+               [](const Transient& a, const Transient& b) { return a.time < b.time; });
+    clip.transients = std::move(events);
+    std::move(more->warnings.begin(), more->warnings.end(), std::back_inserter(read.warnings));
+    return {};
 }
 
-Result<Clip> readClip(const std::filesystem::path& path, ReadWarnings* warnings)
+/// The companion of a main file, in Pacini's or in Haptics Studio's way of naming them, if there is one.
+fs::path companionFile(const fs::path& main, const ClipFormat& format)
 {
-    const auto bytes = readClipBytes(path);
+    if (format.companion.empty())
+        return {};
+    std::vector<fs::path> names{exportPath(main, format.companion)};
+    if (const std::string stem = main.stem().string(); stem.ends_with(studioContinuous))
+    {
+        const std::string name = stem.substr(0, stem.size() - studioContinuous.size());
+        names.push_back(main.parent_path() / (name + std::string(studioTransients) + main.extension().string()));
+    }
+    std::error_code ignored;
+    for (const auto& name : names)
+        if (fs::is_regular_file(name, ignored))
+            return name;
+    return {};
+}
+
+Result<ReadClip> clipIn(const fs::path& path, std::string bytes, bool strict)
+{
+    const ClipFormat* format = clipFormatOf(lowerExtension(path), bytes);
+    if (format == nullptr && bytes.empty())
+        return Error{ErrorCode::invalidData, "", "is empty; it has no clip"};
+    if (format == nullptr && !looksLikeJson(bytes))
+        return notAClip();
+    if (format == nullptr) // whose reader says what is missing
+        format = &jsonFormat();
+    if (!format->isRead())
+        return notRead(*format);
+    auto imported = format->read(bytes, strict);
+    if (!imported)
+        return imported.error();
+    ReadClip read{std::move(imported->clip), format, std::move(imported->warnings), std::move(bytes)};
+    if (const auto second = companionFile(path, *format); !second.empty())
+        if (auto added = addCompanion(second, read); !added)
+            return added.error();
+    if (!format->isOwn() && read.clip.name.empty())
+        read.clip.name = path.stem().string();
+    return read;
+}
+} // namespace
+
+Result<ReadClip> readClip(const fs::path& path, bool strict)
+{
+    auto bytes = readBytes(path);
     if (!bytes)
         return bytes.error();
-    return clipOf(*bytes, warnings);
+    if (isSceneText(*bytes))
+        return Error{ErrorCode::invalidData, "", "is a scene, and a clip is needed; 'pacini render' plays scenes"};
+    return clipIn(path, std::move(bytes).value(), strict);
 }
 
-std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path)
+Result<ClipOrScene> readClipOrScene(const fs::path& path, const ClipReadParams& params)
 {
-    const auto start = startOf(path);
-    if (start.starts_with(packedMagic))
-        return ClipFormat::packed;
-    return looksLikeJson(start) ? std::optional(ClipFormat::json) : std::nullopt;
+    auto bytes = readBytes(path);
+    if (!bytes)
+        return bytes.error();
+    if (isSceneText(*bytes))
+    {
+        ReadWarnings warnings(params.strict);
+        auto scene = sceneOfText(*bytes, params.clipFolder.empty() ? path.parent_path() : params.clipFolder, &warnings);
+        if (!scene)
+            return scene.error();
+        return ClipOrScene{std::move(scene).value(), nullptr, warnings.texts(), std::move(bytes).value()};
+    }
+    auto clip = clipIn(path, std::move(bytes).value(), params.strict);
+    if (!clip)
+        return clip.error();
+    return ClipOrScene{std::move(clip->clip), clip->format, std::move(clip->warnings), std::move(clip->bytes)};
 }
 
-Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, ClipFormat format, Existing existing)
+bool looksLikeClip(const fs::path& path)
+{
+    const std::string extension = lowerExtension(path);
+    if (isForeignExtension(extension))
+        return true;
+    const std::string start = firstBytesOf(path);
+    const ClipFormat* format = clipFormatOf(extension, start);
+    return startsAsOwn(start) || (format != nullptr && !format->isRead());
+}
+
+const ClipFormat* ownFormatOf(const fs::path& path)
+{
+    const ClipFormat* format = clipFormatOf("", firstBytesOf(path));
+    return format != nullptr && format->isOwn() ? format : nullptr;
+}
+
+std::vector<std::string> clipFileExtensions()
+{
+    std::vector<std::string> extensions;
+    for (const ClipFormat& format : clipFormats())
+        if (format.isRead())
+            extensions.emplace_back(format.extension);
+    return extensions;
+}
+
+Result<std::size_t> writeClip(const fs::path& path, Clip clip, const ClipFormat& format, Existing existing)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    if (format == ClipFormat::packed)
-    {
-        const PackParams params = packParamsFor(clip);
-        return writeFileAtomically(path, packClip(std::move(clip), params), existing);
-    }
     auto file = AtomicFile::create(path, existing);
     if (!file)
         return file.error();
     std::size_t bytes = 0;
-    writeClipJson(clip,
+    format.stream(std::move(clip),
                   [&](std::string_view piece)
                   {
                       bytes += piece.size();
@@ -110,6 +219,74 @@ Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, Clip
     if (auto done = file->commit(); !done)
         return done.error();
     return bytes;
+}
+
+Result<std::vector<fs::path>> writeExport(const fs::path& main, const ExportedClip& exported, Existing existing)
+{
+    std::vector<fs::path> files;
+    for (const ExportedFile& file : exported.files)
+    {
+        const auto path = file.suffix.empty() ? main : exportPath(main, file.suffix);
+        const auto written = writeFileAtomically(path, file.bytes, file.suffix.empty() ? existing : Existing::replace);
+        if (!written)
+        {
+            Error error = written.error();
+            if (!file.suffix.empty())
+                error.where = path.filename().string() + (error.where.empty() ? "" : ": " + error.where);
+            return error;
+        }
+        files.push_back(path);
+    }
+    return files;
+}
+
+fs::path exportPath(const fs::path& main, std::string_view suffix)
+{
+    fs::path name = main.stem();
+    name += suffix;
+    name += main.extension();
+    return main.parent_path() / name;
+}
+
+fs::path companionOf(const fs::path& path)
+{
+    const std::string extension = lowerExtension(path);
+    const std::string stem = path.stem().string();
+    for (const ClipFormat& format : clipFormats())
+    {
+        if (format.companion.empty() || format.extension != extension)
+            continue;
+        for (const auto& [suffix, mainSuffix] : {std::pair<std::string_view, std::string_view>(format.companion, ""),
+                                                 std::pair(studioTransients, studioContinuous)})
+        {
+            if (!stem.ends_with(suffix))
+                continue;
+            fs::path main = path.parent_path() / stem.substr(0, stem.size() - suffix.size());
+            main += mainSuffix;
+            main += path.extension();
+            std::error_code ignored;
+            if (fs::is_regular_file(main, ignored))
+                return main;
+        }
+    }
+    return {};
+}
+
+fs::path strayCompanion(const fs::path& main, const ClipFormat& format, const ExportedClip& exported)
+{
+    const std::string_view suffix = format.companion;
+    const bool written = std::any_of(exported.files.begin(), exported.files.end(),
+                                     [&](const ExportedFile& file) { return file.suffix == suffix; });
+    if (suffix.empty() || written)
+        return {};
+    auto stray = exportPath(main, suffix);
+    std::error_code ignored;
+    return fs::is_regular_file(stray, ignored) ? stray : fs::path();
+}
+
+std::string strayWarning(const fs::path& stray)
+{
+    return stray.filename().string() + ": was there before and is no part of this clip, but is read with it; remove it";
 }
 
 } // namespace pacini

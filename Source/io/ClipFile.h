@@ -1,41 +1,90 @@
 #pragma once
 
-// Clips in files, as JSON or packed.
+// Clips, and scenes of them, in files of any format.
 
 #include "io/AtomicFile.h"
-#include "io/ReadWarnings.h"
+#include "io/formats/ClipFormat.h"
 
-#include <pacini/clip/Clip.h>
+#include <pacini/synthesis/Scene.h>
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace pacini
 {
 
-enum class ClipFormat
+/// A clip and where it came from.
+struct ReadClip
 {
-    json,   ///< text, see ClipJson.h
-    packed, ///< quantised and coded, starts with the bytes "PACB"
+    Clip clip;
+    const ClipFormat* format = nullptr; ///< never null
+    std::vector<std::string> warnings;
+    std::string bytes; ///< what was read: the file, then its companion if it has one
 };
 
-/// Reads a clip; the content decides the format, not the name. Errors: io as in readWholeFile, tooLarge beyond 512 MB,
-/// invalidData when it is neither format, and those of the format's reader.
-[[nodiscard]] Result<Clip> readClip(const std::filesystem::path& path, ReadWarnings* warnings = nullptr);
+/// Reads a clip; content and extension decide the format. The events of a companion (see ClipFormat) are added to it.
+/// Keys of Pacini's formats that are not known are warnings, or errors if it is `strict`. Errors: io as in
+/// readWholeFile, tooLarge beyond 512 MB, those of the format's reader, and invalidData for what is in no format that
+/// is read, and for a scene.
+[[nodiscard]] Result<ReadClip> readClip(const std::filesystem::path& path, bool strict = false);
 
-/// The two halves of readClip(): the bytes of a file that may be a clip, and the clip that such bytes are.
-[[nodiscard]] Result<std::string> readClipBytes(const std::filesystem::path& path);
-[[nodiscard]] Result<Clip> clipOf(std::string_view bytes, ReadWarnings* warnings = nullptr);
+/// A clip or a scene and where it came from.
+struct ClipOrScene
+{
+    std::variant<Clip, Scene> content;
+    const ClipFormat* format = nullptr; ///< null for a scene
+    std::vector<std::string> warnings;
+    std::string bytes; ///< as in ReadClip; of a scene its own
 
-/// The format that the file's content starts as; none when that is no clip's or the file cannot be read.
-[[nodiscard]] std::optional<ClipFormat> clipFormatOf(const std::filesystem::path& path);
+    [[nodiscard]] std::string_view formatName() const noexcept { return format == nullptr ? "scene" : format->name; }
+};
 
-/// Writes a clip and returns the size of the file in bytes. Errors: those of validate(), then nothing is written; io as
-/// in AtomicFile.
-[[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, ClipFormat format,
+struct ClipReadParams
+{
+    std::filesystem::path clipFolder; ///< where the clip files of scenes are; empty: beside the scene
+    bool strict = false;              ///< as in readClip()
+};
+
+/// Reads what plays: a scene when the file's "format" says so, else a clip of any format. The file is read once.
+/// Errors: those of readClip() and readScene().
+[[nodiscard]] Result<ClipOrScene> readClipOrScene(const std::filesystem::path& path, const ClipReadParams& params = {});
+
+/// Whether a file that could not be read was meant to be a clip or a scene rather than a sound, by content and
+/// extension.
+[[nodiscard]] bool looksLikeClip(const std::filesystem::path& path);
+
+/// Which of Pacini's own formats a file starts as, be it a damaged clip; null when it is neither or cannot be read.
+[[nodiscard]] const ClipFormat* ownFormatOf(const std::filesystem::path& path);
+
+/// The extensions of all files that readClip() can tell.
+[[nodiscard]] std::vector<std::string> clipFileExtensions();
+
+/// Writes a clip in one of Pacini's own formats, piece by piece, and returns the size of the file in bytes. Errors:
+/// those of validate(), then nothing is written; io as in AtomicFile.
+[[nodiscard]] Result<std::size_t> writeClip(const std::filesystem::path& path, Clip clip, const ClipFormat& format,
                                             Existing existing = Existing::replace);
+
+/// Writes all files of an export whose main file is to be `main` and returns their paths; `existing` is about that one.
+/// Errors: as in AtomicFile, with the name of the file where it is not the main one.
+[[nodiscard]] Result<std::vector<std::filesystem::path>>
+writeExport(const std::filesystem::path& main, const ExportedClip& exported, Existing existing = Existing::replace);
+
+/// The path of one of the files of an export whose main file is `main`, which has no suffix.
+[[nodiscard]] std::filesystem::path exportPath(const std::filesystem::path& main, std::string_view suffix);
+
+/// The file that `path` is the companion of, if that is there; else empty.
+[[nodiscard]] std::filesystem::path companionOf(const std::filesystem::path& path);
+
+/// The file beside `main` that is no part of this export but would be read with it: a companion (see ClipFormat) that
+/// is left from an earlier one, or somebody else's. It stays where it is; empty when there is none.
+[[nodiscard]] std::filesystem::path strayCompanion(const std::filesystem::path& main, const ClipFormat& format,
+                                                   const ExportedClip& exported);
+
+/// Says so to people.
+[[nodiscard]] std::string strayWarning(const std::filesystem::path& stray);
 
 } // namespace pacini

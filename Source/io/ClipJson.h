@@ -2,12 +2,12 @@
 
 // Clips as JSON text: Resources/schema/pacini.clip.schema.json describes the format.
 
+#include "io/JsonText.h"
 #include "io/ReadWarnings.h"
 
 #include <pacini/clip/Clip.h>
 
 #include <cstddef>
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -40,7 +40,6 @@ inline constexpr std::size_t largestClipText = std::size_t(512) << 20;
 [[nodiscard]] std::string writeClipJson(const Clip& clip);
 
 /// The same text in pieces of some 256 kB, for long clips: its points take two times their memory as text.
-using TextSink = std::function<void(std::string_view)>;
 void writeClipJson(const Clip& clip, const TextSink& sink);
 
 } // namespace pacini

@@ -1,13 +1,17 @@
 #include "io/ClipSeal.h"
 
+#include "io/ClipFields.h"
 #include "io/Fingerprint.h"
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace pacini
 {
@@ -19,35 +23,63 @@ bool isSeal(const EncoderParameter& parameter)
     return parameter.name == clipSealName;
 }
 
-/// Takes in the parts of a clip one after another, each with its length where it has one.
+/// Takes in the fields of a clip one after another, lists and texts with their length. The names of the fields and the
+/// format do not count: a clip is the same in every form.
 class ClipFingerprint
 {
 public:
-    void add(double value)
+    void format(const DocumentFormat&) {}
+
+    void number(std::string_view, double value, Need)
     {
         value += 0.0; // no two zeros
         all.add(std::as_bytes(std::span(&value, 1)));
     }
-    void add(const std::string& text)
+    void integer(std::string_view name, std::integral auto value)
     {
-        add(static_cast<double>(text.size()));
-        all.add(std::string_view(text));
+        number(name, static_cast<double>(value), Need::required);
     }
-    void add(const Curve& curve)
+    void text(std::string_view name, std::string_view value, Need = Need::required)
     {
-        add(static_cast<double>(curve.size()));
-        for (const Breakpoint& point : curve)
+        integer(name, value.size());
+        all.add(value);
+    }
+
+    template <typename T, typename Fields>
+    void object(std::string_view, const T& value, Need, Fields fields)
+    {
+        fields(value, *this);
+    }
+
+    template <typename T, typename Fields>
+    void list(std::string_view name, const std::vector<T>& values, std::size_t, std::string_view, Fields fields, Need)
+    {
+        if (name != "markers") // they came first without, and seals stay
+            integer(name, values.size());
+        for (const T& value : values)
+            fields(value, *this);
+    }
+    template <typename T, typename Fields>
+    void timeline(std::string_view name, const std::vector<T>& values, Need need, Fields fields)
+    {
+        list(name, values, 0, "", fields, need);
+    }
+
+    void parameters(std::string_view, const std::vector<EncoderParameter>& values)
+    {
+        for (const auto& [name, value] : values)
         {
-            add(point.time);
-            add(point.value);
+            if (name == clipSealName)
+                continue;
+            text("", name);
+            if (const auto* words = std::get_if<std::string>(&value))
+                text("", *words);
+            else if (const auto* truth = std::get_if<bool>(&value))
+                integer("", int(*truth));
+            else
+                number("", std::get<double>(value), Need::usual);
         }
     }
-    void add(const EncoderParameter& parameter)
-    {
-        add(parameter.name);
-        std::visit([this](const auto& value) { add(value); }, parameter.value);
-    }
-    void add(bool value) { add(value ? 1.0 : 0.0); }
 
     [[nodiscard]] std::uint64_t value() const { return all.value(); }
 
@@ -59,41 +91,7 @@ private:
 double checksum(const Clip& clip)
 {
     ClipFingerprint all;
-    all.add(clip.name);
-    all.add(clip.duration);
-    all.add(clip.source.file);
-    all.add(clip.source.sampleRate);
-    all.add(static_cast<double>(clip.source.channels));
-    for (const EncoderParameter& parameter : clip.encoder)
-        if (!isSeal(parameter))
-            all.add(parameter);
-    all.add(clip.envelope);
-    all.add(clip.centroid);
-    all.add(static_cast<double>(clip.bands.size()));
-    for (const Band& band : clip.bands)
-    {
-        for (const double frequency : {band.lowFrequency, band.centreFrequency, band.highFrequency})
-            all.add(frequency);
-        all.add(static_cast<double>(band.priority));
-        all.add(band.amplitude);
-        all.add(band.pitch);
-    }
-    all.add(static_cast<double>(clip.transients.size()));
-    for (const Transient& transient : clip.transients)
-        for (const double value : {transient.time, transient.amplitude, transient.sharpness})
-            all.add(value);
-    all.add(static_cast<double>(clip.noise.size()));
-    for (const NoiseBand& band : clip.noise)
-    {
-        all.add(band.lowFrequency);
-        all.add(band.highFrequency);
-        all.add(band.amplitude);
-    }
-    for (const Marker& marker : clip.markers)
-    {
-        all.add(marker.time);
-        all.add(marker.name);
-    }
+    clipFields::document(clip, all);
     return static_cast<double>(static_cast<std::uint32_t>(all.value() ^ (all.value() >> 32)));
 }
 } // namespace

@@ -1,6 +1,11 @@
 #pragma once
 
-// What the entries of a JSON document are: words that readers and writers share.
+// The vocabulary in which the entries of a JSON document are listed, once for its reader and its writer.
+//
+// A list of fields is a function of a value and a visitor that names all entries of the value in the order of the
+// file: visitor.number("time", point.time, Need::required). Visitors: FieldsHandler reads long documents (clips,
+// scenes) as their text comes, FieldsReader small ones (profiles, projects, sweeps) from a tree, FieldsWriter writes
+// both.
 
 #include <array>
 #include <cstddef>
@@ -27,12 +32,28 @@ template <typename E, std::size_t Count>
     return {};
 }
 
+/// What a document calls itself in its entries `format` and `version`.
+struct DocumentFormat
+{
+    std::string_view name;
+    int version;
+    std::string_view noun = {}; ///< "a clip", for messages
+    bool whole = false;         ///< a version with a fraction is none rather than a newer one
+};
+
 /// Whether an entry must be in the file; others keep the default of their struct when they are missing.
 enum class Need
 {
     required,
     usual,   ///< may be missing, but is always written
-    optional ///< an object that is not written when it equals its default
+    optional ///< an object or a list that is not written when it equals its default
+};
+
+/// Whether a visitor fills the values that it is shown.
+template <typename Visitor>
+inline constexpr bool isReader = requires
+{
+    Visitor::reads;
 };
 
 } // namespace pacini

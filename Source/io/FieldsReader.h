@@ -29,6 +29,8 @@ namespace pacini
 class FieldsReader
 {
 public:
+    static constexpr bool reads = true;
+
     /// With `warnings` for keys that are asked for nowhere.
     explicit FieldsReader(const nlohmann::json& document, ReadWarnings* keyWarnings = nullptr)
         : current(&document), warnings(keyWarnings)

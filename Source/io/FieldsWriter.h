@@ -1,185 +1,289 @@
 #pragma once
 
-// Writes a value as a JSON document by the table of its entries.
+// Writes a value as a JSON document by the fields of its type.
 
 #include "io/Fields.h"
+#include "io/JsonText.h"
 
+#include <pacini/clip/Clip.h>
+
+#include <fmt/compile.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace pacini
 {
 
-/// Builds the text: entries of the document and elements of lists on lines of their own, other objects on one line.
+/// Builds the text: entries of the document and elements of lists on lines of their own, numbers in the shortest form
+/// that reads back exactly.
 class FieldsWriter
 {
 public:
-    /// Starts a document with its format and version.
-    FieldsWriter(std::string_view format, int version)
+    /// Where the entries of an object stand.
+    enum class Layout
     {
-        text("format", format);
-        integer("version", version);
+        lines,  ///< each on its own
+        spaced, ///< on one line, with blanks inside the braces
+        compact ///< on one line
+    };
+
+    /// Objects inside the document have the layout `inside`. With a `sink` the text goes there in pieces of some 256
+    /// kB.
+    explicit FieldsWriter(Layout inside, const TextSink* sink = nullptr) : objects(inside), receiver(sink) {}
+
+    /// The rest of the text, which is finished.
+    [[nodiscard]] std::string document() &&
+    {
+        output += "\n}\n";
+        return std::move(output);
     }
 
-    /// The finished document.
-    [[nodiscard]] std::string document() && { return std::move(output) + "\n}\n"; }
+    void format(const DocumentFormat& document)
+    {
+        text("format", document.name);
+        integer("version", document.version);
+    }
 
-    void text(const char* name, std::string_view value)
+    void text(std::string_view name, std::string_view value, Need = Need::required)
     {
         key(name);
-        string(value);
+        appendJsonString(output, value);
     }
 
-    void optionalText(const char* name, std::string_view value)
+    void optionalText(std::string_view name, std::string_view value)
     {
         if (!value.empty())
             text(name, value);
     }
 
-    void number(const char* name, double value, Need)
+    void number(std::string_view name, double value, Need)
     {
         key(name);
-        // Minus zero would come back as an integer zero.
-        fmt::format_to(std::back_inserter(output), "{}", value == 0.0 ? 0.0 : value);
+        number(value);
     }
 
-    void integer(const char* name, int value, const char* = nullptr) { number(name, value, Need::required); }
-
-    void truth(const char* name, bool value)
+    template <typename Rule = int>
+    void integer(std::string_view name, std::integral auto value, const Rule& = {})
     {
-        key(name);
-        output += value ? "true" : "false";
+        json(name, fmt::format_int(value).c_str());
     }
+
+    void truth(std::string_view name, bool value) { json(name, value ? "true" : "false"); }
 
     /// A value that is JSON already.
-    void json(const char* name, std::string_view value)
+    void json(std::string_view name, std::string_view value)
     {
         key(name);
         output += value;
     }
 
-    void optionalNumber(const char* name, const std::optional<double>& value)
+    void optionalNumber(std::string_view name, const std::optional<double>& value)
     {
         if (value)
             number(name, *value, Need::required);
     }
 
     template <typename E, typename Choices>
-    void choice(const char* name, E value, const Choices& choices, Need)
+    void choice(std::string_view name, E value, const Choices& choices, Need)
     {
-        key(name);
-        string(nameOf(value, choices));
+        text(name, nameOf(value, choices));
     }
 
-    template <typename T, typename Fields>
-    void object(const char* name, const T& value, Need need, Fields fields)
+    template <typename T, typename Fields, typename... Rules>
+    void object(std::string_view name, const T& value, Need need, Fields fields, const Rules&...)
     {
         if (need == Need::optional && value == T{})
             return;
         key(name);
-        braces([&] { fields(value); });
+        object(value, fields, layout == Layout::lines ? objects : layout);
     }
 
     template <typename T, typename Fields>
-    void optionalObject(const char* name, const std::optional<T>& value, Fields fields)
+    void optionalObject(std::string_view name, const std::optional<T>& value, Fields fields)
     {
-        if (!value)
-            return;
-        key(name);
-        braces([&] { fields(*value); });
+        if (value)
+            object(name, *value, Need::required, fields);
     }
 
+    template <typename List, typename Fields, typename... Rules>
+    void list(std::string_view name, const List& values, std::size_t, std::string_view, Fields fields,
+              Need need = Need::optional, const Rules&...)
+    {
+        elements(name, values, need, fields, layout == Layout::lines ? objects : layout,
+                 [](const auto&) { return true; });
+    }
+
+    /// A list whose elements have one line each.
     template <typename List, typename Fields>
-    void list(const char* name, const List& values, std::size_t, const char*, Fields fields)
+    void rows(std::string_view name, const List& values, std::size_t, std::string_view, Fields fields)
     {
-        if (values.empty())
-            return;
-        key(name);
-        output += '[';
-        for (const auto& value : values)
+        elements(name, values, Need::usual, fields, Layout::compact, [](const auto&) { return true; });
+    }
+
+    /// A list of short objects that each have a time: those of one quarter of a second share a line, at most six.
+    template <typename Events, typename Fields>
+    void timeline(std::string_view name, const Events& events, Need, Fields fields)
+    {
+        constexpr double linesPerSecond = 4.0;
+        constexpr int maxPerLine = 6;
+        int onLine = 0;
+        double quarter = -1.0;
+        const auto separate = [&](const auto& event)
         {
-            output += &value == &*values.begin() ? "" : ",";
-            lineBreak(depth + 2);
-            braces([&] { fields(value); });
-        }
-        lineBreak(depth + 1);
-        output += ']';
+            const double itsQuarter = std::floor(event.time * linesPerSecond);
+            const bool starts = onLine == 0 || onLine == maxPerLine || itsQuarter != quarter;
+            quarter = itsQuarter;
+            onLine = starts ? 1 : onLine + 1;
+            return starts;
+        };
+        elements(name, events, Need::usual, fields, Layout::compact, separate);
     }
 
-    void numbers(const char* name, const std::vector<double>& values, std::size_t)
+    void numbers(std::string_view name, const std::vector<double>& values, std::size_t)
     {
-        key(name);
-        output += fmt::format("[{}]", fmt::join(values, ", "));
+        json(name, fmt::format("[{}]", fmt::join(values, ", ")));
     }
 
+    /// Pairs of a name and a text, on lines of their own.
     template <typename Texts>
-    void texts(const char* name, const Texts& values)
+    void texts(std::string_view name, const Texts& values)
     {
         if (values.empty())
             return;
         key(name);
-        output += '{';
-        bool isFirst = true;
-        for (const auto& [inner, value] : values)
+        const auto fields = [](const Texts& pairs, FieldsWriter& writer)
         {
-            output += std::exchange(isFirst, false) ? "" : ",";
-            lineBreak(depth + 2);
-            string(inner);
-            output += ": ";
-            string(value);
-        }
-        lineBreak(depth + 1);
-        output += '}';
+            for (const auto& [inner, value] : pairs)
+                writer.text(inner, value);
+        };
+        object(values, fields, Layout::lines);
+    }
+
+    void parameters(std::string_view name, const std::vector<EncoderParameter>& values)
+    {
+        key(name);
+        const auto fields = [](const std::vector<EncoderParameter>& all, FieldsWriter& writer)
+        {
+            for (const EncoderParameter& parameter : all)
+            {
+                if (const auto* number = std::get_if<double>(&parameter.value))
+                    writer.number(parameter.name, *number, Need::required);
+                else if (const auto* text = std::get_if<std::string>(&parameter.value))
+                    writer.text(parameter.name, *text);
+                else
+                    writer.truth(parameter.name, std::get<bool>(parameter.value));
+            }
+        };
+        object(values, fields, Layout::lines);
     }
 
 private:
-    void key(const char* name)
+    void number(double value)
     {
-        output += first ? "" : ",";
-        if (depth > 0)
-            output += ' ';
+        // Minus zero would come back as an integer zero.
+        char digits[32];
+        output.append(digits, fmt::format_to(digits, FMT_COMPILE("{}"), value == 0.0 ? 0.0 : value));
+    }
+
+    void key(std::string_view name)
+    {
+        if (layout == Layout::lines)
+        {
+            if (!first)
+                output += ',';
+            lineBreak(depth);
+            appendJsonString(output, name); // the names of parameters are free
+            output += ": ";
+        }
         else
-            lineBreak(1);
+        {
+            // Names of fields in one piece: long clips have millions.
+            const std::string_view before = !first ? ", \"" : layout == Layout::spaced ? " \"" : "\"", after = "\": ";
+            const std::size_t start = output.size();
+            output.resize(start + before.size() + name.size() + after.size());
+            char* at = std::copy(before.begin(), before.end(), output.data() + start);
+            std::copy(after.begin(), after.end(), std::copy(name.begin(), name.end(), at));
+        }
         first = false;
-        string(name);
-        output += ": ";
     }
 
-    void string(std::string_view value)
+    template <typename T, typename Fields>
+    void object(const T& value, Fields fields, Layout inside)
     {
-        using Json = nlohmann::json;
-        output += Json(value).dump(-1, ' ', false, Json::error_handler_t::replace);
-    }
-
-    template <typename Fields>
-    void braces(Fields fields)
-    {
+        const Layout outside = std::exchange(layout, inside);
         output += '{';
         ++depth;
         first = true;
-        fields();
-        first = false;
+        if constexpr (std::is_invocable_v<Fields, const T&, FieldsWriter&>)
+            fields(value, *this);
+        else
+            fields(value);
         --depth;
-        output += " }";
+        if (layout == Layout::lines && !first)
+            lineBreak(depth);
+        if (layout == Layout::spaced)
+            output += ' ';
+        output += '}';
+        layout = outside;
+        first = false;
     }
 
-    void lineBreak(int steps)
+    template <typename List, typename Fields, typename Separate>
+    void elements(std::string_view name, const List& values, Need need, Fields fields, Layout inside,
+                  Separate startsLine)
     {
-        output += '\n';
-        output.append(2 * static_cast<std::size_t>(steps), ' ');
+        if (need == Need::optional && values.empty())
+            return;
+        key(name);
+        output += '[';
+        const std::size_t outer = depth;
+        bool isFirst = true;
+        for (const auto& value : values)
+        {
+            if (!std::exchange(isFirst, false))
+                output += ',';
+            if (startsLine(value))
+                lineBreak(outer + 1);
+            else
+                output += ' ';
+            depth = inside == Layout::lines ? outer + 1 : outer;
+            object(value, fields, inside);
+        }
+        depth = outer;
+        if (!isFirst)
+            lineBreak(depth);
+        output += ']';
     }
 
+    void lineBreak(std::size_t steps)
+    {
+        constexpr std::size_t maxKept = std::size_t(1) << 18;
+        if (receiver != nullptr && output.size() >= maxKept)
+        {
+            (*receiver)(output);
+            output.clear();
+        }
+        output += '\n';
+        output.append(2 * steps, ' ');
+    }
+
+    Layout objects;
+    const TextSink* receiver;
     std::string output = "{";
-    bool first = true;
-    int depth = 0; ///< braces that are open inside those of the document
+    Layout layout = Layout::lines; ///< of the object that is open
+    bool first = true;             ///< no entry of it is written yet
+    std::size_t depth = 1;         ///< steps by which its lines stand in
 };
 
 } // namespace pacini

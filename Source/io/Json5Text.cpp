@@ -4,7 +4,6 @@
 #include "io/JsonText.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <iterator>
 
@@ -132,10 +131,7 @@ private:
         return true;
     }
 
-    void put(const std::string& letters)
-    {
-        json += nlohmann::json(letters).dump(); // well-formed, since the whole text is
-    }
+    void put(const std::string& letters) { appendJsonString(json, letters); }
 
     bool number()
     {
@@ -191,7 +187,7 @@ private:
 
     bool hexadecimal(std::size_t start, const std::string& sign)
     {
-        constexpr std::size_t mostDigits = 16;
+        constexpr std::size_t maxDigits = 16;
         pass(2);
         const std::size_t first = position();
         double sum = 0.0;
@@ -200,7 +196,7 @@ private:
             sum = 16.0 * sum + digit;
             take();
         }
-        if (position() == first || position() - first > mostDigits || json5::startsName(peek()))
+        if (position() == first || position() - first > maxDigits || json5::startsName(peek()))
             return fail(start, "is not a hexadecimal number of at most 16 digits");
         fmt::format_to(std::back_inserter(json), "{}{}", sign, sum);
         return true;

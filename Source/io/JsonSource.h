@@ -18,8 +18,9 @@ namespace pacini
 class JsonSource
 {
 public:
-    JsonSource(std::string_view text, std::size_t maximumBytes) : chunk(text), limit(maximumBytes)
+    JsonSource(std::string_view text, std::size_t maximumBytes) : limit(maximumBytes)
     {
+        take(text);
         passedLimit = text.size() > limit;
     }
 
@@ -28,18 +29,21 @@ public:
     {
     }
 
-    [[nodiscard]] bool atEnd() { return next == chunk.size() && !refill(); }
-    [[nodiscard]] char current() const noexcept { return chunk[next]; }
+    [[nodiscard]] bool atEnd() { return next == end && !refill(); }
+    [[nodiscard]] char current() const noexcept { return *next; }
     void advance() noexcept { ++next; }
 
     /// Characters passed so far.
-    [[nodiscard]] std::size_t passed() const noexcept { return chunkStart + next; }
+    [[nodiscard]] std::size_t passed() const noexcept { return chunkStart + passedOfChunk(); }
     /// The text is longer than accepted; it ends at the limit.
     [[nodiscard]] bool tooLong() const noexcept { return passedLimit; }
     /// The last character passed is a NUL, which nlohmann's lexer takes for the end.
-    [[nodiscard]] bool endedByNul() const noexcept { return next > 0 && chunk[next - 1] == '\0'; }
+    [[nodiscard]] bool endedByNul() const noexcept { return passedOfChunk() > 0 && next[-1] == '\0'; }
     /// Whether what is still to come starts with `text`; sees no further than the current block.
-    [[nodiscard]] bool startsWith(std::string_view text) { return !atEnd() && chunk.substr(next).starts_with(text); }
+    [[nodiscard]] bool startsWith(std::string_view text)
+    {
+        return !atEnd() && chunk.substr(passedOfChunk()).starts_with(text);
+    }
 
     /// `line L, column C` of the character before `position`, counted from the start of the text. A lexer looks one
     /// character ahead, so that character may be the last of the block before.
@@ -72,6 +76,15 @@ private:
         }
     };
 
+    [[nodiscard]] std::size_t passedOfChunk() const noexcept { return static_cast<std::size_t>(next - chunk.data()); }
+
+    void take(std::string_view text) noexcept
+    {
+        chunk = text;
+        next = text.data();
+        end = next + text.size();
+    }
+
     bool refill()
     {
         if (input == nullptr || passedLimit)
@@ -83,13 +96,12 @@ private:
             chunkPlace.pass(chunk);
         }
         chunkStart += chunk.size();
-        next = 0;
         const auto got = input->sgetn(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-        chunk = {buffer.data(), static_cast<std::size_t>(std::max<std::streamsize>(got, 0))};
+        take({buffer.data(), static_cast<std::size_t>(std::max<std::streamsize>(got, 0))});
         if (chunk.size() > limit - chunkStart)
         {
             passedLimit = true;
-            chunk = chunk.substr(0, limit - chunkStart);
+            take(chunk.substr(0, limit - chunkStart));
         }
         return !chunk.empty();
     }
@@ -97,7 +109,8 @@ private:
     std::streambuf* input = nullptr;
     std::vector<char> buffer;
     std::string_view chunk;
-    std::size_t next = 0;
+    const char* next = nullptr; ///< in the chunk
+    const char* end = nullptr;  ///< of the chunk
     std::size_t chunkStart = 0;
     Place chunkPlace; ///< of the first character of the block
     Place lastPlace;  ///< of the last character of the block before
@@ -130,12 +143,10 @@ public:
         source->advance();
         return before;
     }
-    /// Only the comparison with the end is asked for.
-    bool operator==(const JsonCursor& other) const { return ended() == other.ended(); }
+    /// Only the comparison of a place with the end is asked for.
+    bool operator==(const JsonCursor&) const { return source->atEnd(); }
 
 private:
-    [[nodiscard]] bool ended() const { return source == nullptr || source->atEnd(); }
-
     JsonSource* source = nullptr;
 };
 

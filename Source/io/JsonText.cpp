@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace pacini
 {
@@ -20,27 +22,27 @@ class Events
 {
 public:
     Events(JsonHandler& receiver, JsonSource& textSource, ReadWarnings* collector)
-        : handler(receiver), source(textSource), warnings(collector)
+        : handler(&receiver), source(textSource), warnings(collector)
     {
-        handler.setWarnings(warnings);
+        handler->setWarnings(warnings);
     }
 
     Error error;
 
     bool null()
     {
-        return value([this] { return handler.null(); });
+        return value([this] { return handler->null(); });
     }
     bool boolean(bool v)
     {
-        return value([this, v] { return handler.truth(v); });
+        return value([this, v] { return handler->truth(v); });
     }
     bool number_integer(std::int64_t v) { return number(static_cast<double>(v)); }
     bool number_unsigned(std::uint64_t v) { return number(static_cast<double>(v)); }
     bool number_float(double v, const std::string&) { return number(v); }
     bool string(std::string& v)
     {
-        return value([this, &v] { return handler.text(v); });
+        return value([this, &v] { return handler->text(v); });
     }
     bool binary(nlohmann::json::binary_t&) { return false; }
 
@@ -52,7 +54,7 @@ public:
     bool key(std::string& name)
     {
         steps[depth - 1].key = name;
-        return handler.key(name) ? warnings == nullptr || doubted() : stopped();
+        return handler->key(name) ? warnings == nullptr || doubted() : stopped();
     }
 
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception)
@@ -98,7 +100,7 @@ private:
 
     bool number(double v)
     {
-        return value([this, v] { return handler.number(v); });
+        return value([this, v] { return handler->number(v); });
     }
 
     void countPlace()
@@ -122,7 +124,7 @@ private:
                      "has more than 32 objects or lists in each other"};
             return false;
         }
-        if (!value([this, list] { return list ? handler.openList() : handler.openObject(); }))
+        if (!value([this, list] { return list ? handler->openList() : openObject(); }))
             return false;
         Step& step = steps[depth++];
         step.key.clear();
@@ -131,16 +133,33 @@ private:
         return true;
     }
 
+    bool openObject()
+    {
+        if (!handler->openObject())
+            return false;
+        JsonHandler* next = handler->takeNext();
+        if (next == nullptr)
+            return true;
+        outer = std::exchange(handler, next);
+        outerDepth = depth;
+        return handler->openObject();
+    }
+
     bool close()
     {
         --depth;
-        return handler.close() || stopped();
+        if (!handler->close())
+            return stopped();
+        if (outer == nullptr || depth > outerDepth)
+            return true;
+        handler = std::exchange(outer, nullptr);
+        return handler->passedOn() || stopped();
     }
 
     /// Whether to go on after what the handler may have against the key.
     bool doubted()
     {
-        const auto doubt = handler.takeDoubt();
+        const auto doubt = handler->takeDoubt();
         if (!doubt)
             return true;
         if (warnings->isStrict())
@@ -152,7 +171,7 @@ private:
 
     bool stopped()
     {
-        error = handler.reason();
+        error = handler->reason();
         error.where = path() + error.where;
         if (error.where.starts_with('.'))
             error.where.erase(0, 1);
@@ -173,7 +192,9 @@ private:
         return text;
     }
 
-    JsonHandler& handler;
+    JsonHandler* handler;
+    JsonHandler* outer = nullptr; ///< that goes on when `handler` has its object
+    std::size_t outerDepth = 0;
     JsonSource& source;
     ReadWarnings* warnings;
     std::array<Step, deepestJson> steps;
@@ -227,16 +248,37 @@ Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t max
     return parse(source, handler, warnings);
 }
 
+void appendJsonString(std::string& text, std::string_view value)
+{
+    const auto isPlain = [](char c)
+    {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 && byte < 0x80 && c != '"' && c != '\\';
+    };
+    using nlohmann::json;
+    if (std::all_of(value.begin(), value.end(), isPlain))
+        ((text += '"') += value) += '"';
+    else
+        text += json(value).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string inQuotes(std::string_view value)
+{
+    std::string text;
+    appendJsonString(text, value);
+    return text;
+}
+
 std::string shownText(std::string_view text)
 {
-    constexpr std::size_t mostCharacters = 40;
+    constexpr std::size_t maxCharacters = 40;
     std::string shown;
     std::size_t characters = 0;
     for (char c : text)
     {
         const auto byte = static_cast<unsigned char>(c);
         const bool continues = (byte & 0xC0u) == 0x80u;
-        if (!continues && ++characters > mostCharacters)
+        if (!continues && ++characters > maxCharacters)
         {
             shown += "...";
             break;

@@ -7,12 +7,12 @@
 #include <pacini/foundation/Result.h>
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace pacini
 {
@@ -34,6 +34,12 @@ public:
     virtual bool truth(bool value) = 0;
     virtual bool null() = 0;
 
+    /// The object that passOn() gave to another handler is complete.
+    virtual bool passedOn() { return true; }
+
+    /// Who gets the object that was just opened, if another.
+    [[nodiscard]] JsonHandler* takeNext() noexcept { return std::exchange(next, nullptr); }
+
     /// Why stop() was called; its `where` still lacks the path of the value.
     [[nodiscard]] const Error& reason() const noexcept { return failure; }
 
@@ -51,28 +57,31 @@ protected:
         return false;
     }
 
-    /// The last key is none of `members`, which have names, and what it stands for is passed over.
-    template <typename Members>
-    void doubtKey(std::string_view name, const Members& members)
+    /// From openObject(): `other` gets the object with all events up to its close instead, and then passedOn() is
+    /// called.
+    bool passOn(JsonHandler& other) noexcept
+    {
+        next = &other;
+        return true;
+    }
+
+    /// The last key is none of those that `known()` gives, and what it stands for is passed over.
+    template <typename Known>
+    void doubtKey(std::string_view name, Known known)
     {
         if (warnings == nullptr || isRemark(name))
             return;
         if (!warnings->hasRoom() && !warnings->isStrict())
             return warnings->count();
-        std::vector<std::string_view> known;
-        for (const auto& member : members)
-            known.push_back(member.name);
-        doubt = unknownKeyText(name, known);
+        doubt = unknownKeyText(name, known());
     }
-
-    /// Hands on what a handler that this one passes keys on to says against one.
-    void doubtAs(JsonHandler& inner) { doubt = inner.takeDoubt(); }
 
     ReadWarnings* warnings = nullptr;
 
 private:
     Error failure;
     std::optional<std::string> doubt;
+    JsonHandler* next = nullptr;
 };
 
 /// Feeds one JSON document to `handler`. Errors: what the handler stops with, at a path such as
@@ -85,6 +94,15 @@ private:
                                      ReadWarnings* warnings = nullptr);
 [[nodiscard]] Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes,
                                      ReadWarnings* warnings = nullptr);
+
+/// Where a text goes piece by piece.
+using TextSink = std::function<void(std::string_view)>;
+
+/// Appends `value` as a JSON text in quotes; ill-formed UTF-8 becomes U+FFFD.
+void appendJsonString(std::string& text, std::string_view value);
+
+/// `value` as a JSON text in quotes.
+[[nodiscard]] std::string inQuotes(std::string_view value);
 
 /// `text` fit for an error message: on one line, cut after 40 characters, control characters as '?'.
 [[nodiscard]] std::string shownText(std::string_view text);

@@ -1,8 +1,5 @@
 #include "io/JsonTree.h"
 
-#include "io/JsonText.h"
-#include "io/JsonTreeBuilder.h"
-
 #include <utility>
 
 namespace pacini

@@ -2,10 +2,11 @@
 
 // Which known name was probably meant by one that is not known.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,27 +42,25 @@ namespace pacini
     return last[b.size()];
 }
 
-/// The one of `names` that is nearest to `name`, the first of equals; nothing when all are too far for a slip of the
-/// fingers: a third of the letters, and at least one.
-[[nodiscard]] inline std::optional<std::string> nearestName(std::string_view name,
-                                                            const std::vector<std::string>& names)
+/// The one of `names` that is nearest to `name`, the first of equals, and its distance; an empty name when none is
+/// nearer than `tooFar`.
+template <typename Names>
+[[nodiscard]] std::pair<std::string_view, std::size_t> nearestOf(std::string_view name, const Names& names,
+                                                                 std::size_t tooFar)
 {
-    std::optional<std::string> nearest;
-    std::size_t smallest = std::max<std::size_t>(1, name.size() / 3) + 1;
-    for (const std::string& known : names)
-        if (const std::size_t distance = typingDistance(name, known); distance < smallest)
-        {
-            smallest = distance;
-            nearest = known;
-        }
+    std::pair<std::string_view, std::size_t> nearest("", tooFar);
+    for (const std::string_view known : names)
+        if (const std::size_t distance = typingDistance(name, known); distance < nearest.second)
+            nearest = {known, distance};
     return nearest;
 }
 
-/// "; did you mean NAME?" when one of `names` is near, else nothing.
+/// "; did you mean NAME?" when one of `names` is near, else nothing: more than a third of the letters, and more than
+/// one, are no slip of the fingers.
 [[nodiscard]] inline std::string meantText(std::string_view name, const std::vector<std::string>& names)
 {
-    const auto nearest = nearestName(name, names);
-    return nearest ? "; did you mean " + *nearest + "?" : std::string();
+    const auto nearest = nearestOf(name, names, std::max<std::size_t>(1, name.size() / 3) + 1).first;
+    return nearest.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
 
 } // namespace pacini

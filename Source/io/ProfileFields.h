@@ -40,26 +40,26 @@ template <typename AnyMeasurement, typename Visitor>
 void visitMeasurement(AnyMeasurement& measurement, Visitor& visitor)
 {
     using enum Need;
-    visitor.integer("fittings", measurement.fittings, "must be a whole number, 1 to 1000000");
+    visitor.integer("fittings", measurement.placements, "must be a whole number, 1 to 1000000");
     visitor.number("drive", measurement.drive, usual);
     visitor.optionalNumber("distortionDrive", measurement.distortionDrive);
-    visitor.optionalObject(
-        "linearity", measurement.linearity,
-        [&](auto& linearity)
-        {
-            visitNumbers(visitor, required, "lowFrequency", linearity.lowFrequency, "highFrequency",
-                         linearity.highFrequency, "tolerance", linearity.tolerance, "level", linearity.level,
-                         "meanDeviation", linearity.meanDeviation, "standardDeviation", linearity.standardDeviation,
-                         "worstDeviation", linearity.worstDeviation, "worstFrequency", linearity.worstFrequency);
-            visitor.list("outliers", linearity.outliers, ProfileMeasurement::mostOutliers, "outliers",
-                         [&](auto& outlier)
-                         {
-                             visitor.number("lowFrequency", outlier.lowFrequency, required);
-                             visitor.number("highFrequency", outlier.highFrequency, required);
-                             visitor.number("deviation", outlier.deviation, required);
-                         });
-        });
-    visitor.list("points", measurement.points, ProfileMeasurement::mostPoints, "points",
+    visitor.optionalObject("linearity", measurement.linearity,
+                           [&](auto& linearity)
+                           {
+                               visitNumbers(visitor, required, "lowFrequency", linearity.lowFrequency, "highFrequency",
+                                            linearity.highFrequency, "tolerance", linearity.tolerance, "level",
+                                            linearity.level, "meanDeviation", linearity.meanDeviation,
+                                            "standardDeviation", linearity.standardDeviation, "worstDeviation",
+                                            linearity.worstDeviation, "worstFrequency", linearity.worstFrequency);
+                               visitor.list("outliers", linearity.outliers, ProfileMeasurement::maxOutliers, "outliers",
+                                            [&](auto& outlier)
+                                            {
+                                                visitor.number("lowFrequency", outlier.lowFrequency, required);
+                                                visitor.number("highFrequency", outlier.highFrequency, required);
+                                                visitor.number("deviation", outlier.deviation, required);
+                                            });
+                           });
+    visitor.list("points", measurement.points, ProfileMeasurement::maxPoints, "points",
                  [&](auto& point)
                  {
                      visitor.number("frequency", point.frequency, required);

@@ -110,15 +110,8 @@ std::string_view nearestKey(std::string_view given, const std::vector<std::strin
     if (given.empty() || given.size() > longest)
         return {};
     const std::string lower = lowerCase(given);
-    std::string_view nearest;
     // Short words are near to nearly everything: of up to five letters one may be wrong, two from six letters on.
-    std::size_t least = lower.size() < 6 ? 2 : 3;
-    for (const std::string_view key : known)
-        if (const std::size_t wrong = typingDistance(lower, lowerCase(key)); wrong < least)
-        {
-            least = wrong;
-            nearest = key;
-        }
+    const auto [nearest, least] = nearestOf(lower, known, lower.size() < 6 ? 2 : 3);
     // A single wrong letter is a slip; beyond that another word for a key is more likely.
     if (least > 1)
         for (const auto& [word, key] : otherWords)

@@ -14,7 +14,7 @@ namespace pacini
 class ReadWarnings
 {
 public:
-    static constexpr std::size_t mostKept = 20;
+    static constexpr std::size_t maxKept = 20;
 
     ReadWarnings() = default;
     explicit ReadWarnings(bool beStrict) : strict(beStrict) {}
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool isStrict() const noexcept { return strict; }
 
     /// Whether one more is kept; else count() is enough.
-    [[nodiscard]] bool hasRoom() const noexcept { return kept.size() < mostKept; }
+    [[nodiscard]] bool hasRoom() const noexcept { return kept.size() < maxKept; }
 
     void add(std::string_view where, std::string_view message);
     void count() noexcept { ++notKept; }

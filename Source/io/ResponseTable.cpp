@@ -118,7 +118,7 @@ Result<FrequencyResponse> readResponseTable(std::string_view text)
             return wrong("frequency", row.frequency);
         if (!level)
             return wrong("level", row.level);
-        if (response.size() == FrequencyResponse::mostPoints)
+        if (response.size() == FrequencyResponse::maxPoints)
             return Error{ErrorCode::tooLarge, fmt::format("line {}", number),
                          "is beyond 100000 points; thin or smooth the response first"};
         response.frequency.push_back(*frequency);

@@ -1,7 +1,7 @@
 #include "io/SceneFile.h"
 
-#include "io/AnyClip.h"
 #include "io/AtomicFile.h"
+#include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/InputFile.h"
 #include "io/JsonText.h"
@@ -65,7 +65,7 @@ Result<Scene> sceneOfText(std::string_view text, const fs::path& clipFolder, Rea
         std::error_code ignored;
         if (fs::exists(path, ignored) && fs::is_other(path, ignored))
             return Error{ErrorCode::io, "", "is a pipe or a device; name a clip file"};
-        auto read = readAnyClip(path, warnings != nullptr && warnings->isStrict());
+        auto read = readClip(path, warnings != nullptr && warnings->isStrict());
         if (!read)
             return read.error();
         if (warnings != nullptr)

@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// Reads a scene; the clip files that it names, of any format that readAnyClip() reads, are looked for in `clipFolder`,
+/// Reads a scene; the clip files that it names, of any format that readClip() reads, are looked for in `clipFolder`,
 /// by default the scene's own. What the readers let pass goes to `warnings`, that of clip files with their names.
 /// Errors: io as in readWholeFile, tooLarge beyond 256 MB, and those of readSceneJson.
 [[nodiscard]] Result<Scene> readScene(const std::filesystem::path& path, const std::filesystem::path& clipFolder = {},

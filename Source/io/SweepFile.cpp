@@ -14,7 +14,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostLevels = 32;
+constexpr std::size_t maxLevels = 32;
 constexpr double largestSweepGain = 200.0; // dB
 
 /// Shows `visitor` (FieldsReader or FieldsWriter) all entries in the order of the file.
@@ -30,7 +30,7 @@ void visitFields(AnySweep& file, Visitor& visitor)
     visitor.number("fadeOut", sweep.fadeOut, required);
     visitor.integer("repeats", sweep.repeats, "must be a whole number, 1 to 100");
     visitor.number("pause", sweep.pause, required);
-    visitor.numbers("levels", sweep.levels, mostLevels);
+    visitor.numbers("levels", sweep.levels, maxLevels);
     visitor.number("markerDuration", sweep.markerDuration, required);
     visitor.number("sampleRate", sweep.sampleRate, required);
     visitor.optionalText("equalizedFor", file.equalizedFor);
@@ -60,7 +60,8 @@ Result<SweepFile> readSweepJson(std::string_view text)
 
 std::string sweepJson(const SweepFile& sweep)
 {
-    FieldsWriter writer(sweepFormatName, sweepFormatVersion);
+    FieldsWriter writer(FieldsWriter::Layout::spaced);
+    writer.format({sweepFormatName, sweepFormatVersion});
     visitFields(sweep, writer);
     return std::move(writer).document();
 }

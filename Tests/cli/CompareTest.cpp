@@ -107,8 +107,8 @@ TEST_CASE("Onsets give F1: of detected events, or of those that a clip states", 
     Clip clip;
     clip.duration = 1.0;
     clip.transients = {{0.1, 1.0, 0.5}, {0.5, 1.0, 0.5}, {0.72, 1.0, 0.5}};
-    REQUIRE(writeClip(folder / "a.json", clip, ClipFormat::json).ok());
-    REQUIRE(writeClip(folder / "a.pacb", clip, ClipFormat::packed).ok());
+    REQUIRE(writeClip(folder / "a.json", clip, jsonFormat()).ok());
+    REQUIRE(writeClip(folder / "a.pacb", clip, packedFormat()).ok());
 
     const auto detected = jsonOf(folder, "a.wav a.wav --onsets marks.json");
     CHECK(detected["files"][0]["f1"].get<double>() == Approx(6.0 / 7.0)); // three of four, nothing spurious

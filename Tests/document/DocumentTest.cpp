@@ -158,8 +158,8 @@ TEST_CASE("Edit, save, close, open, export: identical clips and edits")
         REQUIRE(opened);
         CHECK(opened->project() == document.project());
         CHECK_FALSE(opened->isDirty());
-        REQUIRE(document.exportClip(id, folder / "a.json", ClipFormat::json));
-        REQUIRE(opened->exportClip(id, folder / "b.json", ClipFormat::json));
+        REQUIRE(document.exportClip(id, folder / "a.json", jsonFormat()));
+        REQUIRE(opened->exportClip(id, folder / "b.json", jsonFormat()));
         CHECK(test::bytesOf(folder / "a.json") == test::bytesOf(folder / "b.json"));
         REQUIRE(opened->saveAs(folder / "again.pacini"));
         CHECK(test::bytesOf(folder / "again.pacini") == test::bytesOf(path));

@@ -52,14 +52,14 @@ RecordedSweep recordedOn(SimulatedMeasureRig& rig, std::vector<float> signal, co
     return recorded;
 }
 
-Fitting fittingOf(SimulatedMeasureRig& rig, std::size_t wearer, const MeasureSettings& settings)
+Placement placementOf(SimulatedMeasureRig& rig, std::size_t wearer, const MeasureSettings& settings)
 {
-    rig.setFitting(wearer);
+    rig.setPlacement(wearer);
     const SweepParams sweep = sweepOf(settings, rig.ports().sampleRate);
-    auto fitting = analyseFitting("Wearer " + std::to_string(wearer),
-                                  recordedOn(rig, makeSweepSignal(sweep).value(), sweep, {0, 1, 2}), settings);
-    REQUIRE(fitting.ok());
-    return std::move(fitting).value();
+    auto placement = analysePlacement("Wearer " + std::to_string(wearer),
+                                      recordedOn(rig, makeSweepSignal(sweep).value(), sweep, {0, 1, 2}), settings);
+    REQUIRE(placement.ok());
+    return std::move(placement).value();
 }
 
 void compute(ActuatorMeasurement& work)
@@ -78,7 +78,7 @@ TEST_CASE("An actuator is measured, flattened and proved flat within 1 dB, and b
     CHECK(work.state(MeasureStep::response) == MeasureStepState::locked);
     CHECK(work.whyLocked(MeasureStep::response) == "Sweep the actuator first.");
 
-    work.addFitting(fittingOf(rig, 0, work.settings()));
+    work.addPlacement(placementOf(rig, 0, work.settings()));
     CHECK(work.state(MeasureStep::response) == MeasureStepState::working);
     compute(work);
     REQUIRE(work.response() != nullptr);
@@ -89,9 +89,9 @@ TEST_CASE("An actuator is measured, flattened and proved flat within 1 dB, and b
     CHECK(work.state(MeasureStep::verify) == MeasureStepState::open);
 
     const auto through = verifyingSweep(work.settings(), work.equalizer()->fit.sections, 8000.0).value();
-    rig.setFitting(0);
+    rig.setPlacement(0);
     work.addVerification(
-        analyseFitting("proof", recordedOn(rig, through.signal, through.sweep, {0, 1, 2}), work.settings()).value());
+        analysePlacement("proof", recordedOn(rig, through.signal, through.sweep, {0, 1, 2}), work.settings()).value());
     work.setTolerance(1.0);
     compute(work);
     REQUIRE(work.verified() != nullptr);
@@ -124,19 +124,19 @@ TEST_CASE("The sweep that proves an equaliser begins a little below the range th
     ActuatorMeasurement work;
     work.setSettings(settings);
     work.setRate(rate);
-    EqualizerWish wish;
+    EqualizerRequest wish;
     wish.lowFrequency = 100.0;
-    work.setWish(wish);
-    work.addFitting(fittingOf(rig, 0, settings));
+    work.setRequest(wish);
+    work.addPlacement(placementOf(rig, 0, settings));
     compute(work);
     REQUIRE(work.equalizer() != nullptr);
     const MeasureSettings proving = provingSettings(settings, work.equalizer()->lowFrequency);
     CHECK(proving.lowFrequency == Approx(80.0));
     const auto through = verifyingSweep(proving, work.equalizer()->fit.sections, rate, true).value();
-    rig.setFitting(0);
+    rig.setPlacement(0);
     auto recorded = recordedOn(rig, through.signal, through.sweep, {0, 1, 2});
     recorded.gain = through.gain;
-    auto proof = analyseFitting("proof", recorded, settings);
+    auto proof = analysePlacement("proof", recorded, settings);
     REQUIRE(proof.ok());
     work.addVerification(std::move(proof).value());
     compute(work);
@@ -151,9 +151,9 @@ TEST_CASE("What changes before a step makes the step forget its result, and late
     ActuatorMeasurement work;
     work.setSettings(shortSettings());
     work.setRate(8000.0);
-    work.addFitting(fittingOf(rig, 0, work.settings()));
+    work.addPlacement(placementOf(rig, 0, work.settings()));
     compute(work);
-    const Fitting proof = *work.fittings().front();
+    const Placement proof = *work.placements().front();
     work.addVerification(proof);
     compute(work);
     REQUIRE(work.verified() != nullptr);
@@ -161,9 +161,9 @@ TEST_CASE("What changes before a step makes the step forget its result, and late
     CHECK(work.state(MeasureStep::verify) == MeasureStepState::failed);
     work.setSaved("somewhere.json");
 
-    EqualizerWish wish;
+    EqualizerRequest wish;
     wish.sections = 2;
-    work.setWish(wish);
+    work.setRequest(wish);
     CHECK(work.equalizer() == nullptr);
     CHECK(work.verifications().empty());
     CHECK(work.saved().empty());
@@ -171,14 +171,14 @@ TEST_CASE("What changes before a step makes the step forget its result, and late
     const auto late = work.due();
     REQUIRE(late.has_value());
     wish.sections = 4;
-    work.setWish(wish);
+    work.setRequest(wish);
     work.bring(late->ticket, late->work());
     CHECK(work.equalizer() == nullptr);
     compute(work);
     REQUIRE(work.equalizer() != nullptr);
     CHECK(work.equalizer()->fit.sections.size() == 4);
 
-    // Range and calibration belong to the fittings that are there.
+    // Range and calibration belong to the placements that are there.
     MeasureSettings other = work.settings();
     other.lowFrequency = 40.0;
     other.fullScale = 10.0;
@@ -187,14 +187,14 @@ TEST_CASE("What changes before a step makes the step forget its result, and late
     CHECK(work.settings().lowFrequency == 10.0);
     CHECK(work.settings().fullScale == shortSettings().fullScale);
     CHECK(work.settings().level == -20.0);
-    work.dropFitting(0);
+    work.dropPlacement(0);
     CHECK(work.state(MeasureStep::equalizer) == MeasureStepState::locked);
     CHECK_FALSE(work.due().has_value());
     work.setSettings(other);
     CHECK(work.settings().lowFrequency == 40.0);
 }
 
-TEST_CASE("The loose one of five fittings is named and left out of the average", "[measure]")
+TEST_CASE("The loose one of five placements is named and left out of the average", "[measure]")
 {
     ActuatorMeasurement work;
     work.setSettings(shortSettings());
@@ -204,14 +204,14 @@ TEST_CASE("The loose one of five fittings is named and left out of the average",
         RigParams params = usualRig();
         params.contact = wearer == 3 ? -9.0 : 0.0;
         SimulatedMeasureRig rig(params, 0.0);
-        work.addFitting(fittingOf(rig, wearer, work.settings()));
+        work.addPlacement(placementOf(rig, wearer, work.settings()));
     }
     compute(work);
     REQUIRE(work.response() != nullptr);
     CHECK(work.response()->findings.outliers == std::set<std::size_t>{3});
     REQUIRE_FALSE(work.response()->notes.empty());
     CHECK(work.response()->notes.front().find("'Wearer 3' is unlike the others") == 0);
-    CHECK(work.profile("x").measurement->fittings == 4);
+    CHECK(work.profile("x").measurement->placements == 4);
 }
 
 TEST_CASE("At the settings a person starts with no simulated actuator clips, on whomever it is worn", "[measure]")
@@ -231,7 +231,7 @@ TEST_CASE("At the settings a person starts with no simulated actuator clips, on 
         for (const std::size_t wearer : {std::size_t(0), std::size_t(3), std::size_t(9)})
         {
             CAPTURE(profile->name, wearer);
-            for (const std::string& note : fittingOf(rig, wearer, settings).notes)
+            for (const std::string& note : placementOf(rig, wearer, settings).notes)
                 CHECK(note.find("clips") == std::string::npos);
             ++swept;
         }
@@ -246,9 +246,9 @@ TEST_CASE("A proof that is flat is not taken for the drive signal", "[measure]")
     const SweepParams sweep = sweepOf(shortSettings(), 8000.0);
     RecordedSweep recorded = recordedOn(rig, makeSweepSignal(sweep).value(), sweep, {3});
     recorded.inputs = {"Sensor"};
-    CHECK_FALSE(analyseFitting("x", recorded, shortSettings()).ok());
+    CHECK_FALSE(analysePlacement("x", recorded, shortSettings()).ok());
     recorded.equalized = true;
-    const auto proof = analyseFitting("x", recorded, shortSettings());
+    const auto proof = analysePlacement("x", recorded, shortSettings());
     REQUIRE(proof.ok());
     for (const std::string& note : proof->notes)
         CHECK(note.find("drive signal") == std::string::npos);
@@ -261,11 +261,11 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
     const auto signal = makeSweepSignal(sweep).value();
     const auto failure = [&](SimulatedMeasureRig& rig, const std::vector<std::size_t>& inputs)
     {
-        const auto fitting = analyseFitting("x", recordedOn(rig, signal, sweep, inputs), settings);
-        REQUIRE_FALSE(fitting.ok());
-        CHECK(fitting.error().where.empty());
-        UNSCOPED_INFO(fitting.error().message);
-        return fitting.error().message;
+        const auto placement = analysePlacement("x", recordedOn(rig, signal, sweep, inputs), settings);
+        REQUIRE_FALSE(placement.ok());
+        CHECK(placement.error().where.empty());
+        UNSCOPED_INFO(placement.error().message);
+        return placement.error().message;
     };
     SimulatedMeasureRig rig(usualRig(), 0.0);
 
@@ -282,16 +282,16 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
         RigParams narrow = usualRig();
         narrow.range = 2.0 * standardGravity;
         SimulatedMeasureRig small(narrow, 0.0);
-        const auto fitting = analyseFitting("x", recordedOn(small, signal, sweep, {0, 1, 2}), settings);
-        REQUIRE(fitting.ok());
-        REQUIRE_FALSE(fitting->notes.empty());
-        CHECK(fitting->notes.front().find("' clips: ") != std::string::npos);
-        CHECK(fitting->notes.front().find("record or drive at a lower level") != std::string::npos);
+        const auto placement = analysePlacement("x", recordedOn(small, signal, sweep, {0, 1, 2}), settings);
+        REQUIRE(placement.ok());
+        REQUIRE_FALSE(placement->notes.empty());
+        CHECK(placement->notes.front().find("' clips: ") != std::string::npos);
+        CHECK(placement->notes.front().find("record or drive at a lower level") != std::string::npos);
         // Something so strong that nothing is seen of the sweep.
         RecordedSweep drowned = recordedOn(small, signal, sweep, {0});
         for (std::size_t n = 0; n < drowned.channels.front().size(); ++n)
             drowned.channels.front()[n] = n / 40 % 2 == 0 ? 1.0f : -1.0f;
-        const auto nothing = analyseFitting("x", drowned, settings);
+        const auto nothing = analysePlacement("x", drowned, settings);
         REQUIRE_FALSE(nothing.ok());
         CHECK(nothing.error().message.find("' clips: ") != std::string::npos);
     }
@@ -299,9 +299,9 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
     {
         RecordedSweep recorded = recordedOn(rig, signal, sweep, {0});
         recorded.channels.front().resize(8000);
-        const auto fitting = analyseFitting("x", recorded, settings);
-        REQUIRE_FALSE(fitting.ok());
-        CHECK(fitting.error().message.find("The recording is too short") == 0);
+        const auto placement = analysePlacement("x", recorded, settings);
+        REQUIRE_FALSE(placement.ok());
+        CHECK(placement.error().message.find("The recording is too short") == 0);
     }
     SECTION("settings that make no sweep")
     {
@@ -338,7 +338,7 @@ TEST_CASE("A sweep through an equaliser that raises it beyond full scale is play
     SimulatedMeasureRig rig(usualRig(), 0.0);
     auto recorded = recordedOn(rig, loud->signal, loud->sweep, {0, 1, 2});
     recorded.gain = loud->gain;
-    const auto heard = analyseFitting("x", recorded, settings);
+    const auto heard = analysePlacement("x", recorded, settings);
     REQUIRE(heard.ok());
     const double expected = rigLevel(usualRig(), 100.0) + equalizerLevel(lowering, 100.0, 8000.0);
     CHECK(std::abs(levelAt(heard->measurement.response(), 100.0) - expected) < 0.3);

@@ -27,7 +27,7 @@ std::size_t loudest(std::span<const std::uint8_t> levels)
 }
 
 /// All tiles that a view asks for, in the order in which it does.
-std::vector<Spectrogram::Tile> fill(Spectrogram& spectrogram, SpectrumAnalyser& analyser, std::size_t rows,
+std::vector<Spectrogram::Tile> fill(Spectrogram& spectrogram, SpectrumAnalyzer& analyser, std::size_t rows,
                                     const TimeAxis& axis, double width)
 {
     std::vector<Spectrogram::Tile> asked;
@@ -67,7 +67,7 @@ TEST_CASE("A tone has its amplitude's level in the row of its frequency, and els
         for (const double frequency : {30.0, 71.0, 155.0, 170.0, 440.0, 960.0, 1700.0})
         {
             const auto samples = tone(frequency, 0.25, rate, 1.0);
-            SpectrumAnalyser analyser(samples, rate, rows);
+            SpectrumAnalyzer analyser(samples, rate, rows);
             std::vector<std::uint8_t> levels(rows.count);
             analyser.column(0.5, levels);
             INFO(frequency << " Hz of " << rows.high);
@@ -90,7 +90,7 @@ TEST_CASE("Above half the sample rate and outside the sound there is silence")
 {
     const auto samples = tone(300.0, 1.0, 1000.0, 1.0);
     const SpectrumRows rows{20.0, 2000.0, 64};
-    SpectrumAnalyser analyser(samples, 1000.0, rows);
+    SpectrumAnalyzer analyser(samples, 1000.0, rows);
     std::vector<std::uint8_t> levels(rows.count, 7);
     analyser.column(0.5, levels);
     for (std::size_t i = 0; i < rows.count; ++i)
@@ -111,7 +111,7 @@ TEST_CASE("A spectrogram shows a tone where it sounds, at every zoom, and asks f
     for (const double perPixel : {0.5, 0.05, 0.02, 0.004, 0.001})
     {
         Spectrogram spectrogram(seconds, rows);
-        SpectrumAnalyser analyser(samples, rate, rows);
+        SpectrumAnalyzer analyser(samples, rate, rows);
         const double width = 100.0;
         const TimeAxis axis{std::max(0.0, begin - 50.0 * perPixel), perPixel};
         const auto asked = fill(spectrogram, analyser, rows.count, axis, width);

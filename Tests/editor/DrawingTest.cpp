@@ -188,7 +188,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
     {
         const auto sound = bench.session.sounds.soundOfClip();
         const SpectrumRows rows;
-        SpectrumAnalyser analyser(sound->mono, static_cast<double>(sound->audio.sampleRate), rows);
+        SpectrumAnalyzer analyser(sound->mono, static_cast<double>(sound->audio.sampleRate), rows);
         Spectrogram spectrogram(600.0, rows);
         const auto start = Clock::now();
         std::size_t tiles = 0;

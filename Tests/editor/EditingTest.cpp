@@ -58,7 +58,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     REQUIRE(exportClips({bench.session.model.clip()}, choice).ok());
     const auto exported = readClip(folder.path() / "edited.json");
     REQUIRE(exported.ok());
-    CHECK(*exported == expected);
+    CHECK(exported->clip == expected);
 
     // The whole drag is one step.
     bench.session.model.undo();

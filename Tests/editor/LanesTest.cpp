@@ -128,10 +128,14 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     session.transport.setPlayhead(1.1);
     const double perPixel = session.viewState.axis().secondsPerPixel;
     const double near = 7.0 * perPixel;
-    CHECK(editor::snapTime(session, 0.43 + near) == 0.43);
-    CHECK(editor::snapTime(session, 0.43 + 9.0 * perPixel) == 0.43 + 9.0 * perPixel);
-    CHECK(editor::snapTime(session, 0.7 - near) == 0.7);
-    CHECK(editor::snapTime(session, 1.1 + near) == 1.1);
+    const auto snapped = [&](double time, const editor::Snapping& snapping = {})
+    {
+        return editor::snapTime(session.model, session.viewState, session.transport, time, snapping);
+    };
+    CHECK(snapped(0.43 + near) == 0.43);
+    CHECK(snapped(0.43 + 9.0 * perPixel) == 0.43 + 9.0 * perPixel);
+    CHECK(snapped(0.7 - near) == 0.7);
+    CHECK(snapped(1.1 + near) == 1.1);
     Selection moving;
     moving.transients = {0};
     editor::Snapping without;
@@ -139,12 +143,12 @@ TEST_CASE("Each target of snapping counts when it is switched on, and what moves
     without.marker = 0;
     without.playhead = false;
     for (const double time : {0.43 + near, 0.7 - near, 1.1 + near})
-        CHECK(editor::snapTime(session, time, without) == time);
+        CHECK(snapped(time, without) == time);
     SnapTargets only{true, true, false, false, false};
     session.viewState.setSnapTargets(only);
-    CHECK(editor::snapTime(session, 0.43 + near) != 0.43);
+    CHECK(snapped(0.43 + near) != 0.43);
     const double line = 1.0; // a second is a line of the ruler at this zoom
-    CHECK(editor::snapTime(session, line + 0.5 * perPixel) == Approx(line));
+    CHECK(snapped(line + 0.5 * perPixel) == Approx(line));
 }
 
 TEST_CASE("An end of the time range can be dragged in the ruler and sticks to transients")
@@ -324,12 +328,12 @@ TEST_CASE("What was copied from one clip is pasted into another, and a single la
     bench.openDemo("knock_wood_bridge");
     const Clip before = bench.clip();
     session.transport.setPlayhead(0.1);
-    session.clipSelection.paste();
+    session.clipSelection.paste(session.transport.playhead());
     const double start = from.envelope.front().time;
     for (const double time : {0.2, 0.3})
         CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(from.envelope, start + time - 0.1)));
     session.model.undo();
-    session.clipSelection.paste(Lane{LaneKind::amplitude, 1});
+    session.clipSelection.paste(session.transport.playhead(), Lane{LaneKind::amplitude, 1});
     CHECK(bench.clip().envelope == before.envelope);
     CHECK(valueAt(bench.clip().bands[1].amplitude, 0.2) == Approx(valueAt(from.envelope, start + 0.1)));
     CHECK_FALSE(selectedIn(session.clipSelection.selected(), {LaneKind::amplitude, 1}).empty());

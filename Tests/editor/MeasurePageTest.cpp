@@ -16,7 +16,7 @@
 
 using namespace pacini;
 using namespace pacini::test;
-using editor::MeasureDesk;
+using editor::MeasurementController;
 
 namespace
 {
@@ -28,7 +28,7 @@ struct MeasureBench
     std::filesystem::path folder = editor::pathOf(temporary.getFile());
     editor::Session session{{}, {}};
     editor::EditorView view{session, {}};
-    std::shared_ptr<MeasureDesk> desk;
+    std::shared_ptr<MeasurementController> desk;
     editor::MeasurePage* page = nullptr;
 
     explicit MeasureBench(RigParams params = {})
@@ -37,7 +37,8 @@ struct MeasureBench
         const auto wristband = readProfile(sourceFolder() / "profiles/l5-wristband.json");
         REQUIRE(wristband.ok());
         session.actuators.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
-        desk = std::make_shared<MeasureDesk>(session, MeasureDesk::Surroundings{nullptr, folder, 0.0, true});
+        desk = std::make_shared<MeasurementController>(session.actuators, session.transport,
+                                                       MeasurementController::HostServices{nullptr, folder, 0.0, true});
         params.sampleRate = 8000.0;
         desk->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
         MeasureSettings settings = desk->measurement().settings();
@@ -100,7 +101,7 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     CHECK_FALSE(page.show(MeasureStep::response)); // nothing has been swept
     bench.sweep();
     INFO(bench.desk->sweepProblem());
-    REQUIRE(bench.desk->measurement().fittings().size() == 1);
+    REQUIRE(bench.desk->measurement().placements().size() == 1);
 
     REQUIRE(page.show(MeasureStep::response));
     const auto& curves = page.responseStep().responsePlot().shown();
@@ -171,7 +172,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         MeasureBench bench;
         bench.desk->setWiring({0, {4}});
         bench.sweep();
-        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(bench.desk->measurement().placements().empty());
         CHECK(notes(bench).find("No sweep was heard on 'Nothing connected'") == 0);
         CHECK_FALSE(bench.page->show(MeasureStep::response));
     }
@@ -180,7 +181,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         MeasureBench bench;
         bench.desk->setWiring({1, {0, 1, 2}});
         bench.sweep();
-        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(bench.desk->measurement().placements().empty());
         CHECK(notes(bench).find("No sweep was heard") == 0);
     }
     SECTION("the input carries the drive")
@@ -188,7 +189,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         MeasureBench bench;
         bench.desk->setWiring({0, {3}});
         bench.sweep();
-        CHECK(bench.desk->measurement().fittings().empty());
+        CHECK(bench.desk->measurement().placements().empty());
         CHECK(notes(bench).find("'Drive signal' carries the drive signal itself, not a movement.") == 0);
     }
     SECTION("the sensor is overloaded")
@@ -197,10 +198,10 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         narrow.range = 2.0 * standardGravity;
         MeasureBench bench(narrow);
         bench.sweep();
-        REQUIRE(bench.desk->measurement().fittings().size() == 1);
+        REQUIRE(bench.desk->measurement().placements().size() == 1);
         CHECK(notes(bench).find("' clips: ") != std::string::npos);
     }
-    SECTION("a second try takes the words away, and fittings can be dropped")
+    SECTION("a second try takes the words away, and placements can be dropped")
     {
         MeasureBench bench;
         bench.desk->setWiring({0, {4}});
@@ -209,10 +210,10 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         bench.sweep();
         CHECK(bench.desk->sweepProblem().empty());
         bench.sweep();
-        REQUIRE(bench.desk->measurement().fittings().size() == 2);
-        CHECK(bench.desk->measurement().fittings()[1]->name == "Fitting 2");
-        bench.desk->dropFitting(0);
-        REQUIRE(bench.desk->measurement().fittings().size() == 1);
+        REQUIRE(bench.desk->measurement().placements().size() == 2);
+        CHECK(bench.desk->measurement().placements()[1]->name == "Placement 2");
+        bench.desk->dropPlacement(0);
+        REQUIRE(bench.desk->measurement().placements().size() == 1);
         CHECK(bench.desk->measurement().response() != nullptr);
     }
 }
@@ -227,7 +228,7 @@ TEST_CASE("Escape stops a sweep, and what was measured outlives the page", "[mea
     CHECK_FALSE(bench.desk->isPlaying());
     CHECK(bench.view.sheet() == bench.page);
     bench.view.showSheet(nullptr);
-    CHECK(bench.desk->measurement().fittings().size() == 1);
+    CHECK(bench.desk->measurement().placements().size() == 1);
     auto again = std::make_unique<editor::MeasurePage>(bench.desk, nullptr);
     CHECK(again->show(MeasureStep::response));
 }
@@ -263,8 +264,8 @@ TEST_CASE("A sweep can be saved and its recording opened", "[measure]")
     REQUIRE(writeAudio(recording, interleaved, writing).ok());
     bench.desk->readRecording(recording, false);
     INFO(bench.desk->sweepProblem());
-    REQUIRE(bench.desk->measurement().fittings().size() == 1);
-    CHECK(bench.desk->measurement().fittings()[0]->name == "anna");
+    REQUIRE(bench.desk->measurement().placements().size() == 1);
+    CHECK(bench.desk->measurement().placements()[0]->name == "anna");
     bench.desk->readRecording(bench.folder / "nobody.wav", false);
     CHECK(bench.desk->sweepProblem().find("nobody.wav was not read") == 0);
 }

@@ -1,9 +1,8 @@
 // See fuzzForeign().
 
 #include "FuzzForeign.h"
-#include "io/formats/ahap/AhapFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    return pacini::fuzzForeign(pacini::ahapFormat(), data, size);
+    return pacini::fuzzForeign("ahap", data, size);
 }

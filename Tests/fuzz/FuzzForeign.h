@@ -3,7 +3,7 @@
 // What holds for the reader and the writer of any foreign format that is text.
 
 #include "FuzzCheck.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <string_view>
 
@@ -12,8 +12,9 @@ namespace pacini
 
 /// Any bytes are either refused with a proper error or are a valid clip, which the format writes so that it reads it
 /// again without a warning and with as many events.
-inline int fuzzForeign(const ForeignFormat& format, const std::uint8_t* data, std::size_t size)
+inline int fuzzForeign(std::string_view name, const std::uint8_t* data, std::size_t size)
 {
+    const ClipFormat& format = *clipFormatNamed(name);
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto read = format.read(text);
     if (!read)

@@ -1,10 +1,9 @@
 // Any bytes are refused or are a .haps file, which comes back when it is written.
 
 #include "FuzzShortForeign.h"
-#include "io/formats/haps/HapsFormat.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    pacini::fuzzShortForeign(pacini::hapsFormat(), {reinterpret_cast<const char*>(data), size}, 0.001);
+    pacini::fuzzShortForeign("haps", {reinterpret_cast<const char*>(data), size}, 0.001);
     return 0;
 }

@@ -15,7 +15,7 @@ namespace pacini
 inline void checkWarnings(const ReadWarnings& warnings, bool lenientReads, bool strictReads)
 {
     const auto texts = warnings.texts();
-    FUZZ_CHECK(texts.size() <= ReadWarnings::mostKept + 1);
+    FUZZ_CHECK(texts.size() <= ReadWarnings::maxKept + 1);
     for (const std::string& text : texts)
         FUZZ_CHECK(!text.empty() && text.find('\n') == std::string::npos);
     FUZZ_CHECK(strictReads == (lenientReads && texts.empty()));

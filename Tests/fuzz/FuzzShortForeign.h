@@ -3,7 +3,7 @@
 // What holds for every reader and writer of a foreign format, whatever the bytes.
 
 #include "FuzzCheck.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cmath>
 #include <string>
@@ -14,8 +14,9 @@ namespace pacini
 
 /// Bytes are refused with a proper error on one line or make a valid clip; what is written of that is read again, and
 /// lasts as long to within `lengthMargin` s. Long clips are not written: their samples would take minutes.
-inline void fuzzShortForeign(const ForeignFormat& format, std::string_view bytes, double lengthMargin)
+inline void fuzzShortForeign(std::string_view name, std::string_view bytes, double lengthMargin)
 {
+    const ClipFormat& format = *clipFormatNamed(name);
     const auto read = format.read(bytes);
     if (format.recognises != nullptr)
         (void)format.recognises(bytes);
@@ -29,7 +30,7 @@ inline void fuzzShortForeign(const ForeignFormat& format, std::string_view bytes
     for (const std::string& warning : read->warnings)
         FUZZ_CHECK(!warning.empty() && warning.find('\n') == std::string::npos);
     constexpr double longest = 2.0; // s
-    if (read->clip.duration > longest || format.write == nullptr)
+    if (read->clip.duration > longest || !format.isWritten())
         return;
     const auto written = format.write(read->clip, {});
     FUZZ_CHECK(written.ok());

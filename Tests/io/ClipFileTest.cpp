@@ -15,13 +15,13 @@ TEST_CASE("A clip file is recognised by its content, not by its name", "[io]")
 {
     const TempFolder folder;
     const auto clip = randomFullClip(3);
-    const auto size = writeClip(folder / "clip.wav", clip, ClipFormat::json);
+    const auto size = writeClip(folder / "clip.wav", clip, jsonFormat());
     REQUIRE(size.ok());
     CHECK(*size == std::filesystem::file_size(folder / "clip.wav"));
     CHECK(bytesOf(folder / "clip.wav") == writeClipJson(clip));
-    CHECK(*readClip(folder / "clip.wav") == clip);
+    CHECK(readClip(folder / "clip.wav")->clip == clip);
     put(folder / "spaces.pacb", " \r\n\t" + writeClipJson(clip));
-    CHECK(*readClip(folder / "spaces.pacb") == clip);
+    CHECK(readClip(folder / "spaces.pacb")->clip == clip);
     CHECK(folder.entries() == 2);
 }
 
@@ -47,21 +47,41 @@ TEST_CASE("Files that hold no clip are refused with one clear line", "[io]")
     CHECK(readClip(folder.path()).error().code == ErrorCode::io);
 }
 
+TEST_CASE("A file in a format that is only written is named as that", "[io][formats]")
+{
+    const TempFolder folder;
+    const auto clip = randomFullClip(3);
+    for (const ClipFormat& format : clipFormats())
+        if (format.isWritten() && !format.isRead() && format.extension != ".wav")
+        {
+            CAPTURE(format.name);
+            const auto path = folder / ("clip" + std::string(format.extension));
+            put(path, format.write(clip)->files.at(0).bytes);
+            CHECK(looksLikeClip(path));
+            const auto read = readClip(path);
+            REQUIRE_FALSE(read.ok());
+            CHECK(read.error().message == "is a file of format " + std::string(format.name) + " (" +
+                                              std::string(format.title) + "), which Pacini writes but does not read");
+        }
+    put(folder / "other.h", "#pragma once");
+    CHECK_FALSE(looksLikeClip(folder / "other.h"));
+}
+
 TEST_CASE("A clip that breaks a rule is not written", "[io]")
 {
     const TempFolder folder;
     put(folder / "clip.json", "old");
     auto clip = randomFullClip(4);
     clip.envelope = {{0.0, std::numeric_limits<double>::quiet_NaN()}};
-    const auto notFinite = writeClip(folder / "clip.json", clip, ClipFormat::json);
+    const auto notFinite = writeClip(folder / "clip.json", clip, jsonFormat());
     REQUIRE_FALSE(notFinite.ok());
     CHECK(notFinite.error().where == "envelope[0].amplitude");
 
     clip = randomFullClip(4);
     clip.encoder = {{"bands", 6.0}, {"bands", 7.0}};
-    CHECK(writeClip(folder / "clip.json", clip, ClipFormat::json).error().where == "encoder");
+    CHECK(writeClip(folder / "clip.json", clip, jsonFormat()).error().where == "encoder");
     clip.encoder = {{"bands", std::numeric_limits<double>::infinity()}};
-    CHECK(writeClip(folder / "clip.json", clip, ClipFormat::json).error().code == ErrorCode::notFinite);
+    CHECK(writeClip(folder / "clip.json", clip, jsonFormat()).error().code == ErrorCode::notFinite);
     CHECK(bytesOf(folder / "clip.json") == "old");
     CHECK(folder.entries() == 1);
 }

@@ -244,13 +244,13 @@ TEST_CASE("Unknown keys are ignored wherever they stand and whatever they hold",
 
 TEST_CASE("Hostile endless texts fail early and in little memory", "[io][json]")
 {
-    const auto endOf = [](const std::string& start, char repeated, std::size_t maximumBytes, std::size_t mostTaken)
+    const auto endOf = [](const std::string& start, char repeated, std::size_t maximumBytes, std::size_t maxTaken)
     {
         EndlessText text(start, repeated);
         std::istream stream(&text);
         const auto clip = readClipJson(stream, maximumBytes);
         REQUIRE_FALSE(clip.ok());
-        CHECK(text.taken <= mostTaken);
+        CHECK(text.taken <= maxTaken);
         return clip.error();
     };
     constexpr std::size_t aBlock = 200000;

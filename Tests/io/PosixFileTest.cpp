@@ -128,7 +128,7 @@ TEST_CASE("Devices are written to: a full one is reported, none is replaced", "[
     CHECK(full.error().message == "the disk is full; free some space and try again");
     CHECK(fs::is_character_file("/dev/full"));
 
-    const auto clip = writeClip("/dev/full", Clip{}, ClipFormat::json);
+    const auto clip = writeClip("/dev/full", Clip{}, jsonFormat());
     REQUIRE_FALSE(clip.ok());
     CHECK(clip.error().code == ErrorCode::diskFull);
 

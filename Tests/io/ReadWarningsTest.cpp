@@ -2,13 +2,12 @@
 
 #include "io/ReadWarnings.h"
 
-#include "io/AnyClip.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/ProfileFile.h"
+#include "io/SceneFields.h"
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
-#include "io/SceneJsonRules.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/RandomScene.h"
@@ -57,13 +56,12 @@ Strings clipWarnings(const std::string& members)
     return warnings.texts();
 }
 
-template <std::size_t n>
-std::set<std::string> namesOf(const sceneJson::Member (&members)[n])
+/// The keys that the reader of scenes knows in a T.
+template <typename T, typename Fields>
+std::set<std::string> namesOf(Fields fields)
 {
-    std::set<std::string> names;
-    for (const sceneJson::Member& member : members)
-        names.emplace(member.name);
-    return names;
+    const auto keys = FieldsHandler::keysOf<T>(fields);
+    return {keys.begin(), keys.end()};
 }
 
 std::string textOf(const std::filesystem::path& path)
@@ -169,7 +167,7 @@ TEST_CASE("Of very many warnings the first are kept and the others counted, quic
     ReadWarnings warnings;
     const double without = timed(nullptr), with = timed(&warnings);
     const Strings all = warnings.texts();
-    REQUIRE(all.size() == ReadWarnings::mostKept + 1);
+    REQUIRE(all.size() == ReadWarnings::maxKept + 1);
     CHECK(all[1] == R"(envelope[1].volumen: is not known; did you mean "amplitude"?)");
     CHECK(all.back() == "and " + std::to_string(count - 20) + " more of these");
     CHECK(with < 3.0 * without + 0.5);
@@ -232,38 +230,38 @@ TEST_CASE("Any reader of clips and scenes tells of keys, those of a scene's clip
         return folder / name;
     };
     const auto clip = put("a.json", clipStart + R"("bands": [], "tranients": []})");
-    CHECK(readAnyClip(clip)->warnings == Strings{R"(tranients: is not known; did you mean "transients"?)"});
-    CHECK_FALSE(readAnyClip(clip, true).ok());
-    CHECK(readAnyClip(clip, true).error().where == "tranients");
+    CHECK(readClip(clip)->warnings == Strings{R"(tranients: is not known; did you mean "transients"?)"});
+    CHECK_FALSE(readClip(clip, true).ok());
+    CHECK(readClip(clip, true).error().where == "tranients");
     const auto scene =
         put("s.json", R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "a.json", "tempo": 2}]})");
     const auto read = readClipOrScene(scene);
     REQUIRE(read.ok());
-    CHECK(read->format == "scene");
+    CHECK(read->formatName() == "scene");
     CHECK(read->warnings == Strings{R"(plays[0].tempo: is not known; did you mean "stretch"?)",
                                     R"(a.json: tranients: is not known; did you mean "transients"?)"});
     CHECK_FALSE(readClipOrScene(scene, {{}, true}).ok());
-    CHECK(readAnyClip(scene).error().message.starts_with("is a scene"));
+    CHECK(readClip(scene).error().message.starts_with("is a scene"));
     // A scene may name clips of other programs.
     put("tap.ahap", R"({"Version": 1, "Pattern": [{"Event": {"Time": 0, "EventType": "HapticTransient"}}]})");
     const auto foreign =
         readClipOrScene(put("f.json", R"({"format": "pacini.scene", "version": 1, "plays": [{"clip": "tap.ahap"}]})"));
     REQUIRE(foreign.ok());
     CHECK(std::get<Scene>(foreign->content).clips[0].transients.size() == 1);
-    CHECK(readClipOrScene(folder / "tap.ahap")->format == "ahap");
+    CHECK(readClipOrScene(folder / "tap.ahap")->formatName() == "ahap");
 }
 
 TEST_CASE("The page about scenes lists every key, as the schema and the reader know them", "[io][keys]")
 {
     const std::string page = textOf(sourceFolder() / "Resources/docs/scenes.md");
     const auto schema = nlohmann::json::parse(textOf(sourceFolder() / "Resources/schema/pacini.scene.schema.json"));
-    CHECK(keysInTable(page, "the scene |") == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInTable(page, "an entry of `clips`") == namesOf(sceneJson::clipMembers));
-    CHECK(keysInTable(page, "a play |") == namesOf(sceneJson::playMembers));
-    CHECK(keysInTable(page, "a `variation`") == namesOf(sceneJson::variationMembers));
-    CHECK(keysInTable(page, "a change |") == namesOf(sceneJson::changeMembers));
-    CHECK(keysInSchema(schema) == namesOf(sceneJson::sceneMembers));
-    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf(sceneJson::playMembers));
-    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf(sceneJson::variationMembers));
-    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf(sceneJson::changeMembers));
+    CHECK(keysInTable(page, "the scene |") == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInTable(page, "an entry of `clips`") == namesOf<sceneFields::DraftClip>(sceneFields::clipEntry));
+    CHECK(keysInTable(page, "a play |") == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInTable(page, "a `variation`") == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInTable(page, "a change |") == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
+    CHECK(keysInSchema(schema) == namesOf<sceneFields::Draft>(sceneFields::document));
+    CHECK(keysInSchema(schema["$defs"]["play"]) == namesOf<sceneFields::DraftPlay>(sceneFields::playFields));
+    CHECK(keysInSchema(schema["$defs"]["variation"]) == namesOf<VariationParams>(sceneFields::variationFields));
+    CHECK(keysInSchema(schema["$defs"]["change"]) == namesOf<sceneFields::DraftChange>(sceneFields::changeFields));
 }

@@ -1,6 +1,5 @@
 #include "io/SceneFile.h"
 
-#include "io/AnyClip.h"
 #include "io/ClipFile.h"
 #include "io/ClipJson.h"
 #include "io/SceneJson.h"
@@ -241,7 +240,7 @@ TEST_CASE("Clip files are found beside the scene, or in a folder that is named",
     const TempFolder folder;
     std::filesystem::create_directories(folder / "scenes");
     std::filesystem::create_directories(folder / "clips");
-    REQUIRE(writeClip(folder / "clips" / "door.pacb", sceneClip(5), ClipFormat::packed).ok());
+    REQUIRE(writeClip(folder / "clips" / "door.pacb", sceneClip(5), packedFormat()).ok());
     const auto path = put(folder / "scenes" / "a.json", head + R"("plays": [{"clip": "../clips/door.pacb"}]})");
     CHECK(readScene(path).ok());
     const auto bare = put(folder / "scenes" / "b.json", head + R"("clips": ["door.pacb"]})");
@@ -258,8 +257,8 @@ TEST_CASE("Clip files are found beside the scene, or in a folder that is named",
 TEST_CASE("What is rendered is a scene when its format says so", "[io][scene]")
 {
     const TempFolder folder;
-    REQUIRE(writeClip(folder / "clip.json", sceneClip(5), ClipFormat::json).ok());
-    REQUIRE(writeClip(folder / "clip.pacb", sceneClip(5), ClipFormat::packed).ok());
+    REQUIRE(writeClip(folder / "clip.json", sceneClip(5), jsonFormat()).ok());
+    REQUIRE(writeClip(folder / "clip.pacb", sceneClip(5), packedFormat()).ok());
     REQUIRE(writeScene(folder / "scene", randomScene(2)).ok());
     put(folder / "late.json", R"({"nested": {"format": "pacini.clip"}, "version": 1, "format": "pacini.scene"})");
     CHECK(readClipOrScene(folder / "clip.json")->content.index() == 0);

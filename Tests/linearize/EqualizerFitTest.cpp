@@ -324,7 +324,7 @@ TEST_CASE("Random responses always give valid sections within the limits that ar
             params.sections = 1 + static_cast<int>(random.next() % 16);
         params.maxBoost = random.uniform(0.0, 20.0);
         params.shelves = random.uniform() < 0.8;
-        const std::size_t most = static_cast<std::size_t>(params.sections.value_or(params.mostSections));
+        const std::size_t most = static_cast<std::size_t>(params.sections.value_or(params.maxSections));
         CAPTURE(seed, params.sampleRate, most);
         const auto fit = fitEqualizer(response, params);
         if (!fit)
@@ -435,7 +435,7 @@ TEST_CASE("What cannot be fitted is refused by name", "[linearize]")
     for (const int wrong : {-1, 0, 17})
     {
         CHECK(withParams([&](Params& p) { p.sections = wrong; }) == "sections");
-        CHECK(withParams([&](Params& p) { p.mostSections = wrong; }) == "mostSections");
+        CHECK(withParams([&](Params& p) { p.maxSections = wrong; }) == "maxSections");
     }
     CHECK(withParams([&](Params& p) { p.lowFrequency = nan; }) == "lowFrequency");
     CHECK(withParams([&](Params& p) { p.highFrequency = inf; }) == "highFrequency");

@@ -39,7 +39,7 @@ TEST_CASE("The average over fourteen measured wearers is right though two wear t
         rigs.push_back(rig);
         measured.push_back(measuredOn(rig, sweep).response());
     }
-    const auto average = averageFittings(measured).value();
+    const auto average = averagePlacements(measured).value();
     REQUIRE(average.outliers.size() == 2);
     CHECK(average.outliers[0].index == 0);
     CHECK(average.outliers[1].index == 1);

@@ -55,7 +55,7 @@ TEST_CASE("a hand-over delivers the newest object and frees every other on the s
         std::thread audio(
             [&]
             {
-                HandOver<Tracked>::Parcel* held = nullptr;
+                HandOver<Tracked>::Node* held = nullptr;
                 while (last.load() < 2000)
                     if (auto* next = handOver.receive())
                     {

@@ -155,7 +155,7 @@ def selftest():
             "Source/plugin/engine/T.h": "#include <juce_gui_extra/juce_gui_extra.h>\n",
             "Source/plugin/engine/U.h": "#include <juce_audio_utils/juce_audio_utils.h>\n",
             "Source/plugin/engine/V.h": '#include "plugin/PluginWindow.h"\n',
-            "Source/plugin/window/W.h": '#include "app/AudioRig.h"\n',
+            "Source/plugin/window/W.h": '#include "app/AudioDevices.h"\n',
             "Source/editor/X.h": '#include "plugin/engine/LiveEngine.h"\n',
         }
         for name, text in cases.items():

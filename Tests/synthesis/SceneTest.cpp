@@ -110,19 +110,19 @@ TEST_CASE("A scene of one play is that clip, within full drive", "[scene]")
         REQUIRE(plan.ok());
         ScenePlayer plain(*plan, {.protect = false});
         CHECK((test::renderChannels(plain, 1, 1000).front() == alone));
-        CHECK(plain.mostReduction() == 0.0);
+        CHECK(plain.maxReduction() == 0.0);
         REQUIRE(peakOf(alone) > 1.0f);
         ScenePlayer kept(*plan);
         const auto within = test::renderChannels(kept, 1, 1000).front();
         CHECK(peakOf(within) <= 1.0f);
         CHECK(peakOf(within) > 0.95f);
-        CHECK(kept.mostReduction() == Approx(20.0 * std::log10(static_cast<double>(peakOf(alone)))).epsilon(1e-4));
+        CHECK(kept.maxReduction() == Approx(20.0 * std::log10(static_cast<double>(peakOf(alone)))).epsilon(1e-4));
         // Half as loud it stays within full drive by itself, and is what it was bit for bit.
         scene.gain = -20.0 * std::log10(1.1 * static_cast<double>(peakOf(alone)));
         const auto soft = compilePlan(scene, nullptr, playEverything());
         ScenePlayer quiet(*soft), quietPlain(*soft, {.protect = false});
         CHECK((test::renderChannels(quiet, 1, 1000) == test::renderChannels(quietPlain, 1, 1000)));
-        CHECK(quiet.mostReduction() == 0.0);
+        CHECK(quiet.maxReduction() == 0.0);
     }
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("The error of leaving out keeps its bound behind limiters", "[scene]")
                 const double measured = errorInDecibels(some, render(scene, playEverything(), profile));
                 CHECK(measured <= plan->predictedError);
                 CHECK(plan->predictedError <= tolerance);
-                if (player.mostReduction() > 1.0)
+                if (player.maxReduction() > 1.0)
                     ++limited;
                 if (!plan->leftOut.empty())
                     ++leftOut;
@@ -407,7 +407,7 @@ TEST_CASE("Ten thousand plays are played in bounded memory, a few decoders at a 
             sum += std::abs(static_cast<double>(v));
     }
     CHECK(sum > 100.0);
-    CHECK(player.mostSounding() <= 40);
+    CHECK(player.maxSounding() <= 40);
 }
 
 TEST_CASE("Playing a scene makes no heap traffic, live changes included", "[scene][realtime]")

@@ -75,10 +75,10 @@ public:
     void advance(double drive) noexcept { temperature.follow(full * drive * drive); }
 
     /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
-    /// measure exceeds `mostMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
+    /// measure exceeds `maxMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
     /// returns false. The peak is that of `played`.
     bool advanceFreely(std::span<const double> wanted, std::span<const double> played, double playedPeak,
-                       double mostMeasure) noexcept
+                       double maxMeasure) noexcept
     {
         const double peakPower = full * playedPeak * playedPeak;
         const double warmed = temperature.value() + static_cast<double>(played.size()) * heating * peakPower;
@@ -97,7 +97,7 @@ public:
         }
         // Powers are not negative: within a group an average was at most so much higher than at its end.
         const double fall = 1.0 - static_cast<double>(groupFrames) * averaging;
-        if (!(highest <= safely * fall * mostMeasure * allowed(hottest)))
+        if (!(highest <= safely * fall * maxMeasure * allowed(hottest)))
             return false;
         average1 = once;
         average2 = twice;

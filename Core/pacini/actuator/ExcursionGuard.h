@@ -163,10 +163,10 @@ public:
     }
 
     /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
-    /// measure exceeds `mostMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
+    /// measure exceeds `maxMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
     /// returns false. The peaks are those of the two spans.
     bool advanceFreely(std::span<const double> wanted, double wantedPeak, std::span<const double> played,
-                       double playedPeak, double mostMeasure) noexcept
+                       double playedPeak, double maxMeasure) noexcept
     {
         if (!(playedPeak <= guard.driveLimit))
             return false;
@@ -186,10 +186,10 @@ public:
             constexpr double safely = 1.0 - 1e-6; // far more than rounding
             return std::sqrt(most) + guard.groupReach * peak <= safely * std::sqrt(limit);
         };
-        if (!stays(wantedMost, wantedPeak, mostMeasure * wantedLimit) ||
+        if (!stays(wantedMost, wantedPeak, maxMeasure * wantedLimit) ||
             !stays(playedMost, playedPeak, guard.energyLimit))
             return false;
-        if (isWorn && !worn.advanceFreely(wanted, wantedPeak, played, playedPeak, mostMeasure))
+        if (isWorn && !worn.advanceFreely(wanted, wantedPeak, played, playedPeak, maxMeasure))
             return false;
         asWanted = wantedMass;
         moved = playedMass;

@@ -55,10 +55,10 @@ using RootList = FixedVector<Root, RealPolynomial::maxDegree>;
 /// order at simple roots, and no deflation that would spoil the small roots beside the large ones.
 [[nodiscard]] inline RootList findRoots(const RealPolynomial& p) noexcept
 {
-    constexpr int mostSteps = 100; // a double root gains a bit per step; about ten steps are usual
+    constexpr int maxSteps = 100; // a double root gains a bit per step; about ten steps are usual
     RootList roots = guessRoots(p);
     const RealPolynomial slope = p.derivative();
-    for (int step = 0; step < mostSteps; ++step)
+    for (int step = 0; step < maxSteps; ++step)
     {
         bool moved = false;
         for (std::size_t k = 0; k < roots.size(); ++k)

@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// The measured acceleration at one frequency, averaged over the fittings.
+/// The measured acceleration at one frequency, averaged over the placements.
 struct MeasuredPoint
 {
     double frequency = 0.0;           ///< Hz
@@ -52,10 +52,10 @@ struct Linearity
 /// A measurement by swept sines.
 struct ProfileMeasurement
 {
-    static constexpr std::size_t mostPoints = 4096;
-    static constexpr std::size_t mostOutliers = 256;
+    static constexpr std::size_t maxPoints = 4096;
+    static constexpr std::size_t maxOutliers = 256;
 
-    int fittings = 1;                      ///< recordings that were averaged: of other wearers or attached anew
+    int placements = 1;                    ///< recordings that were averaged: of other wearers or attached anew
     double drive = 0.0;                    ///< dB of the sweep's peak re full drive
     std::optional<double> distortionDrive; ///< dB re full drive at which harmonic distortion passes 10 %
     std::optional<Linearity> linearity;    ///< with the equaliser, where it was verified
@@ -85,7 +85,7 @@ struct ProfileMeasurement
         if (!error && count > most)
             error = Error{ErrorCode::tooLarge, where + "." + at, message};
     };
-    check("fittings", measurement.fittings, 1, 1000000, "must be 1 to 1000000");
+    check("fittings", measurement.placements, 1, 1000000, "must be 1 to 1000000");
     check("drive", measurement.drive, -200.0, 40.0, "must be -200 to 40 dB");
     if (measurement.distortionDrive)
         check("distortionDrive", *measurement.distortionDrive, -200.0, 40.0, "must be -200 to 40 dB");
@@ -100,7 +100,7 @@ struct ProfileMeasurement
         level("linearity.standardDeviation", linearity.standardDeviation);
         level("linearity.worstDeviation", linearity.worstDeviation);
         frequency("linearity.worstFrequency", linearity.worstFrequency);
-        fits("linearity.outliers", linearity.outliers.size(), ProfileMeasurement::mostOutliers,
+        fits("linearity.outliers", linearity.outliers.size(), ProfileMeasurement::maxOutliers,
              "has more than 256 outliers");
         for (std::size_t i = 0; i < linearity.outliers.size() && !error; ++i)
         {
@@ -110,7 +110,7 @@ struct ProfileMeasurement
             level(at + ".deviation", linearity.outliers[i].deviation);
         }
     }
-    fits("points", measurement.points.size(), ProfileMeasurement::mostPoints, "has more than 4096 points");
+    fits("points", measurement.points.size(), ProfileMeasurement::maxPoints, "has more than 4096 points");
     for (std::size_t i = 0; i < measurement.points.size() && !error; ++i)
     {
         const MeasuredPoint& point = measurement.points[i];

@@ -24,12 +24,12 @@ struct ProfileSource
 /// The sources of a profile, each path once, in the order of their bytes.
 using ProfileSources = std::vector<ProfileSource>;
 
-inline constexpr std::size_t mostProfileSources = 256;
+inline constexpr std::size_t maxProfileSources = 256;
 
-/// Checks that there are at most mostProfileSources, sorted, each path once, none without path or text.
+/// Checks that there are at most maxProfileSources, sorted, each path once, none without path or text.
 [[nodiscard]] inline Result<void> validate(const ProfileSources& sources)
 {
-    if (sources.size() > mostProfileSources)
+    if (sources.size() > maxProfileSources)
         return Error{ErrorCode::tooLarge, "sources", "has more than 256 entries"};
     for (std::size_t i = 0; i < sources.size(); ++i)
     {

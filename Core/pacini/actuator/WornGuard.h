@@ -143,7 +143,7 @@ public:
     void advance(double drive) noexcept { moved.follow(drive, guard); }
 
     bool advanceFreely(std::span<const double> wanted, double wantedPeak, std::span<const double> played,
-                       double playedPeak, double mostMeasure) noexcept
+                       double playedPeak, double maxMeasure) noexcept
     {
         if (!(playedPeak <= guard.driveLimit))
             return false;
@@ -168,7 +168,7 @@ public:
         Modes playedModes = moved;
         constexpr double safely = 1.0 - 1e-6; // far more than rounding
         if (!(go(wantedModes, wanted) + guard.groupReach * wantedPeak <=
-              safely * std::sqrt(mostMeasure / perWantedLimit)))
+              safely * std::sqrt(maxMeasure / perWantedLimit)))
             return false;
         if (!(go(playedModes, played) + guard.groupReach * playedPeak <= safely * guard.limit))
             return false;

@@ -54,7 +54,7 @@ public:
           levelQuantiser(params.bits),
           pitches(params.bits),
           sharpnesses(params.bits, 0.0, 1.0),
-          mostPoints(std::min(limits::points, pointsPerByte * (inputBytes + 8)))
+          maxPoints(std::min(limits::points, pointsPerByte * (inputBytes + 8)))
     {
     }
 
@@ -177,11 +177,11 @@ private:
         const GridCurve wanted = reading ? GridCurve{} : toGrid(curve, quantiser);
         if (failed)
             return {};
-        GridCurve grid = kind.code(coder, wanted, lastTick, hints, mostPoints - points);
+        GridCurve grid = kind.code(coder, wanted, lastTick, hints, maxPoints - points);
         points += grid.size();
         if constexpr (reading)
         {
-            if (points >= mostPoints)
+            if (points >= maxPoints)
                 failed = true;
             curve = toCurve(grid, quantiser);
         }
@@ -314,7 +314,7 @@ private:
     void codeTransients(Clip& clip)
     {
         auto count = static_cast<std::size_t>(number(clip.transients.size(), 4.0));
-        count = std::min(count, mostPoints - points);
+        count = std::min(count, maxPoints - points);
         AdaptiveNumber gaps(300.0);
         AdaptiveSignedNumber amplitudes(4.0), sharps(4.0);
         std::int64_t tick = 0, level = 0, sharp = 0;
@@ -362,7 +362,7 @@ private:
         ClipTexts<Coder> texts(coder);
         texts.codeClip(clip);
         auto count = static_cast<std::size_t>(number(clip.markers.size(), 0.1));
-        count = std::min(count, mostPoints - points);
+        count = std::min(count, maxPoints - points);
         AdaptiveNumber gaps(300.0);
         std::int64_t tick = 0;
         for (std::size_t i = 0; i < count; ++i)
@@ -382,7 +382,7 @@ private:
     PitchQuantiser pitches;
     UniformQuantiser sharpnesses;
     std::int64_t lastTick = 0;
-    std::size_t mostPoints;
+    std::size_t maxPoints;
     std::size_t points = 0;
     bool failed = false;
     AdaptiveBit wholeModel{0.8, 2}, wholeDurationModel{0.9, 2}, usualRateModel{0.9, 2}, tiledModel{0.9, 2},

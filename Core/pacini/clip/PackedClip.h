@@ -140,11 +140,13 @@ inline void setQuantise(Clip& clip, int bits)
     return clip;
 }
 
-/// The clip on the grids of `params`: what packing and unpacking makes of it.
-[[nodiscard]] inline Clip quantised(const Clip& clip, const PackParams& params)
+/// A valid clip on the grids that packParamsFor() finds, as packing and unpacking leave it. It is taken apart
+/// meanwhile, since one of hours is large.
+[[nodiscard]] inline Clip onGrids(Clip clip)
 {
-    auto result = unpackClip(packClip(clip, params));
-    return result.ok() ? std::move(result).value() : clip;
+    const PackParams grids = packParamsFor(clip);
+    const std::vector<std::byte> packed = packClip(std::move(clip), grids);
+    return unpackClip(packed).value();
 }
 
 } // namespace pacini

@@ -138,7 +138,7 @@ private:
 [[nodiscard]] inline std::optional<DelayFit> fitDelays(std::span<const DelayPoint> measured, double leastStep)
 {
     constexpr std::size_t side = 3;
-    constexpr std::size_t mostSteps = 8;
+    constexpr std::size_t maxSteps = 8;
     constexpr std::size_t bandReach = 4; // points from a band's centre to its end
     if (measured.empty())
         return std::nullopt;
@@ -146,7 +146,7 @@ private:
     const detail::DriftEquations equations(points);
     std::vector<std::size_t> splits;
     auto solution = equations.solve(splits);
-    while (splits.size() < mostSteps)
+    while (splits.size() < maxSteps)
     {
         std::optional<detail::DriftSolution> best;
         std::vector<std::size_t> bestSplits;

@@ -20,7 +20,7 @@ struct EqualizerFitParams
     double sampleRate =
         48000.0; ///< Hz at which the sections will run, 1000 to 1e7; points from 0.49 of it on count not
     std::optional<int> sections; ///< 1 to 16, at most so many; none: as few as do
-    int mostSections = 8;        ///< 1 to 16, when their number is free
+    int maxSections = 8;         ///< 1 to 16, when their number is free
     double maxBoost = 12.0;      ///< dB, 0 to 40, that the whole equalizer raises any frequency at most
     double lowFrequency = 0.0;   ///< Hz, the range to be flattened; 0: from the first point
     double highFrequency = 0.0;  ///< Hz; 0: to the last point
@@ -65,8 +65,8 @@ struct EqualizerFit
         return wrong("sampleRate", "must be 1000 to 10000000 Hz");
     if (params.sections && (*params.sections < 1 || *params.sections > 16))
         return wrong("sections", "must be 1 to 16, or left open");
-    if (params.mostSections < 1 || params.mostSections > 16)
-        return wrong("mostSections", "must be 1 to 16");
+    if (params.maxSections < 1 || params.maxSections > 16)
+        return wrong("maxSections", "must be 1 to 16");
     if (!within(params.maxBoost, 0.0, 40.0))
         return wrong("maxBoost", "must be 0 to 40 dB");
     if (!within(params.goalRms, 0.0, 100.0))
@@ -85,8 +85,8 @@ struct EqualizerFit
             return wrong("highpass.type", "must be highpass");
         if (auto valid = validate(EqualizerSections{*params.highpass}, "highpass"); !valid)
             return valid;
-        if (params.sections.value_or(params.mostSections) > 15)
-            return wrong(params.sections ? "sections" : "mostSections", "must be 1 to 15 beside a high-pass");
+        if (params.sections.value_or(params.maxSections) > 15)
+            return wrong(params.sections ? "sections" : "maxSections", "must be 1 to 15 beside a high-pass");
     }
     if (!params.weights.empty() && params.weights.size() != response.size())
         return wrong("weights", "must be as many as the response has points");

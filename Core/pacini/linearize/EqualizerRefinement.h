@@ -35,7 +35,7 @@ class EqualizerRefinement
 {
 public:
     static constexpr double usualPenalty = 100.0; ///< holds the limits within about 0.1 dB
-    static constexpr double mostCut = 39.9;       ///< dB, of a section; a valid one has at most 40
+    static constexpr double maxCut = 39.9;        ///< dB, of a section; a valid one has at most 40
 
     explicit EqualizerRefinement(const EqualizerFitProblem& fitted) : problem(fitted) {}
 
@@ -79,9 +79,9 @@ public:
     /// Steps so far.
     [[nodiscard]] int iterations() const noexcept { return steps; }
 
-    /// Improves the candidate by up to `mostSteps` steps; ends before when two in a row gain less than 0.1 %. Its cost
+    /// Improves the candidate by up to `maxSteps` steps; ends before when two in a row gain less than 0.1 %. Its cost
     /// never rises, and its sections stay within the bounds of the problem.
-    void refine(EqualizerCandidate& candidate, int mostSteps)
+    void refine(EqualizerCandidate& candidate, int maxSteps)
     {
         constexpr double enough = 1e-3;
         lowerShelves(candidate);
@@ -90,7 +90,7 @@ public:
         double growth = 2.0;
         int small = 0;
         bool moved = true;
-        for (int i = 0; i < mostSteps && small < 2 && damping < 1e7; ++i)
+        for (int i = 0; i < maxSteps && small < 2 && damping < 1e7; ++i)
         {
             if (moved)
                 linearise(candidate);
@@ -230,7 +230,7 @@ private:
     [[nodiscard]] double highestGain(const EqualizerSection& section) const
     {
         constexpr double overlap = 3.0; // dB
-        return section.type == EqualizerType::peak ? std::min(mostCut, problem.maxBoost + overlap) : mostCut;
+        return section.type == EqualizerType::peak ? std::min(maxCut, problem.maxBoost + overlap) : maxCut;
     }
 
     /// Both corners of a shelf have its q: where one stands on a resonance, the other would ring outside of the range.
@@ -258,7 +258,7 @@ private:
         {
             const EqualizerSection& section = sections[k];
             check(3 * k, section.frequency, problem.lowestFrequency, problem.highestFrequency);
-            check(3 * k + 1, section.gain, -mostCut, highestGain(section));
+            check(3 * k + 1, section.gain, -maxCut, highestGain(section));
             check(3 * k + 2, section.q, problem.lowestQ, highestQ(section));
         }
     }
@@ -275,7 +275,7 @@ private:
             };
             section.frequency = std::clamp(section.frequency * std::exp(moveOf(0, 0.7)), problem.lowestFrequency,
                                            problem.highestFrequency);
-            section.gain = std::clamp(section.gain + moveOf(1, 20.0), -mostCut, highestGain(section));
+            section.gain = std::clamp(section.gain + moveOf(1, 20.0), -maxCut, highestGain(section));
             section.q = std::clamp(section.q * std::exp(moveOf(2, 1.0)), problem.lowestQ, highestQ(section));
         }
         to.level += step[step.size() - 1];

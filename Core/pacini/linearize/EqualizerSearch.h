@@ -63,7 +63,7 @@ public:
           refinement(fitted),
           start(fitted),
           watch(fitted),
-          most(std::min(static_cast<std::size_t>(wanted.sections.value_or(wanted.mostSections)),
+          most(std::min(static_cast<std::size_t>(wanted.sections.value_or(wanted.maxSections)),
                         (fitted.points() - 1) / 3)) // no more parameters than points
     {
     }

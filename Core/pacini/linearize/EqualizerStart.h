@@ -54,7 +54,7 @@ public:
             if (score <= best.score)
                 continue;
             best = {score, atom.section};
-            best.section.gain = std::clamp(-product / atom.energy, -mostGain, isPeak ? problem.maxBoost : mostGain);
+            best.section.gain = std::clamp(-product / atom.energy, -maxGain, isPeak ? problem.maxBoost : maxGain);
         }
         std::vector<EqualizerSection> chosen;
         if (peak.score > 0.0)
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    static constexpr double mostGain = 30.0; ///< dB, to start from
+    static constexpr double maxGain = 30.0; ///< dB, to start from
 
     struct Atom
     {
@@ -86,9 +86,9 @@ private:
 
     void makeBlocks()
     {
-        constexpr std::size_t mostBlocks = 64;
+        constexpr std::size_t maxBlocks = 64;
         const std::size_t n = problem.points();
-        const std::size_t blocks = std::min(n, mostBlocks);
+        const std::size_t blocks = std::min(n, maxBlocks);
         for (std::size_t b = 0; b <= blocks; ++b)
             edges.push_back(b * n / blocks);
         weight.assign(blocks, 0.0);
@@ -173,7 +173,7 @@ private:
             std::log(problem.frequency[std::min(right + 1, n - 1)] / problem.frequency[left > 0 ? left - 1 : 0]);
         found.section = {EqualizerType::peak,
                          std::clamp(problem.frequency[at], problem.lowestFrequency, problem.highestFrequency),
-                         std::clamp(-height, -mostGain, problem.maxBoost),
+                         std::clamp(-height, -maxGain, problem.maxBoost),
                          std::clamp(1.0 / width, problem.lowestQ, problem.highestQ)};
         return found;
     }

@@ -20,7 +20,7 @@ struct FrequencyResponse
     std::vector<double> level;     ///< dB
 
     static constexpr std::size_t fewestPoints = 8;
-    static constexpr std::size_t mostPoints = 100000;
+    static constexpr std::size_t maxPoints = 100000;
 
     [[nodiscard]] std::size_t size() const noexcept { return frequency.size(); }
     bool operator==(const FrequencyResponse&) const = default;
@@ -38,7 +38,7 @@ struct FrequencyResponse
         return Error{ErrorCode::invalidArgument, "points", "has not as many levels as frequencies"};
     if (response.size() < FrequencyResponse::fewestPoints)
         return Error{ErrorCode::invalidData, "points", "has fewer than 8 points; measure at more frequencies"};
-    if (response.size() > FrequencyResponse::mostPoints)
+    if (response.size() > FrequencyResponse::maxPoints)
         return Error{ErrorCode::tooLarge, "points", "has more than 100000 points; thin or smooth the response first"};
     for (std::size_t i = 0; i < response.size(); ++i)
     {

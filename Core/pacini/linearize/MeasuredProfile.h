@@ -34,11 +34,11 @@ inline void sortSources(Profile& profile)
 }
 } // namespace detail
 
-/// Puts what was measured in the place of what the profile said. `response` is the average of all fittings, `fittings`
-/// their number and `drive` the level of the loudest sweep, dB re full drive. Equalizer and body go: they belong to
-/// another resonance. Frequencies outside what a profile may hold are moved to its ends.
+/// Puts what was measured in the place of what the profile said. `response` is the average of all placements,
+/// `placements` their number and `drive` the level of the loudest sweep, dB re full drive. Equalizer and body go: they
+/// belong to another resonance. Frequencies outside what a profile may hold are moved to its ends.
 inline void setMeasurement(Profile& profile, const FrequencyResponse& response, const MeasurementFindings& findings,
-                           std::size_t fittings, double drive)
+                           std::size_t placements, double drive)
 {
     const auto frequency = [](double f)
     {
@@ -56,7 +56,7 @@ inline void setMeasurement(Profile& profile, const FrequencyResponse& response, 
     profile.equalizer = {};
     profile.body.reset();
     ProfileMeasurement measurement;
-    measurement.fittings = static_cast<int>(fittings - findings.outliers.size());
+    measurement.placements = static_cast<int>(placements - findings.outliers.size());
     measurement.drive = drive;
     measurement.distortionDrive = findings.profileDrive;
     for (std::size_t i = 0; i < response.size(); ++i)
@@ -72,8 +72,8 @@ inline void setMeasurement(Profile& profile, const FrequencyResponse& response, 
     };
     std::erase_if(profile.sources, measuredNow);
     const std::string how = "measured with swept sines at " + detail::numberText(drive, std::chars_format::general, 3) +
-                            " dB, " + std::to_string(profile.measurement->fittings) + " fitting" +
-                            (profile.measurement->fittings == 1 ? "" : "s");
+                            " dB, " + std::to_string(profile.measurement->placements) + " placement" +
+                            (profile.measurement->placements == 1 ? "" : "s");
     profile.sources.push_back({"resonance", how + ", as it is worn"});
     profile.sources.push_back({"range.lowFrequency", how + ", 20 dB below the strongest frequency"});
     profile.sources.push_back(

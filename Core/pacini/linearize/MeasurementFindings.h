@@ -18,17 +18,17 @@ namespace pacini
 struct MeasurementFindings
 {
     ResponseFeatures features;
-    std::optional<ActuatorResponse> times; ///< medians over the fittings
+    std::optional<ActuatorResponse> times; ///< medians over the placements
     double distortion = 0.0;               ///< %, the largest at the loudest sweep within the felt range
     std::optional<double> distortionDrive; ///< dB re full scale, at which it passes the limit asked for; the median
     std::optional<double> profileDrive;    ///< the same for the limit of a profile, see ProfileMeasurement
-    std::set<std::size_t> outliers;        ///< indices of fittings that were left out
+    std::set<std::size_t> outliers;        ///< indices of placements that were left out
 };
 
-/// `average` is that of the responses of `fittings`, in their order; `smoothing` in octaves as they were analysed;
+/// `average` is that of the responses of `placements`, in their order; `smoothing` in octaves as they were analysed;
 /// `distortionLimit` in %. Errors: those of responseFeatures().
-[[nodiscard]] inline Result<MeasurementFindings> findingsOf(std::span<const SweepMeasurement* const> fittings,
-                                                            const FittingAverage& average, double smoothing,
+[[nodiscard]] inline Result<MeasurementFindings> findingsOf(std::span<const SweepMeasurement* const> placements,
+                                                            const PlacementAverage& average, double smoothing,
                                                             double distortionLimit)
 {
     constexpr double profileLimit = 10.0; // %
@@ -39,14 +39,14 @@ struct MeasurementFindings
         return features.error();
     MeasurementFindings findings;
     findings.features = *features;
-    for (const FittingOutlier& outlier : average.outliers)
+    for (const PlacementOutlier& outlier : average.outliers)
         findings.outliers.insert(outlier.index);
     std::vector<double> rises, falls, drives, profileDrives;
-    for (std::size_t i = 0; i < fittings.size(); ++i)
+    for (std::size_t i = 0; i < placements.size(); ++i)
     {
         if (findings.outliers.contains(i))
             continue;
-        const SweepMeasurement& measured = *fittings[i];
+        const SweepMeasurement& measured = *placements[i];
         if (const auto times = burstTimes(measured.impulseResponse, features->resonance.frequency))
         {
             rises.push_back(times->riseTime);

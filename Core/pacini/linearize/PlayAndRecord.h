@@ -33,7 +33,7 @@ enum class PlayAndRecordState
 class PlayAndRecord
 {
 public:
-    static constexpr std::size_t mostChannels = 3;
+    static constexpr std::size_t maxChannels = 3;
 
     /// [message] Makes room for the sweeps of `params` and `tail` s (0 to 60) of more recording, for the latency. Not
     /// while process() may run. Errors: those of validate(params); invalidArgument at `channels` for other than 1 to 3,
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] Result<void> prepare(std::vector<float> samples, double sampleRate, std::size_t channels,
                                        double tail = 0.5)
     {
-        if (channels < 1 || channels > mostChannels)
+        if (channels < 1 || channels > maxChannels)
             return Error{ErrorCode::invalidArgument, "channels", "must be 1 to 3"};
         if (!(tail >= 0.0 && tail <= 60.0))
             return Error{ErrorCode::invalidArgument, "tail", "must be 0 to 60 s"};
@@ -90,7 +90,7 @@ public:
     /// after a sample that is not finite. 0 for inputs that do not exist. One caller only.
     [[nodiscard]] float takePeak(std::size_t channel) noexcept
     {
-        return channel < mostChannels ? peaks[channel].exchange(0.0f, std::memory_order_relaxed) : 0.0f;
+        return channel < maxChannels ? peaks[channel].exchange(0.0f, std::memory_order_relaxed) : 0.0f;
     }
 
     /// [message] The channels once the state is finished, of equal length, for analyseSweeps(); unchanged until
@@ -151,7 +151,7 @@ private:
 
     void measurePeaks(std::span<const std::span<const float>> inputs, std::size_t frames) noexcept
     {
-        for (std::size_t c = 0; c < std::min(inputs.size(), mostChannels); ++c)
+        for (std::size_t c = 0; c < std::min(inputs.size(), maxChannels); ++c)
         {
             float largest = 0.0f;
             for (std::size_t i = 0; i < frames; ++i)
@@ -173,7 +173,7 @@ private:
     std::atomic<std::size_t> progressFrames{0};
     std::atomic<PlayAndRecordState> current{PlayAndRecordState::idle};
     std::atomic<Command> command{Command::none};
-    std::array<std::atomic<float>, mostChannels> peaks{};
+    std::array<std::atomic<float>, maxChannels> peaks{};
 };
 
 } // namespace pacini

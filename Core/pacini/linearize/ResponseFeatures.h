@@ -4,7 +4,7 @@
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Result.h>
-#include <pacini/linearize/FittingAverage.h>
+#include <pacini/linearize/PlacementAverage.h>
 #include <pacini/linearize/ResonanceFit.h>
 #include <pacini/linearize/SweepMeasurement.h>
 

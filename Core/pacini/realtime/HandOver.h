@@ -17,10 +17,10 @@ class HandOver
 {
 public:
     /// What the receiver holds: the object and its place in the list of used ones.
-    struct Parcel
+    struct Node
     {
         T content;
-        Parcel* next = nullptr;
+        Node* next = nullptr;
     };
 
     HandOver() = default;
@@ -35,24 +35,24 @@ public:
     /// Replaces what was sent before and not yet received; frees what came back. [message]
     void send(T content)
     {
-        auto parcel = std::make_unique<Parcel>(Parcel{std::move(content), nullptr});
-        delete incoming.exchange(parcel.release(), std::memory_order_acq_rel);
+        auto node = std::make_unique<Node>(Node{std::move(content), nullptr});
+        delete incoming.exchange(node.release(), std::memory_order_acq_rel);
         collect();
     }
 
     /// Frees what came back. [message]
     void collect() noexcept
     {
-        Parcel* parcel = used.exchange(nullptr, std::memory_order_acquire);
-        while (parcel)
-            delete std::exchange(parcel, parcel->next);
+        Node* node = used.exchange(nullptr, std::memory_order_acquire);
+        while (node)
+            delete std::exchange(node, node->next);
     }
 
     /// Whether an object is there to be received. [audio]
     [[nodiscard]] bool waiting() const noexcept { return incoming.load(std::memory_order_relaxed) != nullptr; }
 
     /// The newest object, or null; the receiver owns it until it gives it back. [audio]
-    [[nodiscard]] Parcel* receive() noexcept
+    [[nodiscard]] Node* receive() noexcept
     {
         if (!waiting()) // an exchange locks the bus, a load does not
             return nullptr;
@@ -60,19 +60,19 @@ public:
     }
 
     /// Null is allowed. [audio]
-    void giveBack(Parcel* parcel) noexcept
+    void giveBack(Node* node) noexcept
     {
-        if (!parcel)
+        if (!node)
             return;
-        parcel->next = used.load(std::memory_order_relaxed);
-        while (!used.compare_exchange_weak(parcel->next, parcel, std::memory_order_release, std::memory_order_relaxed))
+        node->next = used.load(std::memory_order_relaxed);
+        while (!used.compare_exchange_weak(node->next, node, std::memory_order_release, std::memory_order_relaxed))
         {
         }
     }
 
 private:
-    std::atomic<Parcel*> incoming{nullptr};
-    std::atomic<Parcel*> used{nullptr};
+    std::atomic<Node*> incoming{nullptr};
+    std::atomic<Node*> used{nullptr};
 };
 
 } // namespace pacini

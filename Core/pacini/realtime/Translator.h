@@ -140,24 +140,24 @@ private:
     static constexpr std::size_t longestPiece = 256;
     static constexpr double passFrequency = 1000.0; // Hz
 
-    /// Gives a parcel back to be freed when the translator ends.
-    struct FreeParcel
+    /// Gives a node back to be freed when the translator ends.
+    struct FreeNode
     {
-        void operator()(Designs::Parcel* parcel) const noexcept { delete parcel; }
+        void operator()(Designs::Node* node) const noexcept { delete node; }
     };
 
     void sendDesign() { designs->send(designTranslator(setup, fs)); }
 
     void takeDesign() noexcept
     {
-        Designs::Parcel* parcel = designs->receive();
-        if (!parcel)
+        Designs::Node* node = designs->receive();
+        if (!node)
             return;
-        const TranslatorDesign& design = parcel->content;
+        const TranslatorDesign& design = node->content;
         // Only another actuator is at rest and cold: the same one goes on moving while the drive fades.
         const bool same = held && held->content.protection == design.protection;
         designs->giveBack(held.release());
-        held.reset(parcel);
+        held.reset(node);
         engine.adopt(design);
         if (design.protection)
             protection.setParams(*design.protection);
@@ -246,7 +246,7 @@ private:
     Params current;
     std::unique_ptr<Designs> designs = std::make_unique<Designs>();
     std::unique_ptr<TranslatorMeters> readings = std::make_unique<TranslatorMeters>();
-    std::unique_ptr<Designs::Parcel, FreeParcel> held;
+    std::unique_ptr<Designs::Node, FreeNode> held;
     TranslatorEngine engine;
     WholeDecimator decimator;
     std::unique_ptr<PolyphaseInterpolator> interpolator;

@@ -11,9 +11,9 @@
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/filters/BandLayout.h>
 #include <pacini/realtime/BandMeter.h>
-#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierVoice.h>
 #include <pacini/realtime/DirectPath.h>
+#include <pacini/realtime/HighBandVoice.h>
 #include <pacini/realtime/TranslatorParams.h>
 #include <pacini/synthesis/TransientPulse.h>
 
@@ -174,7 +174,7 @@ inline void limitRange(TranslatorDesign& design, bool anyWaveform) noexcept
     design.highest = std::min(design.highest, 0.4 * design.innerRate);
     design.lowest = std::min(design.lowest, design.highest);
     if (!anyWaveform)
-        design.highest = clampTo(BrightVoice::border.value, design.lowest, design.highest);
+        design.highest = clampTo(HighBandVoice::border.value, design.lowest, design.highest);
 }
 
 /// Decides for each band between a carrier and its own signal, and designs the direct path.
@@ -214,9 +214,9 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
 {
     const bool showsAll = std::all_of(design.bands.begin(), design.bands.end(),
                                       [](const TranslatorBand& band)
-                                      { return band.shown || band.high.value <= BrightVoice::border.value; });
+                                      { return band.shown || band.high.value <= HighBandVoice::border.value; });
     if (anyWaveform && showsAll)
-        design.brightFrequency = clampTo(BrightVoice::frequency, design.lowest, design.highest);
+        design.brightFrequency = clampTo(HighBandVoice::frequency, design.lowest, design.highest);
     else
         design.plan.push_back({"brightness", "high bands are moved into the actuator's range"});
 }

@@ -2,12 +2,12 @@
 
 // Translator engine at the inner rate: what is heard, and what is to be felt.
 
-#include <pacini/realtime/BrightVoice.h>
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/DriveStage.h>
 #include <pacini/realtime/EventPulses.h>
-#include <pacini/realtime/EventWatch.h>
+#include <pacini/realtime/HighBandVoice.h>
 #include <pacini/realtime/LiveGate.h>
+#include <pacini/realtime/LiveOnsetDetector.h>
 #include <pacini/realtime/TranslatorDesign.h>
 
 #include <algorithm>
@@ -293,12 +293,12 @@ private:
     double gainShare = 1.0, levelShare = 1.0, peakDecay = 0.9;
 
     LiveGate gate;
-    EventWatch watch;
+    LiveOnsetDetector watch;
     EventPulses pulses;
     BandMeter meter;
     DirectPath direct;
     CarrierSection carriers;
-    BrightVoice bright;
+    HighBandVoice bright;
     DriveStage stage;
 
     HopRamp input;

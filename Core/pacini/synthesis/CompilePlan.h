@@ -4,9 +4,9 @@
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/ClipAdaptation.h>
+#include <pacini/synthesis/Culling.h>
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/ErrorSum.h>
-#include <pacini/synthesis/LeaveOut.h>
 #include <pacini/synthesis/LimitedError.h>
 #include <pacini/synthesis/LoopUnroll.h>
 #include <pacini/synthesis/PlayEnergy.h>
@@ -78,7 +78,7 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
     }
 }
 
-inline constexpr std::size_t mostUnrolledPoints = 20'000'000;
+inline constexpr std::size_t maxUnrolledPoints = 20'000'000;
 
 /// Makes energies those behind the limiter of the actuator, where it can come to act; a motor has none. Returns what a
 /// small change of the whole scene costs there, in energies of that change.
@@ -178,15 +178,15 @@ inline double passesOf(const ScenePlay& play, const PlayTimeline& timeline, doub
 
 /// The clip of a play, varied and with its loop unrolled. `points` are those of the plays before, which this one's are
 /// added to. Errors: `plays[i].loop` (tooLarge).
-inline Result<Clip> playedClip(const Clip& clip, const ScenePlay& play, const PlayTimeline& timeline, double duration,
-                               const std::string& where, std::size_t& points)
+inline Result<Clip> bakedClip(const Clip& clip, const ScenePlay& play, const PlayTimeline& timeline, double duration,
+                              const std::string& where, std::size_t& points)
 {
     Clip played;
     if (play.loop > 0.0)
     {
         const double passes = passesOf(play, timeline, duration);
         const double perPass = static_cast<double>(breakpointCount(clip) + clip.transients.size()) + 2.0;
-        if (passes * perPass + static_cast<double>(points) > static_cast<double>(mostUnrolledPoints))
+        if (passes * perPass + static_cast<double>(points) > static_cast<double>(maxUnrolledPoints))
             return Error{ErrorCode::tooLarge, where + ".loop",
                          "unrolls to too many breakpoints (20 million are the most of a scene); make the loop "
                          "longer or its passes fewer"};
@@ -219,7 +219,7 @@ inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const
 }
 
 /// Plans all plays that can be heard, from the clips as they are fitted to the actuator. Errors: those of
-/// playedClip().
+/// bakedClip().
 inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<Clip>& clips,
                               std::vector<PlayTimeline> timelines, const CompileParams& params, bool adapts)
 {
@@ -234,7 +234,7 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
                 plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
                 continue;
             }
-        auto played = playedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
+        auto played = bakedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
         if (!played)
             return played.error();
         const DecoderParams decoder = planDecoder(plan, *played, play, params, adapts);

@@ -87,10 +87,10 @@ public:
     [[nodiscard]] const std::vector<DecodedPlay>& decodedPlays() const noexcept { return decoded; }
 
     /// Largest number of plays that sound at a time so far, for reports.
-    [[nodiscard]] std::size_t mostSounding() const noexcept { return most; }
+    [[nodiscard]] std::size_t maxSounding() const noexcept { return most; }
 
     /// The most that the protection of any actuator has taken so far, dB, for reports.
-    [[nodiscard]] double mostReduction() const noexcept { return reduction; }
+    [[nodiscard]] double maxReduction() const noexcept { return reduction; }
 
     /// Writes the next frames: one span for each actuator, all of the same length; silence after the end. [audio]
     void process(std::span<const std::span<float>> out) noexcept
@@ -131,7 +131,7 @@ public:
             return;
         for (std::size_t i = 0; i < voices.size(); ++i)
             if (plan.plays[i].play == play)
-                voices[i].setGain(clampTo(gain, -mostGain, mostGain));
+                voices[i].setGain(clampTo(gain, -maxGain, maxGain));
     }
 
     /// Changes pitch (semitones) and speed of a play, as Decoder::change does: what is not finite is ignored. [audio]
@@ -144,7 +144,7 @@ public:
 
 private:
     static constexpr std::size_t blockFrames = MixBuffers::frames;
-    static constexpr double mostGain = 1000.0; // 60 dB, as in scenes
+    static constexpr double maxGain = 1000.0; // 60 dB, as in scenes
 
     void prepare(PlayVoice& voice, const PlannedPlay& planned)
     {

@@ -16,7 +16,7 @@ constexpr int controllerPoll = 1000; // ms
 constexpr int none = 1;              // menus know no item 0; channels follow
 } // namespace
 
-DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControllers)
+DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedControllers)
     : Sheet("Sound devices", 760, 560),
       rig(wanted),
       controllerOutput(wantedControllers),
@@ -44,7 +44,7 @@ DevicesSheet::DevicesSheet(PreviewRig& wanted, ControllerOutput& wantedControlle
 }
 
 void DevicesSheet::prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
-                           double mostLevel)
+                           double maxLevel)
 {
     output.label.setText(name, juce::dontSendNotification);
     output.label.setFont(editor::usualFont());
@@ -67,7 +67,7 @@ void DevicesSheet::prepare(Output& output, const juce::String& name, const juce:
         one.setDoubleClickReturnValue(true, 0.0);
         one.setWantsKeyboardFocus(true);
     };
-    slider(output.level, name + ": level", "How loud, in dB", " dB", {-60.0, mostLevel}, 0.5);
+    slider(output.level, name + ": level", "How loud, in dB", " dB", {-60.0, maxLevel}, 0.5);
     slider(output.delay, name + ": delay", "How much later than the other, in ms: both should be felt at once", " ms",
            {0.0, 1000.0 * editor::OutputTrim::longestDelay}, 1.0);
     output.level.setValue(juce::Decibels::gainToDecibels(trim.levelNow(), -60.0), juce::dontSendNotification);

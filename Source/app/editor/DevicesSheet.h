@@ -4,7 +4,7 @@
 // The sound device, and which of its channels carry what.
 
 #include "app/editor/ControllerOutput.h"
-#include "app/editor/PreviewRig.h"
+#include "app/editor/PreviewDevices.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -15,7 +15,7 @@ namespace pacini::app
 class DevicesSheet final : public editor::Sheet, private juce::ChangeListener, private juce::Timer
 {
 public:
-    DevicesSheet(PreviewRig& wanted, ControllerOutput& controllers);
+    DevicesSheet(PreviewDevices& wanted, ControllerOutput& controllers);
     ~DevicesSheet() override;
 
 private:
@@ -27,7 +27,7 @@ private:
     void chooseController();
     void say(const juce::String& text);
 
-    PreviewRig& rig;
+    PreviewDevices& rig;
     ControllerOutput& controllerOutput;
     /// One output: where it goes, how loud and how late.
     struct Output
@@ -37,7 +37,7 @@ private:
         juce::Slider level, delay;
     };
     void prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
-                 double mostLevel);
+                 double maxLevel);
 
     Output sound, haptic;
     juce::Label controllerLabel, controllerNote;

@@ -5,8 +5,8 @@
 #include "app/CommandLine.h"
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
-#include "app/editor/PreviewRig.h"
-#include "document/ProfileShelf.h"
+#include "app/editor/PreviewDevices.h"
+#include "document/BuiltInProfiles.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
@@ -37,9 +37,9 @@ void addOwnProfiles(std::vector<NamedProfile>& profiles, const juce::File& folde
 /// The sounds in Resources/demo or share/pacini/demo in the program's folder or one of those above it.
 std::vector<std::filesystem::path> demoSounds()
 {
-    constexpr int mostFolders = 7;
+    constexpr int maxFolders = 7;
     juce::File folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
-    for (int i = 0; i < mostFolders; ++i, folder = folder.getParentDirectory())
+    for (int i = 0; i < maxFolders; ++i, folder = folder.getParentDirectory())
         for (const char* name : {"Resources/demo", "share/pacini/demo"})
         {
             auto found = folder.getChildFile(name).findChildFiles(juce::File::findFiles, false, "*.flac");
@@ -97,12 +97,12 @@ public:
         editor::EditorModel::Folders folders;
         if (!fresh)
             folders = {pathOf(home.getChildFile("recovery")), pathOf(home.getChildFile("recent.json"))};
-        auto profiles = shelfProfiles();
+        auto profiles = builtInProfiles();
         const auto ownProfiles = home.getChildFile("profiles");
         if (!fresh)
             addOwnProfiles(profiles, ownProfiles);
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
-        rig = std::make_unique<PreviewRig>(session->player);
+        rig = std::make_unique<PreviewDevices>(session->player);
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
         {
@@ -114,7 +114,7 @@ public:
         editor::useLanguage(!language.empty() ? editor::toText(language)
                             : settings        ? settings->language()
                                               : juce::String("en"));
-        editor::Surroundings around;
+        editor::HostServices around;
         around.demoSounds = demoSounds();
         if (settings)
         {
@@ -177,7 +177,7 @@ private:
 
     std::unique_ptr<EditorSettings> settings;
     std::unique_ptr<editor::Session> session;
-    std::unique_ptr<PreviewRig> rig;
+    std::unique_ptr<PreviewDevices> rig;
     std::unique_ptr<EditorWindow> window;
 };
 

@@ -29,7 +29,7 @@ EditorSettings::EditorSettings(const juce::File& folder)
 {
 }
 
-void EditorSettings::apply(PreviewRig& rig) const
+void EditorSettings::apply(PreviewDevices& rig) const
 {
     for (auto [name, trim] : {std::pair("sound", &rig.soundTrim()), std::pair("haptic", &rig.hapticTrim())})
     {
@@ -57,7 +57,7 @@ void EditorSettings::apply(editor::EditorView& view) const
     viewState.setSnapTargets(snap);
 }
 
-void EditorSettings::keep(PreviewRig& rig, editor::EditorView& view, const juce::String& windowState)
+void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const juce::String& windowState)
 {
     editor::ViewState& viewState = view.session().viewState;
     file.setValue("dark", view.isDark());

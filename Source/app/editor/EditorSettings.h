@@ -3,7 +3,7 @@
 
 // What the editor remembers from one run to the next.
 
-#include "app/editor/PreviewRig.h"
+#include "app/editor/PreviewDevices.h"
 #include "editor/clip/EditorView.h"
 
 #include <juce_data_structures/juce_data_structures.h>
@@ -26,10 +26,10 @@ public:
     [[nodiscard]] juce::String language() const { return file.getValue("language", "en"); }
     void keepLanguage(const juce::String& code) { file.setValue("language", code); }
     [[nodiscard]] juce::String window() const { return file.getValue("window"); }
-    void apply(PreviewRig& rig) const;
+    void apply(PreviewDevices& rig) const;
     void apply(editor::EditorView& view) const;
 
-    void keep(PreviewRig& rig, editor::EditorView& view, const juce::String& windowState);
+    void keep(PreviewDevices& rig, editor::EditorView& view, const juce::String& windowState);
 
 private:
     juce::PropertiesFile file;

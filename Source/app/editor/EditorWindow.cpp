@@ -7,7 +7,7 @@
 namespace pacini::app
 {
 
-EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, editor::Surroundings around)
+EditorWindow::EditorWindow(editor::Session& session, PreviewDevices& wanted, editor::HostServices around)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
       controllers(session.model, session.clipSelection, session.transport),
@@ -24,7 +24,7 @@ EditorWindow::EditorWindow(editor::Session& session, PreviewRig& wanted, editor:
     setName(content.title());
 }
 
-editor::Surroundings EditorWindow::completed(editor::Surroundings around)
+editor::HostServices EditorWindow::completed(editor::HostServices around)
 {
     around.quit = []
     {

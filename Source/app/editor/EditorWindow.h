@@ -4,7 +4,7 @@
 // The window of the editor.
 
 #include "app/editor/ControllerOutput.h"
-#include "app/editor/PreviewRig.h"
+#include "app/editor/PreviewDevices.h"
 #include "editor/clip/EditorView.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -19,7 +19,7 @@ class EditorWindow final : public juce::DocumentWindow
 {
 public:
     /// `around` without what the window itself has: a way out, devices, a rig for measuring.
-    EditorWindow(editor::Session& session, PreviewRig& rig, editor::Surroundings around);
+    EditorWindow(editor::Session& session, PreviewDevices& rig, editor::HostServices around);
     ~EditorWindow() override;
 
     [[nodiscard]] editor::EditorView& view() noexcept { return content; }
@@ -27,10 +27,10 @@ public:
     void focusGained(FocusChangeType) override { content.takeFocus(); }
 
 private:
-    [[nodiscard]] editor::Surroundings completed(editor::Surroundings around);
+    [[nodiscard]] editor::HostServices completed(editor::HostServices around);
     void showDevices();
 
-    PreviewRig& rig;
+    PreviewDevices& rig;
     ControllerOutput controllers;
     editor::EditorView content;
 };

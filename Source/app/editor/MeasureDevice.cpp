@@ -55,9 +55,9 @@ void MeasureDevice::setOpen(bool open)
         setup.inputDeviceName =
             names.contains(setup.outputDeviceName) ? setup.outputDeviceName : names[type->getDefaultDeviceIndex(true)];
     }
-    constexpr int mostChannels = 64;
+    constexpr int maxChannels = 64;
     setup.useDefaultInputChannels = false;
-    setup.inputChannels.setRange(0, mostChannels, true);
+    setup.inputChannels.setRange(0, maxChannels, true);
     if (manager.getCurrentAudioDevice() != nullptr)
         openingError = manager.setAudioDeviceSetup(setup, true);
     manager.addAudioCallback(this);
@@ -89,7 +89,7 @@ RigPorts MeasureDevice::ports()
 void MeasureDevice::wire(const RigWiring& wiring)
 {
     output.store(static_cast<int>(wiring.output));
-    for (std::size_t i = 0; i < mostInputs; ++i)
+    for (std::size_t i = 0; i < maxInputs; ++i)
         inputs[i].store(i < wiring.inputs.size() ? static_cast<int>(wiring.inputs[i]) : -1);
 }
 
@@ -151,7 +151,7 @@ void MeasureDevice::audioDeviceIOCallbackWithContext(const float* const* in, int
     const int to = output.load();
     if (to < 0 || to >= outs || out[to] == nullptr)
         return;
-    std::array<std::span<const float>, mostInputs> heard;
+    std::array<std::span<const float>, maxInputs> heard;
     std::size_t used = 0;
     for (const auto& input : inputs)
         if (const int c = input.load(); c >= 0 && c < ins && in[c] != nullptr)

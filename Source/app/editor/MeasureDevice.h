@@ -35,7 +35,7 @@ public:
     void setTone(std::optional<double> level) override { callback.setTone(level); }
 
 private:
-    static constexpr std::size_t mostInputs = PlayAndRecord::mostChannels;
+    static constexpr std::size_t maxInputs = PlayAndRecord::maxChannels;
 
     void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
     void audioDeviceStopped() override { interrupted.store(true); }
@@ -49,7 +49,7 @@ private:
     juce::String openingError;
     MeasureCallback callback;
     std::atomic<int> output{0};
-    std::array<std::atomic<int>, mostInputs> inputs{}; ///< -1: none
+    std::array<std::atomic<int>, maxInputs> inputs{}; ///< -1: none
     std::atomic<bool> interrupted{false};
 };
 

@@ -1,11 +1,11 @@
 #include "cli/ProgramFolder.h"
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
 #include <pacini/actuator/FeltModel.h>
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -88,7 +88,7 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
     if (!source)
         return;
     Encoder encoder{EncoderParams{}};
-    const Clip clip = encoded(encoder, mono, sound.sampleRate, 1);
+    const Clip clip = encodePrecisely(encoder, {sound.sampleRate, 1}, SoundParts(mono, 1)).value();
     for (const ShippedProfile& shipped : shippedProfiles(programFolder()))
     {
         const auto profile = readProfile(shipped.path);

@@ -173,9 +173,9 @@ std::vector<EqualizerMethod> methodsAt(int rate)
     for (int count = 1; count <= 8; ++count)
         methods.push_back(sectionsMethod(count));
     methods.push_back(sectionsMethod(std::nullopt));
-    const int mostTaps = rate > 8000 ? 4096 : 1024; // the same time
+    const int maxTaps = rate > 8000 ? 4096 : 1024; // the same time
     for (const FirPhase phase : {FirPhase::linear, FirPhase::minimum})
-        for (int taps = 32; taps <= mostTaps; taps *= 2)
+        for (int taps = 32; taps <= maxTaps; taps *= 2)
             methods.push_back(firMethod(taps, phase));
     for (int order = 4; order <= 128; order *= 2)
         methods.push_back(yuleWalkerMethod(order));

@@ -1,12 +1,12 @@
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/MonoMix.h>
 #include <pacini/analysis/methods/Method.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/evaluate/Hts.h>
-#include <pacini/evaluate/Judge.h>
+#include <pacini/evaluate/SignalMetrics.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DecoderChoice.h>
 
@@ -28,8 +28,8 @@ class Judges
 public:
     explicit Judges(const BenchSound& soundToJudge)
         : sound(soundToJudge),
-          judge(judgeLength(sound.mono.size(), sound.sampleRate)),
-          judged(judgeFeatures(judge, std::span(sound.mono), sound.sampleRate).value()),
+          judge(signalAnalysisLength(sound.mono.size(), sound.sampleRate)),
+          judged(signalFeatures(judge, std::span(sound.mono), sound.sampleRate).value()),
           felt(htsSourceFeatures(hts, std::span(sound.mono), sound.sampleRate).value())
     {
     }
@@ -37,13 +37,13 @@ public:
     struct Verdict
     {
         double hts = 0.0;
-        JudgeMeasures measures;
+        SignalMetrics measures;
         std::vector<double> detected; ///< s, events in the candidate by the neutral detector
     };
 
     [[nodiscard]] Verdict of(std::span<const float> candidate, int sampleRate)
     {
-        auto found = judgeFeatures(judge, candidate, sampleRate).value();
+        auto found = signalFeatures(judge, candidate, sampleRate).value();
         const auto feltCandidate = htsCandidateFeatures(hts, candidate, sampleRate).value();
         return {compare(felt, feltCandidate, HtsMode::translation).score, compare(judged, found),
                 std::move(found.onsets)};
@@ -51,9 +51,9 @@ public:
 
 private:
     const BenchSound& sound;
-    JudgeAnalyzer judge;
+    SignalAnalyzer judge;
     HtsAnalyzer hts;
-    JudgeFeatures judged;
+    SignalFeatures judged;
     HtsFeatures felt;
 };
 
@@ -139,7 +139,7 @@ private:
              double encodeSeconds, BenchCell renderSeconds, const Judges::Verdict& verdict, const EventCounts& stated)
     {
         const EventCounts detected = countEvents(sound, verdict.detected);
-        const JudgeMeasures& m = verdict.measures;
+        const SignalMetrics& m = verdict.measures;
         // Against silence only the level of the candidate means anything.
         const auto measure = [&m](double value)
         {
@@ -169,7 +169,12 @@ void measureOwn(Measurement& measurement, const BenchSound& sound, const Encoder
 {
     Encoder encoder(params); // kept between sounds by `pacini encode`, so its making is not timed
     measurement.clip(std::string(methodInfo(Method::a2vt).name), settingText(params), true,
-                     [&] { return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels); });
+                     [&]
+                     {
+                         return encodePrecisely(encoder, {sound.sampleRate, sound.channels},
+                                                SoundParts(sound.interleaved, sound.channels))
+                             .value();
+                     });
 }
 
 void measureMethods(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)

@@ -1,7 +1,7 @@
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/foundation/Random.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
@@ -105,7 +105,8 @@ BenchCell levelCell(double value)
 void measureScenes(const BenchSound& sound, const BenchSettings& settings, BenchTable& rows)
 {
     Encoder encoder{EncoderParams{}};
-    const Clip clip = encoded(encoder, sound.beginning(scenesExcerpt), sound.sampleRate, 1);
+    const Clip clip =
+        encodePrecisely(encoder, {sound.sampleRate, 1}, SoundParts(sound.beginning(scenesExcerpt), 1)).value();
     if (clip.bands.empty())
         return;
     for (const std::size_t audible : {std::size_t(1), std::size_t(8), std::size_t(32), std::size_t(64)})

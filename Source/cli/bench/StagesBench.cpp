@@ -1,9 +1,8 @@
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 #include "io/AudioReader.h"
 
-#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/clip/PackedClip.h>
@@ -22,17 +21,15 @@ std::vector<std::vector<float>> decimatedChannels(const BenchSound& sound, std::
     for (RationalDecimator& decimator : decimators)
         decimator.reset();
     std::vector<float> channel;
-    forEachReadPart(sound.interleaved, channels,
-                    [&](std::span<const float> part)
-                    {
-                        for (std::size_t c = 0; c < channels; ++c)
-                        {
-                            channel.clear();
-                            for (std::size_t i = c; i < part.size(); i += channels)
-                                channel.push_back(part[i]);
-                            decimators[c].push(channel, low[c]);
-                        }
-                    });
+    SoundParts parts(sound.interleaved, sound.channels);
+    for (SoundPart part = parts(); !part->empty(); part = parts())
+        for (std::size_t c = 0; c < channels; ++c)
+        {
+            channel.clear();
+            for (std::size_t i = c; i < part->size(); i += channels)
+                channel.push_back((*part)[i]);
+            decimators[c].push(channel, low[c]);
+        }
     for (std::size_t c = 0; c < channels; ++c)
         decimators[c].finish(low[c]);
     return low;
@@ -48,12 +45,12 @@ std::vector<Onset> onsetsOf(const BenchSound& sound, const OnsetParams& params)
         detector.push(features.frames());
         features.drop(features.frames().size());
     };
-    forEachReadPart(sound.interleaved, channels,
-                    [&](std::span<const float> part)
-                    {
-                        features.push(part);
-                        hand();
-                    });
+    SoundParts parts(sound.interleaved, sound.channels);
+    for (SoundPart part = parts(); !part->empty(); part = parts())
+    {
+        features.push(*part);
+        hand();
+    }
     features.finish();
     hand();
     return detector.finish();
@@ -64,7 +61,9 @@ void measureStages(const BenchSound& sound, const BenchSettings& settings, Bench
     const EncoderParams params;
     const auto encodeWith = [&sound](Encoder& encoder)
     {
-        return encoded(encoder, sound.interleaved, sound.sampleRate, sound.channels);
+        return encodePrecisely(encoder, {sound.sampleRate, sound.channels},
+                               SoundParts(sound.interleaved, sound.channels))
+            .value();
     };
     Encoder encoder(params);
     const auto encode = timed(settings.repeats, [&] { return encodeWith(encoder); });

@@ -1,7 +1,7 @@
 #include "cli/bench/Bench.h"
-#include "cli/bench/BenchEncode.h"
 #include "cli/bench/Timed.h"
 
+#include <pacini/analysis/EncodeSound.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/Decoder.h>
 
@@ -130,11 +130,11 @@ void measureSynthesis(const BenchSound& sound, const BenchSettings& settings, Be
 {
     const auto mono = sound.beginning(synthesisExcerpt);
     Encoder usual{EncoderParams{}};
-    const Clip clip = encoded(usual, mono, sound.sampleRate, 1);
+    const Clip clip = encodePrecisely(usual, {sound.sampleRate, 1}, SoundParts(mono, 1)).value();
     EncoderParams manyPoints;
     manyPoints.breakpoints = 200.0;
     Encoder detailed(manyPoints);
-    const auto carriers = carriersOf(encoded(detailed, mono, sound.sampleRate, 1));
+    const auto carriers = carriersOf(encodePrecisely(detailed, {sound.sampleRate, 1}, SoundParts(mono, 1)).value());
     if (carriers.empty())
         return;
     const auto add =

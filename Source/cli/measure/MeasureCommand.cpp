@@ -1,21 +1,21 @@
 #include "cli/measure/MeasureCommand.h"
 
-#include "cli/measure/AnalyseStep.h"
-#include "cli/measure/FitStep.h"
-#include "cli/measure/SimulateStep.h"
-#include "cli/measure/SweepStep.h"
-#include "cli/measure/VerifyStep.h"
+#include "cli/measure/AnalyseSubcommand.h"
+#include "cli/measure/FitSubcommand.h"
+#include "cli/measure/SimulateSubcommand.h"
+#include "cli/measure/SweepSubcommand.h"
+#include "cli/measure/VerifySubcommand.h"
 
 namespace pacini::cli
 {
 
 MeasureCommand::MeasureCommand()
 {
-    steps.push_back(std::make_unique<SweepStep>());
-    steps.push_back(std::make_unique<AnalyseStep>());
-    steps.push_back(std::make_unique<FitStep>());
-    steps.push_back(std::make_unique<VerifyStep>());
-    steps.push_back(std::make_unique<SimulateStep>());
+    steps.push_back(std::make_unique<SweepSubcommand>());
+    steps.push_back(std::make_unique<AnalyseSubcommand>());
+    steps.push_back(std::make_unique<FitSubcommand>());
+    steps.push_back(std::make_unique<VerifySubcommand>());
+    steps.push_back(std::make_unique<SimulateSubcommand>());
 }
 
 CLI::App* MeasureCommand::declare(CLI::App& app)

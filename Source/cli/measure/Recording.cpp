@@ -4,6 +4,7 @@
 #include "cli/InputFiles.h"
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
+#include "io/FileExtension.h"
 
 #include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/SimulatedRig.h>
@@ -169,7 +170,7 @@ void RecordingOptions::declare(CLI::App& command)
         ->type_name("RECORDING");
     command
         .add_option("--sweep", sweep,
-                    "What was played: the .json that 'pacini measure sweep' wrote, or the sound beside it")
+                    "Description of the sweep: the .json that 'pacini measure sweep' wrote, or the sound beside it")
         ->required()
         ->type_name("SWEEP");
     command.add_option("--channels", channels, "Channels of the recording to use, one to three, counted from 1 [all]")
@@ -243,14 +244,14 @@ std::optional<AnalysedRecordings> analyseRecordings(Console& console, const Reco
     std::vector<FrequencyResponse> responses;
     for (const AnalysedRecording& recording : result.recordings)
         responses.push_back(recording.measurement.response());
-    auto average = averageFittings(responses);
+    auto average = averagePlacements(responses);
     if (!average)
     {
         console.error("", average.error());
         return std::nullopt;
     }
     result.average = std::move(*average);
-    for (const FittingOutlier& outlier : result.average.outliers)
+    for (const PlacementOutlier& outlier : result.average.outliers)
         console.warning(options.recordings[outlier.index],
                         fmt::format("is unlike the others and left out of the average: {} dB, shape {:.1f} dB off",
                                     signedText(outlier.offset, 1), outlier.shape));

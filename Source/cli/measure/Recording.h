@@ -5,8 +5,8 @@
 #include "cli/Console.h"
 #include "io/SweepFile.h"
 
-#include <pacini/linearize/FittingAverage.h>
 #include <pacini/linearize/MeasurementParams.h>
+#include <pacini/linearize/PlacementAverage.h>
 #include <pacini/linearize/SweepMeasurement.h>
 
 #include <CLI/CLI.hpp>
@@ -44,7 +44,7 @@ struct AnalysedRecordings
 {
     SweepFile sweep;
     std::vector<AnalysedRecording> recordings;
-    FittingAverage average; ///< of their responses
+    PlacementAverage average; ///< of their responses
 };
 
 /// Analyses all recordings. Warnings and errors have gone to the console when nothing comes back.

@@ -17,13 +17,13 @@ TextStyle labelStyle(const Look& look)
     return {look.theme.quietText, look.metrics.text};
 }
 
-int mostTicksX(const PlotArea& area, const Look& look)
+int maxTicksX(const PlotArea& area, const Look& look)
 {
     return static_cast<int>(area.box.width() / (6.0 * look.metrics.text));
 }
 
 /// Up to five where they just fit, more only with plenty of room.
-int mostTicksY(double height, const Look& look)
+int maxTicksY(double height, const Look& look)
 {
     const double lines = height / look.metrics.text;
     return std::max(2, static_cast<int>(std::min(lines / 1.15, std::max(5.0, lines / 4.0))));
@@ -220,7 +220,7 @@ Margins marginsOf(const Canvas& canvas, const Panel& panel, double height, bool 
     const Metrics& m = look.metrics;
     const TextStyle style = labelStyle(look);
     Margins margins;
-    margins.left = m.gap() + widest(canvas, ticksOf(panel.y, mostTicksY(height, look)), style);
+    margins.left = m.gap() + widest(canvas, ticksOf(panel.y, maxTicksY(height, look)), style);
     if (!panel.y.title.empty())
         margins.left += m.gap() + m.line();
     margins.right = panel.rightLabels.empty() ? 0.0 : m.gap() + widest(canvas, panel.rightLabels, style);
@@ -240,8 +240,8 @@ void drawPanel(Canvas& canvas, const Panel& panel, const Rectangle& plot, const 
                const Look& look)
 {
     const PlotArea area{plot, panel.x, panel.y};
-    const auto ticksX = ticksOf(panel.x, mostTicksX(area, look));
-    const auto ticksY = ticksOf(panel.y, mostTicksY(plot.height(), look));
+    const auto ticksX = ticksOf(panel.x, maxTicksX(area, look));
+    const auto ticksY = ticksOf(panel.y, maxTicksY(plot.height(), look));
     std::vector<Rectangle> taken;
 
     canvas.beginGroup(panel.title);

@@ -4,6 +4,7 @@
 #include "cli/plot/CairoCanvas.h"
 #include "cli/plot/SvgCanvas.h"
 #include "io/AtomicFile.h"
+#include "io/FileExtension.h"
 
 namespace pacini::plot
 {
@@ -27,7 +28,7 @@ std::unique_ptr<Canvas> makeCanvas(PictureFormat format, PictureSize size, const
 
 std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& path)
 {
-    const std::string extension = cli::lowerExtension(path);
+    const std::string extension = lowerExtension(path);
     if (extension == ".png")
         return PictureFormat::png;
     if (extension == ".svg")

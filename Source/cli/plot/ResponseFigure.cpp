@@ -67,7 +67,7 @@ Stroke strokeFor(ResponseRole role, const Look& look)
     const double hair = look.metrics.hair();
     switch (role)
     {
-    case ResponseRole::fitting:
+    case ResponseRole::placement:
         return {look.theme.series(0).withAlpha(0.35), hair};
     case ResponseRole::outlier:
         return {look.theme.series(3).withAlpha(0.7), hair};

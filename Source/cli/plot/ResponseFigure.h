@@ -17,11 +17,11 @@ namespace pacini::plot
 
 enum class ResponseRole
 {
-    fitting,  ///< one of many, thin
-    outlier,  ///< one that was left out, thin and dashed by its colour
-    noise,    ///< what is measured without a signal
-    measured, ///< the result
-    flattened ///< the result with the equaliser
+    placement, ///< one of many, thin
+    outlier,   ///< one that was left out, thin and dashed by its colour
+    noise,     ///< what is measured without a signal
+    measured,  ///< the result
+    flattened  ///< the result with the equaliser
 };
 
 struct NamedResponse

@@ -25,9 +25,9 @@ namespace
 using cli::SceneTimeline;
 using cli::TimedPlay;
 
-constexpr double barHeight = 0.86;       // of the distance between lanes
-constexpr std::size_t mostLanes = 32;    // more are too low to be read
-constexpr std::size_t mostGainLines = 7; // as many colours there are
+constexpr double barHeight = 0.86;      // of the distance between lanes
+constexpr std::size_t maxLanes = 32;    // more are too low to be read
+constexpr std::size_t maxGainLines = 7; // as many colours there are
 
 /// A play as it is drawn: its level in every column of the picture, from all actuators and from each.
 struct ShownPlay
@@ -122,7 +122,7 @@ std::vector<std::size_t> lanesOf(const SceneTimeline& timeline)
         order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return timeline.plays[a].start < timeline.plays[b].start; });
-    const bool one = order.size() <= mostLanes; // each play gets a lane of its own, in the order of the scene
+    const bool one = order.size() <= maxLanes; // each play gets a lane of its own, in the order of the scene
     std::vector<double> ends;
     for (const std::size_t i : order)
     {
@@ -134,7 +134,7 @@ std::vector<std::size_t> lanesOf(const SceneTimeline& timeline)
         std::size_t lane = 0;
         while (lane < ends.size() && ends[lane] > timeline.plays[i].start)
             ++lane;
-        lane = std::min(lane, mostLanes - 1);
+        lane = std::min(lane, maxLanes - 1);
         ends.resize(std::max(ends.size(), lane + 1), 0.0);
         ends[lane] = timeline.plays[i].end;
         lanes[i] = lane;
@@ -218,7 +218,7 @@ Panel playsPanel(const Scene& scene, const std::vector<ShownPlay>& plays, const 
     panel.y = {"", Scale::linear, -static_cast<double>(count) - 0.1, 0.05, {}};
     panel.crossGrid = false;
     panel.share = std::clamp(0.35 * static_cast<double>(count), 1.0, 5.0);
-    const bool one = plays.size() <= mostLanes;
+    const bool one = plays.size() <= maxLanes;
     std::set<std::size_t> named; // clips in the legend
     for (std::size_t i = 0; i < plays.size(); ++i)
     {
@@ -294,12 +294,12 @@ Panel gainsPanel(const Scene& scene, const SceneTimeline& timeline, const std::v
     constexpr double quietest = -60.0; // dB
     const double whole = sceneGain(scene.gain);
     Panel panel;
-    panel.title = changing.size() > mostGainLines
-                      ? fmt::format("Gain of the first {} of {} plays that change it", mostGainLines, changing.size())
+    panel.title = changing.size() > maxGainLines
+                      ? fmt::format("Gain of the first {} of {} plays that change it", maxGainLines, changing.size())
                       : "Gain of the plays that change it";
     panel.share = 1.2;
     double low = 0.0, high = 0.0;
-    for (std::size_t k = 0; k < std::min(changing.size(), mostGainLines); ++k)
+    for (std::size_t k = 0; k < std::min(changing.size(), maxGainLines); ++k)
     {
         const TimedPlay& timed = timeline.plays[changing[k]];
         Curve gain;

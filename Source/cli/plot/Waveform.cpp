@@ -10,7 +10,7 @@ Waveform::Waveform(TimeRange range, std::size_t columns, double sampleRate, std:
       columnsPerSecond(static_cast<double>(columns) / (range.to - range.from)),
       fs(sampleRate),
       channelCount(channels),
-      mostKept(16 * columns + 65536)
+      maxKept(16 * columns + 65536)
 {
 }
 
@@ -26,7 +26,7 @@ void Waveform::push(std::span<const float> interleaved)
         for (const float sample : interleaved.subspan(i, channelCount))
             sum += static_cast<double>(sample);
         kept.push_back({(time - shown.from) * columnsPerSecond, sum / static_cast<double>(channelCount)});
-        if (kept.size() >= mostKept)
+        if (kept.size() >= maxKept)
             kept = thinned(kept);
     }
 }

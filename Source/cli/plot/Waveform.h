@@ -38,7 +38,7 @@ private:
     double columnsPerSecond;
     double fs;
     std::size_t channelCount;
-    std::size_t mostKept;
+    std::size_t maxKept;
     std::uint64_t frame = 0;
     std::vector<Point> kept; // x in columns
 };

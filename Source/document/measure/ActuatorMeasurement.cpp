@@ -62,13 +62,13 @@ void ActuatorMeasurement::setBase(std::shared_ptr<const Profile> profile)
     savedTo.clear();
 }
 
-void ActuatorMeasurement::addFitting(Fitting fitting)
+void ActuatorMeasurement::addPlacement(Placement placement)
 {
-    taken.push_back(std::make_shared<const Fitting>(std::move(fitting)));
+    taken.push_back(std::make_shared<const Placement>(std::move(placement)));
     forgetFrom(MeasureStep::response);
 }
 
-void ActuatorMeasurement::dropFitting(std::size_t index)
+void ActuatorMeasurement::dropPlacement(std::size_t index)
 {
     if (index >= taken.size())
         return;
@@ -76,11 +76,11 @@ void ActuatorMeasurement::dropFitting(std::size_t index)
     forgetFrom(MeasureStep::response);
 }
 
-void ActuatorMeasurement::setWish(const EqualizerWish& wish)
+void ActuatorMeasurement::setRequest(const EqualizerRequest& request)
 {
-    if (wish == wanted)
+    if (request == wanted)
         return;
-    wanted = wish;
+    wanted = request;
     forgetFrom(MeasureStep::equalizer);
 }
 
@@ -92,9 +92,9 @@ void ActuatorMeasurement::setRate(double hertz)
     forgetFrom(MeasureStep::equalizer);
 }
 
-void ActuatorMeasurement::addVerification(Fitting swept)
+void ActuatorMeasurement::addVerification(Placement swept)
 {
-    verifying.push_back(std::make_shared<const Fitting>(std::move(swept)));
+    verifying.push_back(std::make_shared<const Placement>(std::move(swept)));
     forgetFrom(MeasureStep::verify);
 }
 
@@ -121,9 +121,9 @@ std::optional<ActuatorMeasurement::Due> ActuatorMeasurement::due() const
         if (!problem(MeasureStep::response).empty())
             return std::nullopt;
         return Due{current,
-                   [fittings = taken]() -> Outcome
+                   [placements = taken]() -> Outcome
                    {
-                       return summariseFittings(fittings);
+                       return summarisePlacements(placements);
                    }};
     }
     if (!equalizing)
@@ -131,9 +131,9 @@ std::optional<ActuatorMeasurement::Due> ActuatorMeasurement::due() const
         if (!problem(MeasureStep::equalizer).empty())
             return std::nullopt;
         return Due{current,
-                   [measured = average, wish = wanted, profile = known, fs = runningRate]() -> Outcome
+                   [measured = average, request = wanted, profile = known, fs = runningRate]() -> Outcome
                    {
-                       return fitFor(*measured, wish, *profile, fs);
+                       return fitFor(*measured, request, *profile, fs);
                    }};
     }
     if (!proof && !verifying.empty() && problem(MeasureStep::verify).empty())
@@ -209,8 +209,8 @@ Profile ActuatorMeasurement::profile(const std::string& name) const
     Profile profile = *known;
     profile.name = name;
     double drive = -200.0;
-    for (const auto& fitting : taken)
-        drive = std::max(drive, fitting->level);
+    for (const auto& placement : taken)
+        drive = std::max(drive, placement->level);
     setMeasurement(profile, average->average.response, average->findings, taken.size(), drive);
     pacini::setEqualizer(profile, equalizing->fit, "the measurement", runningRate);
     if (proof)

@@ -44,31 +44,31 @@ public:
     // Set up.
 
     [[nodiscard]] const MeasureSettings& settings() const noexcept { return chosen; }
-    /// Range and calibration stay as they are while there are fittings: these must go together.
+    /// Range and calibration stay as they are while there are placements: these must go together.
     void setSettings(const MeasureSettings& settings);
     [[nodiscard]] bool rangeLocked() const noexcept { return !taken.empty() || !verifying.empty(); }
     /// Where drive limits and what else is not measured come from; null: nothing is known.
     void setBase(std::shared_ptr<const Profile> profile);
     [[nodiscard]] const Profile& base() const noexcept { return *known; }
 
-    // Fittings.
+    // Placements.
 
-    [[nodiscard]] const Fittings& fittings() const noexcept { return taken; }
-    void addFitting(Fitting fitting);
-    void dropFitting(std::size_t index);
+    [[nodiscard]] const Placements& placements() const noexcept { return taken; }
+    void addPlacement(Placement placement);
+    void dropPlacement(std::size_t index);
 
     // What follows.
 
     [[nodiscard]] const MeasuredResponse* response() const noexcept { return average.get(); }
-    [[nodiscard]] const EqualizerWish& wish() const noexcept { return wanted; }
-    void setWish(const EqualizerWish& wish);
+    [[nodiscard]] const EqualizerRequest& request() const noexcept { return wanted; }
+    void setRequest(const EqualizerRequest& request);
     [[nodiscard]] const FittedEqualizer* equalizer() const noexcept { return equalizing.get(); }
     /// Hz at which the equaliser will run.
     void setRate(double hertz);
     [[nodiscard]] double rate() const noexcept { return runningRate; }
 
-    [[nodiscard]] const Fittings& verifications() const noexcept { return verifying; }
-    void addVerification(Fitting swept);
+    [[nodiscard]] const Placements& verifications() const noexcept { return verifying; }
+    void addVerification(Placement swept);
     void dropVerifications();
     [[nodiscard]] double tolerance() const noexcept { return allowed; } ///< dB
     void setTolerance(double decibels);
@@ -107,12 +107,12 @@ private:
 
     MeasureSettings chosen;
     std::shared_ptr<const Profile> known = std::make_shared<const Profile>(unknownActuator());
-    Fittings taken;
+    Placements taken;
     std::shared_ptr<const MeasuredResponse> average;
-    EqualizerWish wanted;
+    EqualizerRequest wanted;
     double runningRate = 48000.0;
     std::shared_ptr<const FittedEqualizer> equalizing;
-    Fittings verifying;
+    Placements verifying;
     double allowed = 4.0;
     std::shared_ptr<const VerifiedResponse> proof;
     std::string savedTo;

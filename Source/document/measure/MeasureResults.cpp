@@ -18,23 +18,23 @@ namespace pacini
 
 namespace
 {
-std::vector<FrequencyResponse> responsesOf(const Fittings& fittings)
+std::vector<FrequencyResponse> responsesOf(const Placements& placements)
 {
     std::vector<FrequencyResponse> responses;
-    for (const auto& fitting : fittings)
-        responses.push_back(fitting->measurement.response());
+    for (const auto& placement : placements)
+        responses.push_back(placement->measurement.response());
     return responses;
 }
 
 /// Outliers by name, and each note once.
-std::vector<std::string> notesOf(const Fittings& fittings, const FittingAverage& average)
+std::vector<std::string> notesOf(const Placements& placements, const PlacementAverage& average)
 {
     std::vector<std::string> notes;
-    for (const FittingOutlier& outlier : average.outliers)
+    for (const PlacementOutlier& outlier : average.outliers)
         notes.push_back(fmt::format("'{}' is unlike the others and was left out: {:+.1f} dB, its shape {:.1f} dB off.",
-                                    fittings[outlier.index]->name, outlier.offset, outlier.shape));
-    for (const auto& fitting : fittings)
-        for (const std::string& note : fitting->notes)
+                                    placements[outlier.index]->name, outlier.offset, outlier.shape));
+    for (const auto& placement : placements)
+        for (const std::string& note : placement->notes)
             if (std::find(notes.begin(), notes.end(), note) == notes.end())
                 notes.push_back(note);
     return notes;
@@ -68,56 +68,57 @@ bool showsNothing(const MeasurementWarning& warning)
 }
 } // namespace
 
-Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& recorded, const MeasureSettings& settings)
+Result<Placement> analysePlacement(const std::string& name, const RecordedSweep& recorded,
+                                   const MeasureSettings& settings)
 {
     MeasurementParams params = analysisOf(settings);
     params.equalized = recorded.equalized;
     auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, params);
     if (!measured)
         return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
-    Fitting fitting{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
-    takeOut(fitting.measurement, recorded.gain);
+    Placement placement{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
+    takeOut(placement.measurement, recorded.gain);
     std::set<std::string> useless;
-    for (const MeasurementWarning& warning : fitting.measurement.warnings)
+    for (const MeasurementWarning& warning : placement.measurement.warnings)
     {
-        fitting.notes.push_back(explain(warning, recorded.inputs));
+        placement.notes.push_back(explain(warning, recorded.inputs));
         if (showsNothing(warning))
             useless.insert(warning.where);
     }
     if (useless.size() >= recorded.channels.size())
-        return Error{ErrorCode::invalidData, {}, fitting.notes.front()};
-    return fitting;
+        return Error{ErrorCode::invalidData, {}, placement.notes.front()};
+    return placement;
 }
 
-Result<MeasuredResponse> summariseFittings(const Fittings& fittings)
+Result<MeasuredResponse> summarisePlacements(const Placements& placements)
 {
-    const auto responses = responsesOf(fittings);
-    auto average = averageFittings(responses);
+    const auto responses = responsesOf(placements);
+    auto average = averagePlacements(responses);
     if (!average)
         return plain(average.error());
     std::vector<const SweepMeasurement*> measured;
-    for (const auto& fitting : fittings)
-        measured.push_back(&fitting->measurement);
+    for (const auto& placement : placements)
+        measured.push_back(&placement->measurement);
     constexpr double distortionLimit = 10.0; // %
     auto findings = findingsOf(measured, *average, MeasurementParams{}.smoothing, distortionLimit);
     if (!findings)
         return plain(findings.error());
-    auto notes = notesOf(fittings, *average);
+    auto notes = notesOf(placements, *average);
     return MeasuredResponse{std::move(average).value(), std::move(findings).value(), std::move(notes)};
 }
 
-Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const EqualizerWish& wish, const Profile& base,
+Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const EqualizerRequest& request, const Profile& base,
                                double rate)
 {
     const FrequencyResponse& measured = response.average.response;
     const FrequencyRange& felt = response.findings.features.felt;
     FittedEqualizer fitted;
-    fitted.lowFrequency = wish.lowFrequency > 0.0 ? wish.lowFrequency : felt.low;
-    fitted.highFrequency = wish.highFrequency > 0.0 ? wish.highFrequency : felt.high;
+    fitted.lowFrequency = request.lowFrequency > 0.0 ? request.lowFrequency : felt.low;
+    fitted.highFrequency = request.highFrequency > 0.0 ? request.highFrequency : felt.high;
     EqualizerFitParams params;
     params.sampleRate = rate;
-    params.sections = wish.sections;
-    params.maxBoost = wish.maxBoost;
+    params.sections = request.sections;
+    params.maxBoost = request.maxBoost;
     params.lowFrequency = fitted.lowFrequency;
     params.highFrequency = fitted.highFrequency;
     params.goalMax = 0.75; // dB: with what a second measurement adds it stays within 1
@@ -141,11 +142,11 @@ Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const Equalizer
     return fitted;
 }
 
-Result<VerifiedResponse> verifyResponse(const Fittings& swept, const MeasuredResponse& response,
+Result<VerifiedResponse> verifyResponse(const Placements& swept, const MeasuredResponse& response,
                                         const FittedEqualizer& equalizer, double tolerance)
 {
     const auto responses = responsesOf(swept);
-    auto average = averageFittings(responses);
+    auto average = averagePlacements(responses);
     if (!average)
         return plain(average.error());
     const LinearityParams params{equalizer.lowFrequency, equalizer.highFrequency, tolerance};

@@ -7,8 +7,8 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
-#include <pacini/linearize/FittingAverage.h>
 #include <pacini/linearize/MeasurementFindings.h>
+#include <pacini/linearize/PlacementAverage.h>
 #include <pacini/linearize/SweepMeasurement.h>
 #include <pacini/linearize/Verification.h>
 
@@ -34,7 +34,7 @@ struct RecordedSweep
 };
 
 /// One recording of the actuator: on one wearer, attached once.
-struct Fitting
+struct Placement
 {
     std::string name;
     SweepMeasurement measurement;
@@ -42,30 +42,30 @@ struct Fitting
     std::vector<std::string> notes; ///< in plain words
 };
 
-using Fittings = std::vector<std::shared_ptr<const Fitting>>;
+using Placements = std::vector<std::shared_ptr<const Placement>>;
 
 /// Analyses a recording. The error is in plain words, without a place. Errors beside those of analyseSweeps():
 /// invalidData when no channel shows the movement of anything.
-[[nodiscard]] Result<Fitting> analyseFitting(const std::string& name, const RecordedSweep& recorded,
-                                             const MeasureSettings& settings);
+[[nodiscard]] Result<Placement> analysePlacement(const std::string& name, const RecordedSweep& recorded,
+                                                 const MeasureSettings& settings);
 
 struct MeasuredResponse
 {
-    FittingAverage average;
+    PlacementAverage average;
     MeasurementFindings findings;
-    std::vector<std::string> notes; ///< outliers, and what was noted of the fittings
+    std::vector<std::string> notes; ///< outliers, and what was noted of the placements
 };
 
-[[nodiscard]] Result<MeasuredResponse> summariseFittings(const Fittings& fittings);
+[[nodiscard]] Result<MeasuredResponse> summarisePlacements(const Placements& placements);
 
 /// What an equaliser is asked for.
-struct EqualizerWish
+struct EqualizerRequest
 {
     std::optional<int> sections; ///< 1 to 8; none: as few as do
     double maxBoost = 12.0;      ///< dB, 0 to 24
     double lowFrequency = 0.0;   ///< Hz; 0: that of the range that is felt
     double highFrequency = 0.0;  ///< Hz, likewise
-    bool operator==(const EqualizerWish&) const = default;
+    bool operator==(const EqualizerRequest&) const = default;
 };
 
 struct FittedEqualizer
@@ -79,7 +79,7 @@ struct FittedEqualizer
 };
 
 /// `base`: where the limits of the drive are known from; `rate`: at which the equaliser will run, Hz.
-[[nodiscard]] Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const EqualizerWish& wish,
+[[nodiscard]] Result<FittedEqualizer> fitFor(const MeasuredResponse& response, const EqualizerRequest& request,
                                              const Profile& base, double rate);
 
 struct VerifiedResponse
@@ -91,7 +91,7 @@ struct VerifiedResponse
 };
 
 /// `swept` through the equaliser. Deviations beyond `tolerance`, dB, do not pass.
-[[nodiscard]] Result<VerifiedResponse> verifyResponse(const Fittings& swept, const MeasuredResponse& response,
+[[nodiscard]] Result<VerifiedResponse> verifyResponse(const Placements& swept, const MeasuredResponse& response,
                                                       const FittedEqualizer& equalizer, double tolerance);
 
 /// The sweep through an equaliser, at the level asked for or as much below it as the equaliser raises it over full

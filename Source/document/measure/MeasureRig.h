@@ -65,7 +65,7 @@ public:
     /// m/s^2 of a full-scale sample, where the rig knows it.
     [[nodiscard]] virtual std::optional<double> fullScale() const { return std::nullopt; }
     /// How many times the actuator has been put on before the next sweep. Only a simulation needs to be told.
-    virtual void setFitting(std::size_t) {}
+    virtual void setPlacement(std::size_t) {}
 };
 
 inline constexpr double testToneFrequency = 100.0; ///< Hz

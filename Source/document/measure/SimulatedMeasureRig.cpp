@@ -81,10 +81,10 @@ RigPorts SimulatedMeasureRig::ports()
 RigParams SimulatedMeasureRig::worn() const
 {
     RigParams params = rig;
-    const auto wearer = static_cast<unsigned>(fitting % (simulatedWearers + 1));
+    const auto wearer = static_cast<unsigned>(placement % (simulatedWearers + 1));
     if (params.body)
         params.body = bodyOn(wearer, *params.body);
-    params.seed += fitting;
+    params.seed += placement;
     return params;
 }
 

@@ -17,7 +17,7 @@ namespace pacini
 {
 
 /// An actuator on a wearer, with a sensor of three axes, and, for mistakes to be made, an output and an input with
-/// nothing on it and an input that carries the drive. Each fitting is another wearer.
+/// nothing on it and an input that carries the drive. Each placement is another wearer.
 class SimulatedMeasureRig final : public MeasureRig
 {
 public:
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] float takePeak(std::size_t input) override;
     void setTone(std::optional<double> level) override { tone = level; }
     [[nodiscard]] std::optional<double> fullScale() const override { return rig.range; }
-    void setFitting(std::size_t index) override { fitting = index; }
+    void setPlacement(std::size_t index) override { placement = index; }
 
 private:
     using Channels = std::vector<std::vector<float>>;
@@ -51,7 +51,7 @@ private:
     RigParams rig;
     double speed;
     RigWiring wired;
-    std::size_t fitting = 0;
+    std::size_t placement = 0;
     std::optional<double> tone;
 
     bool playing = false;

@@ -2,7 +2,7 @@
 
 // The spectra of a sound over time at several resolutions.
 
-#include "document/view/SpectrumAnalyser.h"
+#include "document/view/SpectrumAnalyzer.h"
 #include "document/view/TimeAxis.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ public:
     static constexpr double baseHop = 0.02;         ///< s between columns
     static constexpr int finest = 4;                ///< every finer level halves that: 1.25 ms
     static constexpr std::size_t tileColumns = 128; ///< computed at a time
-    static constexpr std::size_t mostFineTiles = 192;
+    static constexpr std::size_t maxFineTiles = 192;
 
     /// 128 columns from time index * 128 * hop on; `level` 0 to `finest`.
     struct Tile
@@ -58,7 +58,7 @@ public:
     }
 
     /// The columns of a tile, one after another. [worker]
-    [[nodiscard]] static std::vector<std::uint8_t> compute(SpectrumAnalyser& analyser, const Tile& tile,
+    [[nodiscard]] static std::vector<std::uint8_t> compute(SpectrumAnalyzer& analyser, const Tile& tile,
                                                            std::size_t rows)
     {
         std::vector<std::uint8_t> result(tileColumns * rows);
@@ -74,7 +74,7 @@ public:
         {
             if (fine.insert_or_assign(tile, std::move(columns)).second)
                 order.push_back(tile);
-            if (order.size() > mostFineTiles)
+            if (order.size() > maxFineTiles)
             {
                 fine.erase(order.front());
                 order.pop_front();

@@ -33,7 +33,7 @@ constexpr int workBarWidth = 440;
 constexpr int workBarHeight = 48;
 } // namespace
 
-EditorView::EditorView(Session& shared, Surroundings around)
+EditorView::EditorView(Session& shared, HostServices around)
     : open(shared),
       host(std::move(around)),
       menuBar(&menuList),

@@ -29,7 +29,7 @@ namespace pacini::editor
 {
 
 /// What is around an editor; its menus leave out what is not there.
-struct Surroundings
+struct HostServices
 {
     std::vector<std::filesystem::path> demoSounds;
     std::function<void()> quit;                                   ///< null: the host closes the window
@@ -44,7 +44,7 @@ struct Surroundings
 class EditorView final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:
-    EditorView(Session& shared, Surroundings around);
+    EditorView(Session& shared, HostServices around);
     ~EditorView() override;
 
     std::function<void()> onTitleChanged; ///< see title()
@@ -72,7 +72,7 @@ public:
     /// False when it cannot be done now.
     bool doCommand(Command command) { return menuList.perform(command); }
 
-    [[nodiscard]] const Surroundings& surroundings() const noexcept { return host; }
+    [[nodiscard]] const HostServices& hostServices() const noexcept { return host; }
     [[nodiscard]] Session& session() noexcept { return open; }
     [[nodiscard]] ProjectFiles& files() noexcept { return fileQuestions; }
     [[nodiscard]] Menus& menus() noexcept { return menuList; }
@@ -91,7 +91,7 @@ private:
     void arrange();
 
     Session& open;
-    const Surroundings host;
+    const HostServices host;
     Look look;
     double scaleNow = 1.0;
     ProjectFiles fileQuestions{*this};

@@ -12,8 +12,8 @@ namespace pacini::editor
 
 namespace
 {
-constexpr std::size_t mostDemos = 4;
-constexpr std::size_t mostRecent = 4;
+constexpr std::size_t maxDemos = 4;
+constexpr std::size_t maxRecent = 4;
 constexpr int rowHeight = 4 * grid;
 
 juce::String shownName(const std::filesystem::path& file)
@@ -52,10 +52,10 @@ void EmptyState::fill()
     };
     demoButtons.clear();
     recentButtons.clear();
-    for (std::size_t i = 0; i < std::min(demos.size(), mostDemos); ++i)
+    for (std::size_t i = 0; i < std::min(demos.size(), maxDemos); ++i)
         make(demoButtons, demos[i], "Opens the demo sound ");
     for (const auto& file : model.recentFiles().files())
-        if (recentButtons.size() < mostRecent && RecentFiles::exists(file))
+        if (recentButtons.size() < maxRecent && RecentFiles::exists(file))
             make(recentButtons, file, "Opens the project ");
     resized();
     repaint();

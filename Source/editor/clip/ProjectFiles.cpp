@@ -44,7 +44,7 @@ namespace
 {
 std::filesystem::path sampleProject(EditorView& view)
 {
-    const auto& demos = view.surroundings().demoSounds;
+    const auto& demos = view.hostServices().demoSounds;
     return demos.empty() ? std::filesystem::path() : demos.front().parent_path() / "sample.pacini";
 }
 } // namespace
@@ -109,12 +109,12 @@ void ProjectFiles::askForSound(const juce::String& title, const std::filesystem:
 
 void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
 {
-    constexpr std::size_t mostNames = 6;
+    constexpr std::size_t maxNames = 6;
     juce::StringArray names;
-    for (std::size_t i = 0; i < std::min(missing.size(), mostNames); ++i)
+    for (std::size_t i = 0; i < std::min(missing.size(), maxNames); ++i)
         names.add(pathText(missing[i].path));
-    if (missing.size() > mostNames)
-        names.add("and " + juce::String(static_cast<int>(missing.size() - mostNames)) + " more");
+    if (missing.size() > maxNames)
+        names.add("and " + juce::String(static_cast<int>(missing.size() - maxNames)) + " more");
     const auto find = [this, start = missing.front().path]
     {
         askForSound("Find " + pathText(start.filename()), start,

@@ -13,7 +13,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int automatic = 100; // of the menu; the others are numbers of sections
-constexpr int mostSections = 8;
+constexpr int maxSections = 8;
 
 const char* nameOf(EqualizerType type)
 {
@@ -37,7 +37,7 @@ juce::String signedText(double value, int decimals)
 }
 } // namespace
 
-EqualizerStep::EqualizerStep(MeasureDesk& wanted)
+EqualizerStep::EqualizerStep(MeasurementController& wanted)
     : sections("Sections", "How many sections the equaliser has at most; automatic: as few as make it flat within "
                            "1 dB"),
       boost("Most boost",
@@ -47,7 +47,7 @@ EqualizerStep::EqualizerStep(MeasureDesk& wanted)
       desk(wanted)
 {
     sections.control.addItem("Automatic", automatic);
-    for (int i = 1; i <= mostSections; ++i)
+    for (int i = 1; i <= maxSections; ++i)
         sections.control.addItem(juce::String(i), i);
     prepareSlider(boost.control, 0.0, 24.0, 0.5, "dB", 1);
     prepareSlider(low.control, 5.0, 400.0, 1.0, "Hz", 0);
@@ -73,29 +73,29 @@ EqualizerStep::EqualizerStep(MeasureDesk& wanted)
 
 void EqualizerStep::takeWish()
 {
-    EqualizerWish wish = desk.measurement().wish();
+    EqualizerRequest request = desk.measurement().request();
     const int chosen = sections.control.getSelectedId();
-    wish.sections = chosen == automatic ? std::nullopt : std::optional(chosen);
-    wish.maxBoost = boost.control.getValue();
+    request.sections = chosen == automatic ? std::nullopt : std::optional(chosen);
+    request.maxBoost = boost.control.getValue();
     // The ends follow what is measured until they are moved.
     if (const MeasuredResponse* response = desk.measurement().response())
     {
         const FrequencyRange& felt = response->findings.features.felt;
-        if (wish.lowFrequency > 0.0 || std::abs(low.control.getValue() - std::round(felt.low)) > 0.5)
-            wish.lowFrequency = low.control.getValue();
-        if (wish.highFrequency > 0.0 || std::abs(high.control.getValue() - std::round(felt.high)) > 0.5)
-            wish.highFrequency = high.control.getValue();
+        if (request.lowFrequency > 0.0 || std::abs(low.control.getValue() - std::round(felt.low)) > 0.5)
+            request.lowFrequency = low.control.getValue();
+        if (request.highFrequency > 0.0 || std::abs(high.control.getValue() - std::round(felt.high)) > 0.5)
+            request.highFrequency = high.control.getValue();
     }
-    desk.setWish(wish);
+    desk.setRequest(request);
 }
 
 void EqualizerStep::refresh()
 {
     const ActuatorMeasurement& work = desk.measurement();
-    const EqualizerWish& wish = work.wish();
+    const EqualizerRequest& request = work.request();
     const auto quietly = juce::dontSendNotification;
-    sections.control.setSelectedId(wish.sections.value_or(automatic), quietly);
-    boost.control.setValue(wish.maxBoost, quietly);
+    sections.control.setSelectedId(request.sections.value_or(automatic), quietly);
+    boost.control.setValue(request.maxBoost, quietly);
     const bool free = !desk.isPlaying();
     for (juce::Component* one : std::initializer_list<juce::Component*>{&sections, &boost, &low, &high})
         one->setEnabled(free && work.response() != nullptr);
@@ -108,8 +108,8 @@ void EqualizerStep::refresh()
         return;
     }
     const FrequencyRange& felt = response->findings.features.felt;
-    low.control.setValue(wish.lowFrequency > 0.0 ? wish.lowFrequency : std::round(felt.low), quietly);
-    high.control.setValue(wish.highFrequency > 0.0 ? wish.highFrequency : std::round(felt.high), quietly);
+    low.control.setValue(request.lowFrequency > 0.0 ? request.lowFrequency : std::round(felt.low), quietly);
+    high.control.setValue(request.highFrequency > 0.0 ? request.highFrequency : std::round(felt.high), quietly);
 
     std::vector<Note> lines;
     const FittedEqualizer* fitted = work.equalizer();

@@ -4,7 +4,7 @@
 // The equaliser that flattens the response.
 
 #include "editor/ResponsePlot.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
 namespace pacini::editor
@@ -13,7 +13,7 @@ namespace pacini::editor
 class EqualizerStep final : public StepPanel
 {
 public:
-    explicit EqualizerStep(MeasureDesk& wanted);
+    explicit EqualizerStep(MeasurementController& wanted);
     void refresh() override;
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -23,7 +23,7 @@ public:
 
 private:
     void takeWish();
-    MeasureDesk& desk;
+    MeasurementController& desk;
     FactTable table{"Sections"};
     FactTable facts{"What the equaliser does"};
     NoteBox notes{"Notes on the equaliser"};

@@ -29,7 +29,7 @@ juce::String whatToDo(MeasureStep step)
 }
 } // namespace
 
-MeasurePage::MeasurePage(std::shared_ptr<MeasureDesk> wanted, std::function<void()> showDevices)
+MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::function<void()> showDevices)
     : Sheet("Measure an actuator", 10000, 10000),
       shared(std::move(wanted)),
       services{[this](const auto&... asked) { askForFile(asked...); },
@@ -130,7 +130,7 @@ void MeasurePage::refresh()
     const ActuatorMeasurement& work = shared->measurement();
     // A step can lose what it stands on.
     while (stepNow > MeasureStep::sweep && work.state(stepNow) == MeasureStepState::locked &&
-           (stepNow != MeasureStep::verify || work.fittings().empty()))
+           (stepNow != MeasureStep::verify || work.placements().empty()))
     {
         stepNow = static_cast<MeasureStep>(static_cast<int>(stepNow) - 1);
         scroll.setViewedComponent(&panel(), false);

@@ -5,7 +5,7 @@
 
 #include "editor/clip/sheets/Sheet.h"
 #include "editor/measure/EqualizerStep.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/ResponseStep.h"
 #include "editor/measure/SaveStep.h"
 #include "editor/measure/SetUpStep.h"
@@ -25,10 +25,10 @@ class MeasurePage final : public Sheet, private juce::Timer
 {
 public:
     /// `showDevices`: empty where devices cannot be chosen.
-    MeasurePage(std::shared_ptr<MeasureDesk> wanted, std::function<void()> showDevices);
+    MeasurePage(std::shared_ptr<MeasurementController> wanted, std::function<void()> showDevices);
     ~MeasurePage() override;
 
-    [[nodiscard]] MeasureDesk& desk() noexcept { return *shared; }
+    [[nodiscard]] MeasurementController& desk() noexcept { return *shared; }
     [[nodiscard]] MeasureStep step() const noexcept { return stepNow; }
     /// False for a step that is locked.
     bool show(MeasureStep wanted);
@@ -53,7 +53,7 @@ private:
                     std::function<void(const juce::File&)> chosen);
     void tell(const juce::String& title, const juce::String& text);
 
-    std::shared_ptr<MeasureDesk> shared;
+    std::shared_ptr<MeasurementController> shared;
     StepServices services;
     MeasureStep stepNow = MeasureStep::setUp;
     StepList steps;

@@ -13,7 +13,7 @@ juce::String levelUnit(const ActuatorMeasurement& work)
     return work.settings().calibrated ? toText("dB re 1 m/s² at full drive") : juce::String("dB, relative");
 }
 
-ResponseStep::ResponseStep(MeasureDesk& wanted) : desk(wanted)
+ResponseStep::ResponseStep(MeasurementController& wanted) : desk(wanted)
 {
     for (juce::Component* child : std::initializer_list<juce::Component*>{&facts, &notes, &plot, &distortion})
         addAndMakeVisible(child);
@@ -33,16 +33,16 @@ void ResponseStep::refresh()
     std::vector<Note> lines;
     if (const MeasuredResponse* response = work.response())
     {
-        const auto& fittings = work.fittings();
+        const auto& placements = work.placements();
         const ResponseFeatures& features = response->findings.features;
-        const bool several = fittings.size() > 1;
-        const SweepMeasurement& measured = fittings.front()->measurement;
+        const bool several = placements.size() > 1;
+        const SweepMeasurement& measured = placements.front()->measurement;
         const LevelMeasurement& level = measured.levels[measured.main];
         curves.curves.push_back({"noise", level.noise, ResponsePlot::Role::noise});
-        for (std::size_t i = 0; several && i < fittings.size(); ++i)
+        for (std::size_t i = 0; several && i < placements.size(); ++i)
         {
             const bool out = response->findings.outliers.contains(i);
-            curves.curves.push_back({out ? "left out" : "fittings", fittings[i]->measurement.response(),
+            curves.curves.push_back({out ? "left out" : "placements", placements[i]->measurement.response(),
                                      out ? ResponsePlot::Role::leftOut : ResponsePlot::Role::single});
         }
         curves.curves.push_back({several ? "average" : "response", response->average.response});
@@ -56,10 +56,10 @@ void ResponseStep::refresh()
             return numberText(value, decimals);
         };
         FactTable::Facts list{
-            {"Fittings",
-             juce::String(static_cast<int>(fittings.size() - response->findings.outliers.size())) +
+            {"Placements",
+             juce::String(static_cast<int>(placements.size() - response->findings.outliers.size())) +
                  (response->findings.outliers.empty() ? juce::String()
-                                                      : " of " + juce::String(static_cast<int>(fittings.size())))},
+                                                      : " of " + juce::String(static_cast<int>(placements.size())))},
             {"Resonance", number(features.resonance.frequency, 1) + " Hz"},
             {"Q", number(features.resonance.q, 2)},
             {"Usable range", number(features.felt.low, 0) + " to " + number(features.felt.high, 0) + " Hz"},

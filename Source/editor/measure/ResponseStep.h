@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the fittings say of the actuator.
+// What the placements say of the actuator.
 
 #include "editor/ResponsePlot.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
 namespace pacini::editor
@@ -13,7 +13,7 @@ namespace pacini::editor
 class ResponseStep final : public StepPanel
 {
 public:
-    explicit ResponseStep(MeasureDesk& wanted);
+    explicit ResponseStep(MeasurementController& wanted);
     void refresh() override;
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -21,10 +21,10 @@ public:
     [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
 
 private:
-    MeasureDesk& desk;
+    MeasurementController& desk;
     FactTable facts{"The actuator"};
     NoteBox notes{"Notes on the measurement"};
-    ResponsePlot plot{"Response", "Level over frequency of each fitting, their average and the noise"};
+    ResponsePlot plot{"Response", "Level over frequency of each placement, their average and the noise"};
     ResponsePlot distortion{"Distortion", "Harmonic distortion in percent over frequency"};
 };
 

@@ -25,7 +25,7 @@ juce::String fileNameOf(const juce::String& name)
 }
 } // namespace
 
-SaveStep::SaveStep(MeasureDesk& wanted, StepServices& around)
+SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
     : name("Name", "What the actuator is called in the list of actuators"),
       file("File", "The profile that is written, .json"),
       saveButton("Save profile"),
@@ -102,7 +102,7 @@ void SaveStep::refresh()
     const ActuatorMeasurement& work = desk.measurement();
     const bool ready = work.equalizer() != nullptr;
     saveButton.setEnabled(ready && name.control.getText().trim().isNotEmpty() &&
-                          desk.activity() == MeasureDesk::Activity::none);
+                          desk.activity() == MeasurementController::Activity::none);
     std::vector<Note> lines;
     if (ready)
     {
@@ -113,7 +113,7 @@ void SaveStep::refresh()
              {"Range",
               numberText(profile.range.lowFrequency, 0) + " to " + numberText(profile.range.highFrequency, 0) + " Hz"},
              {"Equaliser", juce::String(static_cast<int>(profile.equalizer.size())) + " sections"},
-             {"Fittings", juce::String(profile.measurement->fittings)},
+             {"Placements", juce::String(profile.measurement->placements)},
              {"Proof", verified == nullptr ? juce::String("not verified")
                                            : juce::String(verified->linearity.passed() ? "passed, " : "not passed, ") +
                                                  "worst " + (verified->linearity.worstDeviation >= 0.0 ? "+" : "") +

@@ -3,7 +3,7 @@
 
 // The profile that comes of it.
 
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
 namespace pacini::editor
@@ -12,7 +12,7 @@ namespace pacini::editor
 class SaveStep final : public StepPanel
 {
 public:
-    SaveStep(MeasureDesk& wanted, StepServices& around);
+    SaveStep(MeasurementController& wanted, StepServices& around);
     void refresh() override;
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -25,7 +25,7 @@ private:
     void follow();
     void save();
 
-    MeasureDesk& desk;
+    MeasurementController& desk;
     StepServices& services;
     juce::TextButton browse;
     juce::ToggleButton use;

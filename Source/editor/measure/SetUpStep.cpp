@@ -33,7 +33,7 @@ void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char
 }
 } // namespace
 
-SetUpStep::SetUpStep(MeasureDesk& wanted, StepServices& around)
+SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
     : desk(wanted),
       services(around),
       rig("Rig", "The sound device with actuator and sensor on it, or a simulation to try the page with"),
@@ -222,7 +222,7 @@ void SetUpStep::refresh()
     tone.setToggleState(desk.isToneOn(), quietly);
     tone.setEnabled(!busy && ports.problem.empty());
     devices.setVisible(services.showDevices != nullptr);
-    openRecording.setEnabled(desk.activity() == MeasureDesk::Activity::none);
+    openRecording.setEnabled(desk.activity() == MeasurementController::Activity::none);
 
     facts.show({{"All that is played", numberText(desk.sweepSeconds(), 1) + " s"},
                 {"Sample rate", numberText(ports.sampleRate, 0) + " Hz"}});
@@ -231,7 +231,7 @@ void SetUpStep::refresh()
     if (const auto obstacle = desk.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
     if (locked)
-        lines.push_back({"Range and calibration stay as they are while there are fittings: drop them in step 2 to "
+        lines.push_back({"Range and calibration stay as they are while there are placements: drop them in step 2 to "
                          "change these."});
     if (lines.empty())
         lines.push_back({"Turn on the test tone and set the gain of the input so that the meter stays below -6 dB. "

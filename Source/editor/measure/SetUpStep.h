@@ -4,7 +4,7 @@
 // What is measured with, where it is connected, and with which sweep.
 
 #include "editor/measure/InputMeter.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace pacini::editor
 class SetUpStep final : public StepPanel
 {
 public:
-    SetUpStep(MeasureDesk& wanted, StepServices& around);
+    SetUpStep(MeasurementController& wanted, StepServices& around);
     void refresh() override;
     void tick() override;
     void paint(juce::Graphics& g) override;
@@ -30,7 +30,7 @@ private:
     [[nodiscard]] juce::Rectangle<int> rigCard() const;
     [[nodiscard]] juce::Rectangle<int> sweepCard() const;
 
-    MeasureDesk& desk;
+    MeasurementController& desk;
     StepServices& services;
     Named<juce::ComboBox> rig, output, base;
     std::array<Named<juce::ComboBox>, inputs> input;

@@ -13,7 +13,8 @@ namespace
 constexpr int playHeight = 25 * grid;
 } // namespace
 
-SweepControl::SweepControl(MeasureDesk& wanted, bool throughEqualizer) : desk(wanted), verifying(throughEqualizer)
+SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
+    : desk(wanted), verifying(throughEqualizer)
 {
     button.onClick = [this]
     {
@@ -32,17 +33,19 @@ SweepControl::SweepControl(MeasureDesk& wanted, bool throughEqualizer) : desk(wa
 
 bool SweepControl::isMine() const
 {
-    return desk.activity() == (verifying ? MeasureDesk::Activity::verifying : MeasureDesk::Activity::sweeping);
+    return desk.activity() ==
+           (verifying ? MeasurementController::Activity::verifying : MeasurementController::Activity::sweeping);
 }
 
 void SweepControl::refresh()
 {
-    const bool analysing = desk.activity() == MeasureDesk::Activity::analysing;
+    const bool analysing = desk.activity() == MeasurementController::Activity::analysing;
     button.setButtonText(isMine() ? "Stop" : verifying ? "Sweep through the equaliser" : "Sweep");
     button.setTitle(button.getButtonText());
     button.setTooltip(isMine() ? "Ends the sweep; nothing of it is kept"
                                : "Plays the sweep through the actuator and records the sensor in step with it");
-    button.setEnabled(isMine() || (desk.activity() == MeasureDesk::Activity::none && desk.obstacle().empty()));
+    button.setEnabled(isMine() ||
+                      (desk.activity() == MeasurementController::Activity::none && desk.obstacle().empty()));
     if (analysing)
     {
         progress = -1.0;
@@ -70,20 +73,20 @@ void SweepControl::resized()
         bar.setBounds(area.withTrimmedLeft(grid).withHeight(stepRow).reduced(0, grid / 2));
 }
 
-SweepStep::SweepStep(MeasureDesk& wanted)
+SweepStep::SweepStep(MeasurementController& wanted)
     : control(wanted, false),
       desk(wanted),
-      name("Name", "What the next fitting is called: who wears it, or how it is attached")
+      name("Name", "What the next placement is called: who wears it, or how it is attached")
 {
     name.control.setFont(usualFont());
     name.control.setIndents(grid, 7);
     name.control.onTextChange = [this]
     {
-        desk.setNextFittingName(name.control.getText().toStdString());
+        desk.setNextPlacementName(name.control.getText().toStdString());
     };
     scroll.setViewedComponent(&list, false);
     scroll.setScrollBarsShown(true, false);
-    list.setTitle("Fittings");
+    list.setTitle("Placements");
     for (juce::Component* child :
          std::initializer_list<juce::Component*>{&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes})
         addAndMakeVisible(child);
@@ -100,35 +103,36 @@ void SweepStep::refresh()
             meters[i].setName(toText(desk.ports().inputs[wired[i]]));
     }
     if (!name.control.hasKeyboardFocus(true) || name.control.getText().isEmpty())
-        name.control.setText(toText(desk.nextFittingName()), false);
+        name.control.setText(toText(desk.nextPlacementName()), false);
     name.setEnabled(!desk.isPlaying());
     control.refresh();
 
     const ActuatorMeasurement& work = desk.measurement();
     rows.clear();
     const MeasuredResponse* response = work.response();
-    for (std::size_t i = 0; i < work.fittings().size(); ++i)
+    for (std::size_t i = 0; i < work.placements().size(); ++i)
     {
-        const Fitting& fitting = *work.fittings()[i];
+        const Placement& placement = *work.placements()[i];
         auto row = std::make_unique<Row>();
-        juce::String text = toText(fitting.name) + "   " + numberText(fitting.level, 1) + " dB";
-        if (response != nullptr && i < response->average.offsets.size() && work.fittings().size() > 1)
+        juce::String text = toText(placement.name) + "   " + numberText(placement.level, 1) + " dB";
+        if (response != nullptr && i < response->average.offsets.size() && work.placements().size() > 1)
         {
             const double offset = response->average.offsets[i];
             text << ", " << (offset >= 0.0 ? "+" : "") << numberText(offset, 1) << " dB to the average";
             if (response->findings.outliers.contains(i))
                 text << ", left out";
         }
-        if (!fitting.notes.empty())
-            text << ", " << static_cast<int>(fitting.notes.size()) << (fitting.notes.size() == 1 ? " note" : " notes");
+        if (!placement.notes.empty())
+            text << ", " << static_cast<int>(placement.notes.size())
+                 << (placement.notes.size() == 1 ? " note" : " notes");
         row->name.setText(text, juce::dontSendNotification);
         row->name.setFont(usualFont());
-        row->name.setTooltip(toText(fitting.notes.empty() ? std::string() : fitting.notes.front()));
+        row->name.setTooltip(toText(placement.notes.empty() ? std::string() : placement.notes.front()));
         row->name.setMinimumHorizontalScale(0.8f);
         row->drop.setButtonText("Drop");
-        row->drop.setTitle("Drop " + toText(fitting.name));
-        row->drop.setTooltip("Takes this fitting out; the response is computed anew");
-        row->drop.setEnabled(desk.activity() == MeasureDesk::Activity::none);
+        row->drop.setTitle("Drop " + toText(placement.name));
+        row->drop.setTooltip("Takes this placement out; the response is computed anew");
+        row->drop.setEnabled(desk.activity() == MeasurementController::Activity::none);
         row->drop.onClick = [safe = juce::Component::SafePointer<SweepStep>(this), i]
         {
             // Dropping removes this very button.
@@ -136,7 +140,7 @@ void SweepStep::refresh()
                 [safe, i]
                 {
                     if (safe)
-                        safe->desk.dropFitting(i);
+                        safe->desk.dropPlacement(i);
                 });
         };
         list.addAndMakeVisible(row->name);
@@ -149,9 +153,9 @@ void SweepStep::refresh()
         lines.push_back({desk.sweepProblem(), Note::Kind::warning});
     else if (const auto obstacle = desk.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
-    else if (!work.fittings().empty())
+    else if (!work.placements().empty())
     {
-        for (const std::string& note : work.fittings().back()->notes)
+        for (const std::string& note : work.placements().back()->notes)
             lines.push_back({note, Note::Kind::warning});
         lines.push_back({"Put the actuator on another wearer, or attach it anew, and sweep again: what is right for "
                          "several holds for more. Or go on to the response."});
@@ -183,8 +187,8 @@ juce::Rectangle<int> SweepStep::listCard() const
 void SweepStep::paint(juce::Graphics& g)
 {
     const Palette& p = paletteFor(*this);
-    drawCard(g, playCard(), "Next fitting", p);
-    const auto inside = drawCard(g, listCard(), "Fittings", p);
+    drawCard(g, playCard(), "Next placement", p);
+    const auto inside = drawCard(g, listCard(), "Placements", p);
     if (!rows.empty())
         return;
     g.setColour(p.dim);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sweeps, and the fittings that were taken.
+// Sweeps, and the placements that were taken.
 
 #include "editor/measure/InputMeter.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace pacini::editor
 class SweepControl final : public juce::Component
 {
 public:
-    SweepControl(MeasureDesk& wanted, bool throughEqualizer);
+    SweepControl(MeasurementController& wanted, bool throughEqualizer);
     void refresh();
     void tick();
     void resized() override;
@@ -26,7 +26,7 @@ public:
 
 private:
     [[nodiscard]] bool isMine() const;
-    MeasureDesk& desk;
+    MeasurementController& desk;
     const bool verifying;
     double progress = 0.0;
     juce::ProgressBar bar{progress};
@@ -35,7 +35,7 @@ private:
 class SweepStep final : public StepPanel
 {
 public:
-    explicit SweepStep(MeasureDesk& wanted);
+    explicit SweepStep(MeasurementController& wanted);
     void refresh() override;
     void tick() override;
     void paint(juce::Graphics& g) override;
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] juce::Rectangle<int> playCard() const;
     [[nodiscard]] juce::Rectangle<int> listCard() const;
 
-    MeasureDesk& desk;
+    MeasurementController& desk;
     Named<juce::TextEditor> name;
     std::array<InputMeter, 3> meters;
     NoteBox notes{"Result of the last sweep"};

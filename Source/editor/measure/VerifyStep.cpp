@@ -14,7 +14,7 @@ namespace
 constexpr int meterRow = 20;
 }
 
-VerifyStep::VerifyStep(MeasureDesk& wanted, StepServices& around)
+VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     : control(wanted, true),
       desk(wanted),
       services(around),
@@ -72,7 +72,7 @@ void VerifyStep::refresh()
             meters[i].setName(toText(desk.ports().inputs[wired[i]]));
     }
     tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
-    const bool free = desk.activity() == MeasureDesk::Activity::none && work.equalizer() != nullptr;
+    const bool free = desk.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
     saveSweep.setEnabled(free);
     openRecording.setEnabled(free);
     again.setEnabled(free && !work.verifications().empty());

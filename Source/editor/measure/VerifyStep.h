@@ -4,7 +4,7 @@
 // The proof: a sweep through the equaliser.
 
 #include "editor/ResponsePlot.h"
-#include "editor/measure/MeasureDesk.h"
+#include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 #include "editor/measure/SweepStep.h"
 
@@ -17,7 +17,7 @@ namespace pacini::editor
 class VerifyStep final : public StepPanel
 {
 public:
-    VerifyStep(MeasureDesk& wanted, StepServices& around);
+    VerifyStep(MeasurementController& wanted, StepServices& around);
     void refresh() override;
     void tick() override;
     void paint(juce::Graphics& g) override;
@@ -31,9 +31,9 @@ public:
 private:
     [[nodiscard]] juce::Rectangle<int> verdictArea() const;
 
-    MeasureDesk& desk;
+    MeasurementController& desk;
     StepServices& services;
-    std::array<InputMeter, MeasureDesk::mostInputs> meters; ///< of all axes
+    std::array<InputMeter, MeasurementController::maxInputs> meters; ///< of all axes
     Named<juce::Slider> tolerance;
     juce::TextButton saveSweep, openRecording, again;
     FactTable facts{"How flat it is"};

@@ -13,7 +13,7 @@ namespace pacini
 
 namespace
 {
-constexpr const char* leftOut = "events that the amplitude reaches by itself are left out";
+constexpr const char* leftOut = "events are left out where the amplitude curve alone is as strong";
 
 double square(double x)
 {

@@ -37,12 +37,6 @@ Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::
     return tree;
 }
 
-std::string inQuotes(std::string_view text)
-{
-    using nlohmann::json;
-    return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 std::string decimal(double value, int decimals)
 {
     std::string text = fmt::format("{:.{}f}", value, decimals);

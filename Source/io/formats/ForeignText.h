@@ -2,6 +2,8 @@
 
 // What readers and writers of other programs' texts share.
 
+#include "io/JsonText.h"
+
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 
@@ -24,9 +26,6 @@ inline constexpr std::size_t largestForeignText = std::size_t(64) << 20;
 
 /// The tree of a JSON file. Errors: as in foreignText() and readJsonTree().
 [[nodiscard]] Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings);
-
-/// `text` as a JSON string with its quotes; ill-formed UTF-8 becomes U+FFFD.
-[[nodiscard]] std::string inQuotes(std::string_view text);
 
 /// `value` in decimal, rounded to `decimals` digits after the point, without needless zeros; never `-0`.
 [[nodiscard]] std::string decimal(double value, int decimals);

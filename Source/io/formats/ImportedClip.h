@@ -2,7 +2,7 @@
 
 // What readers of several formats do on the way to a clip.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cstddef>
 #include <optional>

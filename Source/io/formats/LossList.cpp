@@ -1,9 +1,9 @@
 #include "io/formats/LossList.h"
 
 #include "io/formats/ForeignText.h"
-#include "io/formats/FormatLosses.h"
 
 #include <pacini/simplify/HatBasis.h>
+#include <pacini/synthesis/SingleVoice.h>
 
 #include <fmt/format.h>
 
@@ -16,14 +16,6 @@ namespace pacini
 
 namespace
 {
-double largestValue(const Curve& curve)
-{
-    double largest = 0.0;
-    for (const Breakpoint& point : curve)
-        largest = std::max(largest, point.value);
-    return largest;
-}
-
 std::string cutMessage(double most)
 {
     return fmt::format("amplitudes above {} are cut", decimal(most, 3));
@@ -33,14 +25,6 @@ std::string cutMessage(double most)
 void LossList::add(LossKind kind, double time, double duration, double error, std::string message)
 {
     losses.push_back({kind, time, duration, error, std::move(message)});
-}
-
-void LossList::addNoise(const Clip& clip)
-{
-    for (const NoiseBand& band : clip.noise)
-        addWhereItSounds(band, clip.duration,
-                         fmt::format("noise from {} to {} Hz is left out", decimal(band.lowFrequency, 0),
-                                     decimal(band.highFrequency, 0)));
 }
 
 void LossList::addMarkers(const Clip& clip)
@@ -59,47 +43,23 @@ void LossList::addText(const Clip& clip, bool keepsName)
                       : "the source and the encoder's parameters are left out");
 }
 
-void LossList::addNoiseInVoice(const Clip& clip)
+void LossList::addNoise(const Clip& clip, const std::string& message)
 {
     for (const NoiseBand& band : clip.noise)
-        addWhereItSounds(band, clip.duration, "residual noise becomes part of the voice");
-}
-
-void LossList::addWhereItSounds(const NoiseBand& band, double duration, const std::string& message)
-{
-    LossTrack track(LossKind::noise, message);
-    const Curve curve = detail::overWholeTime(band.amplitude, duration);
-    for (std::size_t i = 1; i < curve.size(); ++i)
     {
-        const double most = std::max(curve[i - 1].value, curve[i].value);
-        for (const double time : {curve[i - 1].time, curve[i].time})
-            track.add(time, curve[i].time > curve[i - 1].time && most > leastAmplitude ? most : 0.0);
+        LossTrack track(LossKind::noise,
+                        !message.empty() ? message
+                                         : fmt::format("noise from {} to {} Hz is left out",
+                                                       decimal(band.lowFrequency, 0), decimal(band.highFrequency, 0)));
+        const Curve curve = detail::overWholeTime(band.amplitude, clip.duration);
+        for (std::size_t i = 1; i < curve.size(); ++i)
+        {
+            const double most = std::max(curve[i - 1].value, curve[i].value);
+            for (const double time : {curve[i - 1].time, curve[i].time})
+                track.add(time, curve[i].time > curve[i - 1].time && most > leastAmplitude ? most : 0.0);
+        }
+        append(track);
     }
-    append(track);
-}
-
-void LossList::addOneVoice(const Clip& clip, const SingleVoice& voice)
-{
-    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; what is more than a third of an octave "
-                                                 "from it is played there",
-                                                 clip.bands.size()));
-    for (const Breakpoint& point : voice.displaced)
-        bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
-    append(bands);
-    addNoiseInVoice(clip);
-    addEmptyParts(voice);
-}
-
-void LossList::addStrengthOnly(const Clip& clip, const SingleVoice& voice)
-{
-    if (!clip.bands.empty())
-        add(LossKind::bands, 0.0, clip.duration, 0.0,
-            fmt::format("{} become a strength without frequency",
-                        clip.bands.size() == 1 ? "the band" : fmt::format("{} bands", clip.bands.size())));
-    for (const Transient& event : voice.events)
-        add(LossKind::event, event.time, 0.0, 0.0, "events become bursts without sharpness");
-    addNoiseInVoice(clip);
-    addEmptyParts(voice);
 }
 
 void LossList::addThinned(const Curve& before, const Curve& after)
@@ -143,32 +103,6 @@ void LossList::addCrowding(const std::vector<Transient>& events, double gap)
     for (std::size_t i = 1; i < events.size(); ++i)
         track.add(events[i].time, events[i].time - events[i - 1].time < gap ? events[i].amplitude : 0.0);
     append(track);
-}
-
-void LossList::addEmptyParts(const SingleVoice& voice)
-{
-    constexpr double shortest = 0.25; // s: less is the end of a decay
-    const Curve& curve = voice.amplitude;
-    double strongest = 0.0;
-    for (const Transient& event : voice.events)
-        strongest = std::max(strongest, event.amplitude);
-    if (std::max(strongest, largestValue(curve)) < leastAmplitude)
-        return add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
-                   "nothing here is strong enough to be felt");
-    std::size_t event = 0, end = 0;
-    for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
-    {
-        double peak = 0.0;
-        for (end = begin; end < curve.size() && curve[end].value < leastAmplitude; ++end)
-            peak = std::max(peak, curve[end].value);
-        const double from = curve[begin].time;
-        const double to = end == curve.size() ? voice.duration : end > begin ? curve[end - 1].time : from;
-        while (event < voice.events.size() && voice.events[event].time < from)
-            ++event;
-        const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
-        if (peak > 0.0 && to - from >= shortest && !hasEvent)
-            add(LossKind::empty, from, to - from, peak, "nothing here is strong enough to be felt");
-    }
 }
 
 std::vector<FormatLoss> LossList::sorted() &&

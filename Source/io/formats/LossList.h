@@ -1,17 +1,59 @@
 #pragma once
 
-// What a writer says about its losses.
+// What a format loses of a clip, found place by place.
 
-#include "io/formats/ForeignFormat.h"
-#include "io/formats/FormatLosses.h"
+#include "io/formats/ClipFormat.h"
 
-#include <pacini/synthesis/SingleVoice.h>
-
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini
 {
+
+/// Amplitudes below one step of 8 bits are not told from silence, nor errors below it from none: that is the finest
+/// that players of these formats show.
+inline constexpr double leastAmplitude = 1.0 / 255.0;
+
+/// Joins what is lost at times that only move forward into losses.
+class LossTrack
+{
+public:
+    LossTrack(LossKind lossKind, std::string lossMessage) : kind(lossKind), message(std::move(lossMessage)) {}
+
+    /// An error of `error` at `time`, or none where it is not above 0. What follows a loss without a place in between
+    /// where all is well, or less than 0.1 s after it, is part of it.
+    void add(double time, double error)
+    {
+        constexpr double nearest = 0.1; // s
+        if (!(error > 0.0))
+        {
+            well = true;
+            return;
+        }
+        if (losses.empty() || (well && time > losses.back().time + losses.back().duration + nearest))
+            losses.push_back({kind, time, 0.0, error, message});
+        losses.back().duration = time - losses.back().time;
+        losses.back().error = std::max(losses.back().error, error);
+        well = false;
+    }
+
+    /// Moves what was found to the end of `all`.
+    void appendTo(std::vector<FormatLoss>& all)
+    {
+        all.insert(all.end(), std::make_move_iterator(losses.begin()), std::make_move_iterator(losses.end()));
+        losses.clear();
+        well = true;
+    }
+
+private:
+    LossKind kind;
+    std::string message;
+    std::vector<FormatLoss> losses;
+    bool well = true; ///< since the last loss
+};
 
 /// Collects losses in any order.
 class LossList
@@ -23,20 +65,13 @@ public:
     /// What was found place by place.
     void append(LossTrack& track) { track.appendTo(losses); }
 
-    /// Residual noise, which is left out, where it sounds.
-    void addNoise(const Clip& clip);
+    /// Residual noise where it sounds: left out, or what `message` says of it.
+    void addNoise(const Clip& clip, const std::string& message = {});
 
     void addMarkers(const Clip& clip);
 
     /// Words that have no place, markers too; `keepsName`: the clip's name has one.
     void addText(const Clip& clip, bool keepsName);
-
-    /// What a clip loses on one voice but words: frequencies of others than the strongest band, noise, parts that are
-    /// too weak to be there.
-    void addOneVoice(const Clip& clip, const SingleVoice& voice);
-
-    /// What a clip loses as a strength without frequency and sharpness, words not.
-    void addStrengthOnly(const Clip& clip, const SingleVoice& voice);
 
     /// Where a curve (not empty) was left with too few points to show.
     void addThinned(const Curve& before, const Curve& after);
@@ -48,17 +83,10 @@ public:
     /// Events that follow one another faster than `gap` s.
     void addCrowding(const std::vector<Transient>& events, double gap);
 
-    /// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are
-    /// silent.
-    void addEmptyParts(const SingleVoice& voice);
-
     /// All of them by time; those of one kind and message that touch are one.
     [[nodiscard]] std::vector<FormatLoss> sorted() &&;
 
 private:
-    void addNoiseInVoice(const Clip& clip);
-    void addWhereItSounds(const NoiseBand& band, double duration, const std::string& message);
-
     std::vector<FormatLoss> losses;
 };
 

@@ -1,6 +1,6 @@
 #include "io/formats/RootCurve.h"
 
-#include "io/formats/FormatLosses.h"
+#include "io/formats/LossList.h"
 
 #include <algorithm>
 #include <cmath>

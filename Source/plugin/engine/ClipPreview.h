@@ -4,7 +4,7 @@
 // The clip that is edited in the plugin's window, heard in the place of the live drive.
 
 #include "document/HostedProject.h"
-#include "plugin/engine/Glide.h"
+#include "plugin/engine/GainRamp.h"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    Glide share; ///< of the clip
+    GainRamp share; ///< of the clip
     std::array<float, pieceFrames> haptic{}, left{}, right{};
 };
 

@@ -3,7 +3,7 @@
 
 // Where the haptic signal goes.
 
-#include "plugin/engine/Glide.h"
+#include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ public:
                 std::fill(channel.begin(), channel.end(), 0.0f);
             return;
         }
-        Glide gain = active;
+        GainRamp gain = active;
         if (!active.atRest())
             for (float& sample : drive)
                 sample *= active.next();
@@ -78,7 +78,7 @@ public:
 
 private:
     /// The drive, which is faded already, in the place of the sound.
-    static void put(std::span<float> to, std::span<const float> drive, Glide gain) noexcept
+    static void put(std::span<float> to, std::span<const float> drive, GainRamp gain) noexcept
     {
         if (gain.atRest())
         {
@@ -90,7 +90,7 @@ private:
     }
 
     /// The mean of all channels in the first.
-    static void fold(std::span<const std::span<float>> main, Glide gain) noexcept
+    static void fold(std::span<const std::span<float>> main, GainRamp gain) noexcept
     {
         const float share = 1.0f / static_cast<float>(main.size());
         for (std::size_t i = 0; i < main[0].size(); ++i)
@@ -102,7 +102,7 @@ private:
         }
     }
 
-    Glide active;
+    GainRamp active;
     OutputMode mode = OutputMode::separate;
     std::size_t chosen = 0;
     bool begun = false;

@@ -14,7 +14,7 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels)
     mix.prepare(sampleRate);
     routing.prepare(sampleRate);
     preview.prepare(sampleRate);
-    delay.prepare(std::min(mainChannels, mostMainChannels), translator.latencyFrames());
+    delay.prepare(std::min(mainChannels, maxMainChannels), translator.latencyFrames());
     const auto ringFrames = static_cast<std::size_t>(captureSeconds * std::min(sampleRate, 96000.0));
     if (ring.capacityFrames() == ringFrames)
         ring.reset();
@@ -38,9 +38,9 @@ void LiveEngine::process(const EngineBlock& block, const ParameterValues& values
     routing.aim(static_cast<OutputMode>(values.index(ParameterId::outputMode)),
                 values.index(ParameterId::outputChannel) - 1, bypassed || values.isOn(ParameterId::bypass));
 
-    std::array<std::span<float>, mostMainChannels> main;
-    std::array<std::span<const float>, mostSidechainChannels> sidechain;
-    std::array<std::span<float>, mostHapticChannels> haptic;
+    std::array<std::span<float>, maxMainChannels> main;
+    std::array<std::span<const float>, maxSidechainChannels> sidechain;
+    std::array<std::span<float>, maxHapticChannels> haptic;
     const std::size_t mains = std::min(block.main.size(), main.size());
     const std::size_t sides = std::min(block.sidechain.size(), sidechain.size());
     const std::size_t haptics = std::min(block.haptic.size(), haptic.size());

@@ -21,9 +21,9 @@
 namespace pacini::plugin
 {
 
-inline constexpr std::size_t mostMainChannels = 16;
-inline constexpr std::size_t mostSidechainChannels = 8;
-inline constexpr std::size_t mostHapticChannels = 8;
+inline constexpr std::size_t maxMainChannels = 16;
+inline constexpr std::size_t maxSidechainChannels = 8;
+inline constexpr std::size_t maxHapticChannels = 8;
 inline constexpr double captureSeconds = 30.0;
 
 /// The channels of one block. Main goes in and comes out in place. A haptic channel may lie in the memory of a

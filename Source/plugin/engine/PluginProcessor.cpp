@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/engine/PluginProcessor.h"
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
 #include "plugin/engine/ParameterText.h"
 
@@ -46,7 +46,7 @@ PluginProcessor::PluginProcessor()
         table[static_cast<std::size_t>(row.parameter)] = made.get();
         addParameter(made.release());
     }
-    applied = shelfProfile(0);
+    applied = builtInProfile(0);
     engine.setSetup(setupFor(applied));
     engine.setClips(&clips);
     worker->add(*this);
@@ -64,10 +64,10 @@ bool PluginProcessor::isBusesLayoutSupported(const BusesLayout& layout) const
         return set.size() <= static_cast<int>(most);
     };
     const Layout main = layout.getMainInputChannelSet();
-    if (main.isDisabled() || main != layout.getMainOutputChannelSet() || !within(main, mostMainChannels))
+    if (main.isDisabled() || main != layout.getMainOutputChannelSet() || !within(main, maxMainChannels))
         return false;
-    return within(layout.getChannelSet(true, sidechainBus), mostSidechainChannels) &&
-           within(layout.getChannelSet(false, hapticBus), mostHapticChannels);
+    return within(layout.getChannelSet(true, sidechainBus), maxSidechainChannels) &&
+           within(layout.getChannelSet(false, hapticBus), maxHapticChannels);
 }
 
 void PluginProcessor::prepareToPlay(double newRate, int)
@@ -104,9 +104,9 @@ void PluginProcessor::process(juce::AudioBuffer<float>& buffer, bool bypassed) n
         catchUp();
 
     // One buffer holds inputs and outputs: a channel may be the sidechain and the haptic output at once.
-    std::array<float*, mostMainChannels> main{};
-    std::array<const float*, mostSidechainChannels> sidechain{};
-    std::array<float*, mostHapticChannels> haptic{};
+    std::array<float*, maxMainChannels> main{};
+    std::array<const float*, maxSidechainChannels> sidechain{};
+    std::array<float*, maxHapticChannels> haptic{};
     const auto gather = [&](bool isInput, int bus, auto& channels) noexcept -> std::size_t
     {
         if (bus >= getBusCount(isInput))
@@ -153,7 +153,7 @@ void PluginProcessor::catchUp()
     if (slot == appliedSlot)
         return;
     appliedSlot = slot;
-    applied = slot == ownProfileSlot ? ownProfile : shelfProfile(slot);
+    applied = slot == ownProfileSlot ? ownProfile : builtInProfile(slot);
     engine.setSetup(setupFor(applied));
 }
 
@@ -189,7 +189,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     {
         const juce::ScopedLock lock(setupLock);
         const std::size_t slot = state.values.index(ParameterId::profile);
-        if (state.profile && slot != ownProfileSlot && state.profile != shelfProfile(slot))
+        if (state.profile && slot != ownProfileSlot && state.profile != builtInProfile(slot))
         {
             // A session keeps the actuator that it was made with.
             state.values.set(ParameterId::profile, static_cast<double>(ownProfileSlot));

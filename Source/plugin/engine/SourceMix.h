@@ -3,7 +3,7 @@
 
 // The one sound that is turned into touch.
 
-#include "plugin/engine/Glide.h"
+#include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ public:
 
 private:
     template <typename Sample>
-    static void add(std::span<const std::span<Sample>> in, Glide& gain, std::span<float> out) noexcept
+    static void add(std::span<const std::span<Sample>> in, GainRamp& gain, std::span<float> out) noexcept
     {
         if (in.empty())
             return;
@@ -83,7 +83,7 @@ private:
         }
     }
 
-    Glide main, side;
+    GainRamp main, side;
     bool begun = false;
 };
 

@@ -120,7 +120,7 @@ void CapturePanel::save(const juce::File& chosen)
     const bool packed = chosen.hasFileExtension("pacb");
     const juce::File target = packed || chosen.hasFileExtension("json") ? chosen : chosen.withFileExtension("json");
     const auto written =
-        writeClip(target.getFullPathName().toStdString(), *clip, packed ? ClipFormat::packed : ClipFormat::json);
+        writeClip(target.getFullPathName().toStdString(), *clip, packed ? packedFormat() : jsonFormat());
     if (!written)
         say("Not saved: " + juce::String(written.error().text()), true);
 }

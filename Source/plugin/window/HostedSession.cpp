@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/HostedSession.h"
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 
 #include <utility>
 
@@ -32,7 +32,7 @@ Session& HostedSession::session()
 {
     if (!open)
     {
-        open = std::make_unique<Session>(editor::EditorModel::Folders{}, shelfProfiles());
+        open = std::make_unique<Session>(editor::EditorModel::Folders{}, builtInProfiles());
         subscriptions.on({&open->model.projectChanged}, [this] { hosted.keep(open->model.document().project()); });
         hosted.setPlayer(&open->player);
         update();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/PluginWindow.h"
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 
 #include <cmath>
 
@@ -231,7 +231,7 @@ void PluginWindow::showClips(bool wanted)
 {
     if (wanted && !clipView)
     {
-        clipView = std::make_unique<editor::EditorView>(processor.clips().session(), editor::Surroundings{});
+        clipView = std::make_unique<editor::EditorView>(processor.clips().session(), editor::HostServices{});
         clipView->setDark(look.isDark());
         clipView->setExplicitFocusOrder(++focusOrder);
         addChildComponent(*clipView);

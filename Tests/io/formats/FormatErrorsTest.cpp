@@ -16,7 +16,7 @@ struct Broken
     std::string from, to, where;
 };
 
-void checkBroken(const ForeignFormat& format, const std::string& sample, const std::vector<Broken>& all)
+void checkBroken(const ClipFormat& format, const std::string& sample, const std::vector<Broken>& all)
 {
     for (const Broken& broken : all)
     {
@@ -34,7 +34,7 @@ void checkBroken(const ForeignFormat& format, const std::string& sample, const s
 }
 
 /// What is broken in any text file.
-void checkBrokenText(const ForeignFormat& format, const std::string& sample)
+void checkBrokenText(const ClipFormat& format, const std::string& sample)
 {
     CAPTURE(format.name);
     const auto marked = format.read("\xEF\xBB\xBF" + sample);
@@ -54,7 +54,7 @@ void checkBrokenText(const ForeignFormat& format, const std::string& sample)
         (void)format.read(std::string_view(sample).substr(0, length)); // any end is an error or a shorter file
 }
 
-void checkBrokenJson(const ForeignFormat& format, const std::string& sample)
+void checkBrokenJson(const ClipFormat& format, const std::string& sample)
 {
     checkBrokenText(format, sample);
     for (const std::string& text :
@@ -72,8 +72,8 @@ void checkBrokenJson(const ForeignFormat& format, const std::string& sample)
 TEST_CASE("Broken HJIF is refused with its place", "[formats]")
 {
     const std::string channel = "perceptions[0].channels[0]";
-    checkBrokenJson(hjifFormat(), test::hjifSample());
-    checkBroken(hjifFormat(), test::hjifSample(),
+    checkBrokenJson(*clipFormatNamed("hjif"), test::hjifSample());
+    checkBroken(*clipFormatNamed("hjif"), test::hjifSample(),
                 {{R"("version": "2023")", R"("version": 2023)", "version"},
                  {R"("version": "2023")", R"("version": "1.0")", "version"},
                  {R"("version": "2023", )", "", "version"},
@@ -110,7 +110,7 @@ TEST_CASE("Broken wavelet bands of HJIF are refused with their place", "[formats
     for (int i = 0; i < 600; ++i)
         longest += ", " + block;
     checkBroken(
-        hjifFormat(), sample,
+        *clipFormatNamed("hjif"), sample,
         {{R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 8000.5)", band + ".upper_frequency_limit"},
          {R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 400001)", band},
          {R"("upper_frequency_limit": 8000)", R"("upper_frequency_limit": 0)", band + ".upper_frequency_limit"},
@@ -146,8 +146,8 @@ TEST_CASE("What HJIF players let pass is read with a warning", "[formats]")
 TEST_CASE("Broken vibration effects are refused with their place", "[formats]")
 {
     const std::string waveform = test::androidWaveformSample();
-    checkBrokenJson(androidJsonFormat(), waveform);
-    checkBroken(androidJsonFormat(), waveform,
+    checkBrokenJson(*clipFormatNamed("android"), waveform);
+    checkBroken(*clipFormatNamed("android"), waveform,
                 {{"100, 30", "100", "waveform.amplitudes"},
                  {"100, 30", "100, -30", "waveform.timings[1]"},
                  {"100, 30", "100, 30.5", "waveform.timings[1]"},
@@ -160,8 +160,8 @@ TEST_CASE("Broken vibration effects are refused with their place", "[formats]")
     {
         const std::string list = std::string(isBasic ? "basicEnvelope" : "waveformEnvelope") + ".controlPoints";
         const std::string level = isBasic ? "intensity" : "amplitude";
-        checkBrokenJson(androidJsonFormat(), test::androidEnvelopeSample(isBasic));
-        checkBroken(androidJsonFormat(), test::androidEnvelopeSample(isBasic),
+        checkBrokenJson(*clipFormatNamed("android"), test::androidEnvelopeSample(isBasic));
+        checkBroken(*clipFormatNamed("android"), test::androidEnvelopeSample(isBasic),
                     {{"\"durationMs\": 7", "\"durationMs\": 0", list + "[1].durationMs"},
                      {"\"durationMs\": 7", "\"durationMs\": 7.5", list + "[1].durationMs"},
                      {", \"durationMs\": 7", "", list + "[1].durationMs"},
@@ -173,8 +173,8 @@ TEST_CASE("Broken vibration effects are refused with their place", "[formats]")
 TEST_CASE("A broken .haps file is refused with its place", "[formats]")
 {
     const std::string note = "m_vibration.m_melodies[1].m_notes[0]";
-    checkBrokenJson(hapsFormat(), test::hapsSample());
-    checkBroken(hapsFormat(), test::hapsSample(),
+    checkBrokenJson(*clipFormatNamed("haps"), test::hapsSample());
+    checkBroken(*clipFormatNamed("haps"), test::hapsSample(),
                 {{R"("m_version": "5")", R"("m_version": "6")", "m_version"},
                  {R"("m_version": "5", )", "", "m_version"},
                  {R"("m_vibration")", R"("vibration")", "m_vibration"},
@@ -197,8 +197,8 @@ TEST_CASE("A broken .tact file is refused with its place", "[formats]")
 {
     const std::string effect = "project.tracks[0].effects[0]";
     const std::string dots = effect + ".modes.VestFront.dotMode.feedback";
-    checkBrokenJson(tactFormat(), test::tactSample());
-    checkBroken(tactFormat(), test::tactSample(),
+    checkBrokenJson(*clipFormatNamed("tact"), test::tactSample());
+    checkBroken(*clipFormatNamed("tact"), test::tactSample(),
                 {{R"("project")", R"("projects")", "project"},
                  {R"("startTime": 40)", R"("startTime": -40)", effect + ".startTime"},
                  {R"("startTime": 40, )", "", effect + ".startTime"},
@@ -211,8 +211,8 @@ TEST_CASE("A broken .tact file is refused with its place", "[formats]")
 
 TEST_CASE("A broken table is refused with its line and column", "[formats]")
 {
-    checkBrokenText(csvFormat(), test::csvSample());
-    checkBroken(csvFormat(), test::csvSample(),
+    checkBrokenText(*clipFormatNamed("csv"), test::csvSample());
+    checkBroken(*clipFormatNamed("csv"), test::csvSample(),
                 {{"time,", "when,", "line 1, column 1"},
                  {"time,", "envelope,", "line 1, column 2"},
                  {"30 50 80", "30 90 80", "line 1, column 3"},

@@ -2,7 +2,7 @@
 // PACINI_SOUNDS names a folder, for the sounds there: pacini_tests "[formatquality]"
 
 #include "io/formats/DemoSounds.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/ahap/AhapFormat.h"
 #include "io/formats/android/AndroidFormat.h"
 #include "io/formats/haps/HapsFormat.h"
@@ -180,13 +180,13 @@ Lost lostOver(const std::vector<test::DemoSound>& sounds, const char* title, con
     return lost;
 }
 
-/// Compares over all demo sounds; `most` points of HTS may be lost on the mean, `mostOfOne` on each.
-void compareAll(const char* title, const Render& own, const Render& exported, double most, double mostOfOne)
+/// Compares over all demo sounds; `most` points of HTS may be lost on the mean, `maxOfOne` on each.
+void compareAll(const char* title, const Render& own, const Render& exported, double most, double maxOfOne)
 {
     const Lost lost = lostOver(test::demoSounds(), title, own, exported);
     CAPTURE(title, lost.worst);
     CHECK(lost.mean < most);
-    CHECK(lost.most <= mostOfOne);
+    CHECK(lost.most <= maxOfOne);
     if (const char* folder = std::getenv("PACINI_SOUNDS"))
     {
         static const std::vector<test::DemoSound> others = test::soundsIn(folder);

@@ -258,5 +258,5 @@ TEST_CASE("A silent wavelet band is a silent clip of its length", "[formats]")
     const ImportedClip read = readBands(waveletBand(std::vector<double>(2048)), 0.25);
     CHECK(read.clip.duration == 0.25);
     CHECK(read.clip.transients.empty());
-    REQUIRE(hjifFormat().write(read.clip, {}));
+    REQUIRE(clipFormatNamed("hjif")->write(read.clip, {}));
 }

@@ -1,8 +1,8 @@
 // What ends an imported clip is felt too.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 #include "io/formats/ImportedClip.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/samples/DriveSamples.h"
 #include "support/Catch.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST_CASE("A clip that is imported lasts until its last event has sounded", "[io
     for (const Sample& sample : samples)
     {
         CAPTURE(sample.format, sample.text);
-        const auto read = foreignFormatNamed(sample.format)->read(sample.text);
+        const auto read = clipFormatNamed(sample.format)->read(sample.text);
         REQUIRE((read.ok() ? "" : read.error().text()) == "");
         REQUIRE(read->clip.transients.size() == 1);
         CHECK(read->clip.duration > 0.305);
@@ -60,12 +60,12 @@ TEST_CASE("A clip that is imported lasts until its last event has sounded", "[io
 TEST_CASE("Clips that end with an event do not grow from one export to the next", "[io][formats]")
 {
     for (const Sample& sample : samples)
-        for (const ForeignFormat& format : foreignFormats())
+        for (const ClipFormat& format : clipFormats())
         {
-            if (format.read == nullptr || format.write == nullptr || format.name == "tact")
+            if (!format.isRead() || !format.isWritten() || format.name == "tact")
                 continue;
             CAPTURE(sample.format, format.name);
-            Clip clip = foreignFormatNamed(sample.format)->read(sample.text)->clip;
+            Clip clip = clipFormatNamed(sample.format)->read(sample.text)->clip;
             const auto once = format.read(format.write(clip, {})->files[0].bytes);
             REQUIRE(once.ok());
             clip = once->clip;

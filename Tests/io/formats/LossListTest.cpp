@@ -1,5 +1,6 @@
 #include "io/formats/LossList.h"
 
+#include "io/formats/VoiceReduction.h"
 #include "support/Catch.h"
 
 #include <functional>
@@ -45,7 +46,7 @@ TEST_CASE("A part too weak to be felt is empty, a short one and one with an even
     voice.amplitude = {{0.0, 0.5},   {1.0, 0.5},   {1.0, 0.001}, {1.2, 0.001}, {1.2, 0.5},   {2.0, 0.5},
                        {2.0, 0.001}, {3.0, 0.001}, {3.0, 0.5},   {4.0, 0.5},   {4.0, 0.001}, {6.0, 0.001}};
     voice.events = {{2.5, 0.7, 0.5}};
-    const auto losses = lossesOf([&](LossList& list) { list.addEmptyParts(voice); });
+    const auto losses = lossesOf([&](LossList& list) { addEmptyParts(list, voice); });
     REQUIRE(losses.size() == 1);
     CHECK(losses[0].kind == LossKind::empty);
     CHECK(losses[0].time == 4.0);
@@ -58,9 +59,9 @@ TEST_CASE("Silence that is meant is no loss, but a clip of nothing else is", "[f
     SingleVoice voice;
     voice.duration = 3.0;
     voice.amplitude = {{0.0, 0.5}, {1.0, 0.0}, {2.0, 0.0}, {3.0, 0.5}};
-    CHECK(lossesOf([&](LossList& list) { list.addEmptyParts(voice); }).empty());
+    CHECK(lossesOf([&](LossList& list) { addEmptyParts(list, voice); }).empty());
     voice.amplitude = {{0.0, 0.0}, {3.0, 0.0}};
-    const auto losses = lossesOf([&](LossList& list) { list.addEmptyParts(voice); });
+    const auto losses = lossesOf([&](LossList& list) { addEmptyParts(list, voice); });
     REQUIRE(losses.size() == 1);
     CHECK(losses[0].duration == 3.0);
 }
@@ -120,7 +121,7 @@ TEST_CASE("Events that lose the same are one loss, from the first to the last", 
     voice.duration = 1.0;
     voice.amplitude = {{0.0, 0.5}, {1.0, 0.5}};
     voice.events = {{0.25, 1.0, 0.5}, {0.5, 0.6, 0.5}, {0.75, 1.0, 0.5}};
-    const auto losses = lossesOf([&](LossList& list) { list.addStrengthOnly({}, voice); });
+    const auto losses = lossesOf([&](LossList& list) { addStrengthLosses(list, {}, voice); });
     REQUIRE(losses.size() == 1);
     CHECK(losses[0].kind == LossKind::event);
     CHECK(losses[0].time == 0.25);

@@ -1,7 +1,7 @@
 // Files as other programs really write them: read with a warning where their own players do.
 
-#include "io/AnyClip.h"
-#include "io/formats/ForeignFormat.h"
+#include "io/ClipFile.h"
+#include "io/formats/ClipFormat.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/haptic/HapticFormat.h"
 #include "support/Catch.h"
@@ -20,7 +20,7 @@ namespace
 {
 ImportedClip readAs(const char* format, const std::string& text)
 {
-    auto read = foreignFormatNamed(format)->read(text);
+    auto read = clipFormatNamed(format)->read(text);
     INFO((read.ok() ? "" : read.error().text()));
     REQUIRE(read.ok());
     return std::move(*read);
@@ -28,7 +28,7 @@ ImportedClip readAs(const char* format, const std::string& text)
 
 std::string errorOf(const char* format, const std::string& text)
 {
-    const auto read = foreignFormatNamed(format)->read(text);
+    const auto read = clipFormatNamed(format)->read(text);
     return read.ok() ? "" : read.error().text();
 }
 
@@ -157,9 +157,9 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     CHECK(errorOf("hasp", hasp(haspClip("Door", -1.0)))
               .starts_with("clips[0].haptic.signals.continuous.envelopes.amplitude[1].time: is before 0"));
     // By its content it is told from a clip whatever it is called.
-    CHECK(foreignFormatOf(".json", hasp(haspClip("Door")))->name == "hasp");
-    CHECK(foreignFormatOf(".haptic", hasp(haspClip("Door")))->name == "hasp");
-    CHECK(foreignFormatOf(".vij", corpus("vij/everything"))->name == "vij");
+    CHECK(clipFormatOf(".json", hasp(haspClip("Door")))->name == "hasp");
+    CHECK(clipFormatOf(".haptic", hasp(haspClip("Door")))->name == "hasp");
+    CHECK(clipFormatOf(".vij", corpus("vij/everything"))->name == "vij");
 }
 
 TEST_CASE("A pair of files that Haptics Studio exports is one clip", "[io][formats]")
@@ -169,7 +169,7 @@ TEST_CASE("A pair of files that Haptics Studio exports is one clip", "[io][forma
         "EventType": "HapticContinuous", "EventDuration": 0.5}}]})";
     std::ofstream(folder / "door.transients.ahap") << R"({"Version": 1, "Pattern": [{"Event": {"Time": 0.5,
         "EventType": "HapticTransient"}}]})";
-    const auto read = readAnyClip(folder / "door.continuous.ahap");
+    const auto read = readClip(folder / "door.continuous.ahap");
     REQUIRE(read.ok());
     CHECK(read->clip.transients.size() == 1);
     REQUIRE(read->clip.bands.size() == 1);

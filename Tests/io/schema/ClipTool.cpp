@@ -12,7 +12,7 @@ int main(int argc, char** argv)
         // The first is the emptiest clip, the last is long.
         const auto clip =
             number == 0 ? Clip{} : test::randomFullClip(static_cast<std::uint64_t>(number), number == 19 ? 2000 : 5);
-        return writeClip(path, clip, ClipFormat::json);
+        return writeClip(path, clip, jsonFormat());
     };
     return test::documentTool(argc, argv, writeSample, [](std::string_view text) { return readClipJson(text); });
 }

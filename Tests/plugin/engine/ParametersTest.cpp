@@ -1,6 +1,6 @@
 // The table of parameters, and values as text.
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
 #include "plugin/engine/ParameterText.h"
 #include "plugin/engine/Rig.h"
@@ -125,7 +125,7 @@ TEST_CASE("Every shipped profile has a slot with its content, and only those")
     {
         CAPTURE(slot);
         const std::string name(profileNameOf(slot));
-        const auto profile = shelfProfile(slot);
+        const auto profile = builtInProfile(slot);
         REQUIRE(profile.has_value() == !name.empty());
         if (!profile)
             continue;

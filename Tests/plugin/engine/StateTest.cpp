@@ -1,6 +1,6 @@
 // What sessions keep.
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 #include "io/ProfileFile.h"
 #include "plugin/engine/Rig.h"
 #include "support/Paths.h"
@@ -84,7 +84,7 @@ TEST_CASE("An actuator from a file is kept by its content")
 
 TEST_CASE("A session keeps its actuator although the shipped one has changed since")
 {
-    auto older = shelfProfile(1);
+    auto older = builtInProfile(1);
     REQUIRE(older);
     older->range.highFrequency -= 100.0;
     PluginState state;

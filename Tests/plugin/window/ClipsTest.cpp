@@ -37,7 +37,7 @@ void addClip(WindowRig& rig, const Clip& clip)
 {
     editor::Imported imported;
     imported.clip = clip;
-    rig.plugin.clips().session().add(std::move(imported));
+    rig.plugin.clips().session().sounds.add(std::move(imported));
 }
 
 Channels silence(std::size_t frames)
@@ -68,12 +68,12 @@ TEST_CASE("A clip that plays in the window takes the place of the live drive unt
     (void)rig.run(silence(96000)); // it dies away
     addClip(rig, toneClip(3.0));
     auto& session = rig.plugin.clips().session();
-    session.play();
+    session.transport.play();
     const double played = energyOfPreview(rig);
     CHECK(played == Approx(0.125 * 48000.0).epsilon(0.1)); // a sine of amplitude 0.5
     const auto during = rig.run(sound);
     CHECK(energy(during.haptic[0]) == Approx(played).epsilon(0.1)); // and nothing of the live drive
-    session.stop();
+    session.transport.stop();
     (void)rig.run(sound);
     CHECK(energy(rig.run(sound).haptic[0]) == Approx(live).epsilon(0.05));
 }
@@ -83,7 +83,7 @@ TEST_CASE("The sound passes untouched while a clip plays")
     const juce::ScopedJuceInitialiser_GUI gui;
     WindowRig rig;
     addClip(rig, toneClip(3.0));
-    rig.plugin.clips().session().play();
+    rig.plugin.clips().session().transport.play();
     REQUIRE(energyOfPreview(rig) > 0.0);
     rig.plugin.reset();
     const auto in = liveSounds(2, 24000, 9);
@@ -104,8 +104,8 @@ TEST_CASE("The clips of the window are kept with the session")
         CHECK(state.toString().contains("\"clips\"") == false);
         addClip(rig, toneClip(2.0));
         auto& session = rig.plugin.clips().session();
-        REQUIRE(session.edit("Gain", GainEdit{session.scope(), -6.0}));
-        edited = *session.clip();
+        REQUIRE(session.model.edit("Gain", GainEdit{session.clipSelection.scope(), -6.0}));
+        edited = *session.model.clip();
         state.reset();
         rig.plugin.getStateInformation(state);
     }
@@ -115,14 +115,14 @@ TEST_CASE("The clips of the window are kept with the session")
     juce::MemoryBlock again; // before anyone looks at the clips
     second.plugin.getStateInformation(again);
     CHECK(again == state);
-    REQUIRE(second.plugin.clips().session().clip());
-    CHECK(*second.plugin.clips().session().clip() == edited);
+    REQUIRE(second.plugin.clips().session().model.clip());
+    CHECK(*second.plugin.clips().session().model.clip() == edited);
 
     WindowRig broken;
     auto text = state.toString().replace("pacini.project", "something else");
     broken.plugin.setStateInformation(text.toRawUTF8(), static_cast<int>(text.getNumBytesAsUTF8()));
     CHECK(broken.plugin.note().contains("clips"));
-    CHECK_FALSE(broken.plugin.clips().session().clip());
+    CHECK_FALSE(broken.plugin.clips().session().model.clip());
 }
 
 TEST_CASE("Playing a clip makes no heap traffic on the audio thread, nor does another rate stop the sound")
@@ -131,7 +131,7 @@ TEST_CASE("Playing a clip makes no heap traffic on the audio thread, nor does an
     WindowRig rig;
     addClip(rig, toneClip(60.0));
     auto& session = rig.plugin.clips().session();
-    session.play();
+    session.transport.play();
     REQUIRE(energyOfPreview(rig) > 0.0);
     juce::AudioBuffer<float> buffer(3, 256);
     juce::MidiBuffer midi;
@@ -140,14 +140,14 @@ TEST_CASE("Playing a clip makes no heap traffic on the audio thread, nor does an
     {
         buffer.clear();
         if (block % 50 == 0)
-            session.edit("Gain", GainEdit{session.scope(), block % 100 == 0 ? -3.0 : 3.0});
+            session.model.edit("Gain", GainEdit{session.clipSelection.scope(), block % 100 == 0 ? -3.0 : 3.0});
         const HeapGuard guard;
         rig.plugin.processBlock(buffer, midi);
         traffic += guard.traffic();
     }
     CHECK(traffic == 0);
     rig.plugin.prepareToPlay(44100.0, 256);
-    session.play();
+    session.transport.play();
     CHECK(energyOfPreview(rig) > 0.0);
 }
 

@@ -23,7 +23,7 @@ juce::PopupMenu recentProjects(EditorView& view)
 juce::PopupMenu demoSounds(EditorView& view)
 {
     juce::PopupMenu menu;
-    for (const auto& file : view.surroundings().demoSounds)
+    for (const auto& file : view.hostServices().demoSounds)
         menu.addItem(pathText(file.stem()).replaceCharacter('_', ' '), [&view, file] { view.files().open({file}); });
     return menu;
 }
@@ -64,8 +64,8 @@ Menu fileMenu(EditorView& view)
         {.id = openDemo,
          .name = "Open a demo sound",
          .help = "Opens one of the sounds that come with Pacini",
-         .run = [&view] { view.files().open({view.surroundings().demoSounds.front()}); },
-         .can = [&view] { return !view.surroundings().demoSounds.empty(); },
+         .run = [&view] { view.files().open({view.hostServices().demoSounds.front()}); },
+         .can = [&view] { return !view.hostServices().demoSounds.empty(); },
          .choices =
              [&view]
          {
@@ -109,11 +109,11 @@ Menu fileMenu(EditorView& view)
                             .can = [&view] { return view.session().sounds.workNow().has_value(); },
                             .keys = {juce::KeyPress(juce::KeyPress::escapeKey)},
                             .lineBefore = true});
-    if (view.surroundings().quit)
+    if (view.hostServices().quit)
         menu.actions.push_back({.id = quit,
                                 .name = "Quit",
                                 .help = "Closes the program",
-                                .run = [&view] { view.surroundings().quit(); },
+                                .run = [&view] { view.hostServices().quit(); },
                                 .keys = {ctrl('q')},
                                 .lineBefore = true});
     return menu;

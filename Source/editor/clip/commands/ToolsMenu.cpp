@@ -16,17 +16,17 @@ Menu toolsMenu(EditorView& view)
          .name = "Measure an actuator...",
          .help = "Finds the response of an actuator with a sensor, flattens it and saves it as a profile",
          .run =
-             [&view, desk = std::make_shared<std::shared_ptr<MeasureDesk>>()]
+             [&view, desk = std::make_shared<std::shared_ptr<MeasurementController>>()]
          {
              if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)
                  return; // a desk has one page
 
              // Made when it is first needed, and kept: the page may be closed and opened again.
-             const Surroundings& around = view.surroundings();
+             const HostServices& around = view.hostServices();
              if (!*desk)
-                 *desk =
-                     std::make_shared<MeasureDesk>(view.session().actuators, view.session().transport,
-                                                   MeasureDesk::Surroundings{around.measureRig, around.profileFolder});
+                 *desk = std::make_shared<MeasurementController>(
+                     view.session().actuators, view.session().transport,
+                     MeasurementController::HostServices{around.measureRig, around.profileFolder});
              view.showSheet(std::make_unique<MeasurePage>(*desk, around.showDevices));
          }},
     };

@@ -226,11 +226,11 @@ Menu viewMenu(EditorView& view)
                             .run = [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); },
                             .keys = {ctrl(',')},
                             .lineBefore = true});
-    if (view.surroundings().showDevices)
+    if (view.hostServices().showDevices)
         menu.actions.push_back({.id = soundDevices,
                                 .name = "Sound devices...",
                                 .help = "Chooses the device and its outputs",
-                                .run = [&view] { view.surroundings().showDevices(); },
+                                .run = [&view] { view.hostServices().showDevices(); },
                                 .lineBefore = true});
     return menu;
 }

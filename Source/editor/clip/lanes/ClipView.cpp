@@ -108,7 +108,8 @@ private:
                          juce::Justification::centred, 1);
     }
 
-    Session& session;
+    const EditorModel& model;
+    const ViewState& viewState;
 
     [[nodiscard]] juce::Rectangle<int> strip() const { return {playhead - 6, 0, 13, getHeight()}; }
 

@@ -15,10 +15,10 @@ namespace pacini::editor
 
 namespace
 {
-constexpr float pickRadius = 7.0f;          // pixels
-constexpr double pixelsForHandles = 5.0;    // a point, on average
-constexpr float straightPixels = 8.0f;      // of a line that bends
-constexpr double mostPointsPerColumn = 0.2; // on average; more are drawn as bars
+constexpr float pickRadius = 7.0f;         // pixels
+constexpr double pixelsForHandles = 5.0;   // a point, on average
+constexpr float straightPixels = 8.0f;     // of a line that bends
+constexpr double maxPointsPerColumn = 0.2; // on average; more are drawn as bars
 
 /// Points from `first` to behind `last` whose lines reach into a stretch of time.
 std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range)
@@ -39,8 +39,7 @@ std::pair<std::size_t, std::size_t> reaching(const Curve& curve, TimeRange range
 constexpr double lineReach = 7.0; // pixels
 } // namespace
 
-CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing,
-                     Lane first)
+CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Lane first)
     : PlotLane(project, selected, sight, playing), shown(first), pitchButton("Hz"), soloButton("S"), muteButton("M")
 {
     const auto clip = model.clip();
@@ -188,7 +187,7 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
     // By the whole view, so that every part of it is drawn alike.
     const double width = viewState.viewWidth();
     const auto [firstSeen, lastSeen] = reaching(*points, viewState.axis().visible(width));
-    const bool bars = static_cast<double>(lastSeen - firstSeen) > mostPointsPerColumn * width;
+    const bool bars = static_cast<double>(lastSeen - firstSeen) > maxPointsPerColumn * width;
     if (bars || filled)
     {
         // Bars of whole pixels are many times faster than filled paths.

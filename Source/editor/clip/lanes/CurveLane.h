@@ -13,7 +13,7 @@ namespace pacini::editor
 class CurveLane final : public PlotLane
 {
 public:
-    CurveLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing, Lane first);
+    CurveLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Lane first);
 
     [[nodiscard]] Lane lane() const noexcept { return shown; }
 

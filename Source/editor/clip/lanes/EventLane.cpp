@@ -32,8 +32,7 @@ juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
 }
 } // namespace
 
-EventLane::EventLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing,
-                     Shows wanted)
+EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Shows wanted)
     : PlotLane(project, selected, sight, playing), shows(wanted)
 {
     setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");

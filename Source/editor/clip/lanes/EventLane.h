@@ -16,7 +16,7 @@ public:
         amplitude,
         sharpness
     };
-    EventLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing, Shows wanted);
+    EventLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing, Shows wanted);
 
     void addInside(Selection& selection, juce::Rectangle<float> area) const override;
 

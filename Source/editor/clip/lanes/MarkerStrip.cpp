@@ -16,7 +16,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr double mostWidth = 160.0; // pixels of a name
+constexpr double maxWidth = 160.0; // pixels of a name
 constexpr double flagWidth = 7.0;
 constexpr double pickBefore = 4.0; // pixels left of a flag
 constexpr int leastText = 14;
@@ -47,7 +47,7 @@ void MarkerStrip::paint(juce::Graphics& g)
     if (!clip)
         return;
     g.reduceClipRegion(plot);
-    for (const MarkerLabel& label : markerLabels(clip->markers, viewState.axis(), plot.getWidth(), mostWidth))
+    for (const MarkerLabel& label : markerLabels(clip->markers, viewState.axis(), plot.getWidth(), maxWidth))
     {
         const auto x = static_cast<float>(plot.getX() + label.x);
         juce::Path flag;
@@ -72,8 +72,7 @@ std::optional<std::size_t> MarkerStrip::markerAt(juce::Point<float> place) const
     const double x = static_cast<double>(place.x) - laneHeadWidth;
     if (!clip || x < -pickBefore)
         return found;
-    for (const MarkerLabel& label :
-         markerLabels(clip->markers, viewState.axis(), getWidth() - laneHeadWidth, mostWidth))
+    for (const MarkerLabel& label : markerLabels(clip->markers, viewState.axis(), getWidth() - laneHeadWidth, maxWidth))
         if (x >= label.x - pickBefore && x <= label.x + std::max(label.width - pickBefore, flagWidth))
             found = label.marker;
     return found;

@@ -24,7 +24,7 @@ constexpr juce::uint32 nudgePause = 700; // ms: presses nearer than this are one
 constexpr double spreadStep = 1.05;      // of differences of levels, a press
 } // namespace
 
-PlotLane::PlotLane(EditorModel& project, ClipSelection& selected, const ViewState& sight, Transport& playing)
+PlotLane::PlotLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing)
     : model(project), clipSelection(selected), viewState(sight), transport(playing), drawn(project.clip())
 {
     setOpaque(true);

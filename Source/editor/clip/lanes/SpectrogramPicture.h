@@ -47,7 +47,7 @@ private:
         {
         }
         std::shared_ptr<const Sound> sound;
-        SpectrumAnalyser analyser;
+        SpectrumAnalyzer analyser;
     };
 
     void next();

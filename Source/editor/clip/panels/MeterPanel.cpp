@@ -16,7 +16,7 @@ constexpr int fallCalls = 5 * rate; // until all bars are down
 constexpr double leastShown = 0.05; // dB
 } // namespace
 
-MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, Player& played)
+MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, ClipPlayer& played)
     : actuators(profiles),
       transport(playing),
       player(played),

@@ -17,7 +17,7 @@ class MeterPanel final : public juce::Component, private juce::Timer
 public:
     static constexpr int height = 3 * 30 + 12;
 
-    MeterPanel(const Actuators& profiles, const Transport& playing, Player& played);
+    MeterPanel(const Actuators& profiles, const Transport& playing, ClipPlayer& played);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -28,7 +28,7 @@ private:
 
     const Actuators& actuators;
     const Transport& transport;
-    Player& player;
+    ClipPlayer& player;
     LevelMeter output, reduction, felt;
     int quiet = 0; ///< calls of the timer since something played
     Subscriptions subscriptions;

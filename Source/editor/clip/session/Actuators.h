@@ -3,7 +3,7 @@
 
 // The actuators that can be chosen, and the one of the project.
 
-#include "document/ProfileShelf.h"
+#include "document/BuiltInProfiles.h"
 #include "editor/clip/session/EditorModel.h"
 
 #include <memory>

@@ -12,14 +12,14 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int mostLines = 12; // of a message
+constexpr int maxLines = 12; // of a message
 
 juce::String shortened(const juce::StringArray& lines)
 {
     juce::StringArray shown(lines);
-    shown.removeRange(mostLines, shown.size());
-    if (lines.size() > mostLines)
-        shown.add("and " + juce::String(lines.size() - mostLines) + " more");
+    shown.removeRange(maxLines, shown.size());
+    if (lines.size() > maxLines)
+        shown.add("and " + juce::String(lines.size() - maxLines) + " more");
     return shown.joinIntoString("\n");
 }
 } // namespace

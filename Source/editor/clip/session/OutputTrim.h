@@ -18,7 +18,7 @@ class OutputTrim
 {
 public:
     static constexpr double longestDelay = 0.5; ///< s
-    static constexpr std::size_t mostChannels = 2;
+    static constexpr std::size_t maxChannels = 2;
 
     /// Linear, 0 to 4. [any]
     void setLevel(double wanted) noexcept { level.store(std::clamp(wanted, 0.0, 4.0), std::memory_order_relaxed); }
@@ -61,7 +61,7 @@ public:
         {
             gain += std::clamp(wanted - gain, -step, step);
             faded = std::min(1.0, faded + step);
-            for (std::size_t c = 0; c < std::min(channels.size(), mostChannels); ++c)
+            for (std::size_t c = 0; c < std::min(channels.size(), maxChannels); ++c)
             {
                 lines[c][position] = channels[c][i];
                 const double old = lines[c][(position + size - now) % size];
@@ -81,7 +81,7 @@ private:
 
     std::atomic<double> level{1.0}, delay{0.0};
     double fs = 48000.0;
-    std::vector<float> lines[mostChannels];
+    std::vector<float> lines[maxChannels];
     std::size_t position = 0;
     double gain = 1.0;
     std::size_t now = 0, next = 0; ///< frames of delay; `faded` goes from one to the other

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/Sound.h"
 
-#include "io/AnyClip.h"
+#include "io/ClipFile.h"
+#include "io/FileExtension.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace pacini::editor
@@ -14,11 +14,8 @@ namespace
 {
 bool mayBeClip(const std::filesystem::path& path)
 {
-    auto extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto known = anyClipExtensions();
-    return std::find(known.begin(), known.end(), extension) != known.end();
+    const auto known = clipFileExtensions();
+    return std::find(known.begin(), known.end(), lowerExtension(path)) != known.end();
 }
 } // namespace
 
@@ -29,7 +26,7 @@ Result<Imported> readFile(const std::filesystem::path& path)
     auto described = describeAudio(path);
     if (!described && mayBeClip(path))
     {
-        auto read = readAnyClip(path);
+        auto read = readClip(path);
         if (!read)
             return read.error();
         result.clip = std::move(read->clip);

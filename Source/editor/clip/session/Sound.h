@@ -69,7 +69,7 @@ struct Imported
 };
 
 /// Reads a sound, whose clip is still empty, or a clip of any format, which has no sound. Errors: those of
-/// describeAudio() and readAnyClip(); for a file that is neither, why it is no sound. [worker]
+/// describeAudio() and readClip(); for a file that is neither, why it is no sound. [worker]
 [[nodiscard]] Result<Imported> readFile(const std::filesystem::path& path);
 
 /// readFile(), and a sound is analysed. Errors: also those of analyse(). [worker]

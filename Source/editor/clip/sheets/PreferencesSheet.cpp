@@ -33,7 +33,7 @@ int nearest(const Values& values, double wanted)
 PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 520), view(shown)
 {
     ViewState& viewState = view.session().viewState;
-    if (view.surroundings().chooseLanguage)
+    if (view.hostServices().chooseLanguage)
         addLanguages();
     addChoice("Colours", "Light text on dark ground, or dark on light", {"Dark", "Light"}, view.isDark() ? 0 : 1,
               [this](int i) { view.setDark(i == 0); });
@@ -88,8 +88,8 @@ void PreferencesSheet::addLanguages()
     codes.add({});
     names.add("As the system");
     addChoice("Language", "The language of the interface, from the next start on", names,
-              std::max(0, codes.indexOf(view.surroundings().language)),
-              [this, codes](int i) { view.surroundings().chooseLanguage(codes[i]); });
+              std::max(0, codes.indexOf(view.hostServices().language)),
+              [this, codes](int i) { view.hostServices().chooseLanguage(codes[i]); });
 }
 
 void PreferencesSheet::add(const juce::String& name, std::unique_ptr<juce::Component> control)

@@ -3,7 +3,7 @@
 // AHAP files of Apple's Core Haptics: a pattern of transient and continuous events, with curves that act on all of
 // them, as JSON. Intensities are taken as square roots of amplitudes, as Lofelt's and Meta's players do.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cstddef>
 
@@ -15,6 +15,8 @@ inline constexpr std::size_t largestAhapText = std::size_t(32) << 20;
 
 /// How long Core Haptics plays a continuous event at most, in s.
 inline constexpr double longestAhapEvent = 30.0;
+
+[[nodiscard]] bool isAhap(std::string_view bytes);
 
 /// Reads the haptic events: each transient with the curves' values of its moment, the continuous ones as one band, or
 /// as one more for each that sounds at the same time. Parameters act from their time on, curves from their first to
@@ -38,7 +40,5 @@ inline constexpr double longestAhapEvent = 30.0;
 
 /// The suffix of the second file.
 inline constexpr std::string_view ahapTransients = "-transients";
-
-[[nodiscard]] const ForeignFormat& ahapFormat();
 
 } // namespace pacini

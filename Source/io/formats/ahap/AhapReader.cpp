@@ -16,7 +16,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostPoints = 4'000'000;
+constexpr std::size_t maxPoints = 4'000'000;
 
 struct HapticEvent
 {
@@ -125,9 +125,10 @@ private:
     double limited(const JsonEntry& entry, double low, double high)
     {
         const double value = entry.number();
-        constexpr std::size_t mostWarnings = 20;
-        if ((value < low || value > high) && warnings.size() < mostWarnings)
-            warnings.push_back(fmt::format("{}: is outside of {} to {} and becomes its end", entry.path(), low, high));
+        constexpr std::size_t maxWarnings = 20;
+        if ((value < low || value > high) && warnings.size() < maxWarnings)
+            warnings.push_back(
+                fmt::format("{}: is outside of {} to {} and is limited to this range", entry.path(), low, high));
         return std::clamp(value, low, high);
     }
 
@@ -205,11 +206,12 @@ private:
         for (Breakpoint& point : points)
         {
             if (point.value < low || point.value > 1.0)
-                ignored.insert(fmt::format("Pattern: values of {} outside of {} to 1 become its ends", id, low));
+                ignored.insert(
+                    fmt::format("Pattern: values of {} outside of {} to 1 are limited to this range", id, low));
             point.value = std::clamp(point.value, low, 1.0);
         }
         pointCount += points.size();
-        if (pointCount > mostPoints)
+        if (pointCount > maxPoints)
             return entry.fail("is beyond 4 million points", ErrorCode::tooLarge);
         (intensity ? intensityControls : sharpnessControls).push_back(std::move(points));
     }
@@ -254,7 +256,7 @@ private:
         for (Band& band : clip.bands)
             if (band.amplitude.back().time < clip.duration)
                 band.amplitude.push_back({band.amplitude.back().time, 0.0});
-        const auto limited = limitSum(clip.bands, 1.0, mostPoints);
+        const auto limited = limitSum(clip.bands, 1.0, maxPoints);
         if (!limited)
             return root.optional("Pattern").fail(limited.error().message, limited.error().code);
         if (*limited)
@@ -286,7 +288,7 @@ private:
             point.value = sharpnessRange.hertzOf(std::clamp(event.sharpness + point.value, 0.0, 1.0));
         level = squareOf(level);
         pointCount += level.size() + pitch.size();
-        if (pointCount > mostPoints)
+        if (pointCount > maxPoints)
             return root.optional("Pattern").fail("is beyond 4 million points", ErrorCode::tooLarge);
         const bool goesOn = !band->amplitude.empty() && band->amplitude.back().time >= event.time - touching;
         if (!goesOn)

@@ -1,11 +1,11 @@
-#include "io/formats/FormatLosses.h"
+#include "io/JsonText.h"
+#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
-#include "io/formats/VoiceExport.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/ahap/AhapFormat.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostControlPoints = 16; // of a curve; the last is the first of the next
-constexpr double neutral = 0.5;               // sharpness of the continuous events, to which curves add
-constexpr double transientLength = 0.015;     // s in which a transient needs its curve
-constexpr double lead = 0.001;                // s before it, for players that round times to floats
-constexpr double shortestSection = 0.001;     // s; shorter ones become part of their neighbour: rounded to a duration
-                                              // of 0 they would have no end
+constexpr std::size_t maxControlPoints = 16; // of a curve; the last is the first of the next
+constexpr double neutral = 0.5;              // sharpness of the continuous events, to which curves add
+constexpr double transientLength = 0.015;    // s in which a transient needs its curve
+constexpr double lead = 0.001;               // s before it, for players that round times to floats
+constexpr double shortestSection = 0.001;    // s; shorter ones become part of their neighbour: rounded to a duration
+                                             // of 0 they would have no end
 
 /// Six decimals are a microsecond, and 1/4000 of the steps that players tell apart.
 double rounded(double value)
@@ -103,7 +103,7 @@ void addRaised(Pattern& pattern, const Curve& level, double from, double to, dou
 }
 
 /// The curves of a voice and, unless they have a file of their own, its events compensated for them.
-Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
+Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
 {
     Pattern pattern;
     const auto [lowest, highest] =
@@ -121,8 +121,8 @@ Pattern patternOf(const ExportVoice& voice, bool split, LossList& losses)
         return pattern;
     }
 
-    LossTrack raised(LossKind::event, "the curve is raised around events, which it would weaken");
-    LossTrack shifted(LossKind::event, "events cannot get a sharpness so far from the curve's in one file");
+    LossTrack raised(LossKind::event, "the curve is raised around events so that it does not weaken them");
+    LossTrack shifted(LossKind::event, "one file cannot hold a sharpness so far from that of the curve");
     double done = 0.0;
     for (std::size_t i = 0; i < voice.events.size();)
     {
@@ -170,10 +170,9 @@ class Writer
 public:
     explicit Writer(const std::string& name)
     {
-        using nlohmann::json;
         text = fmt::format("{{\n  \"Version\": 1.0,\n  \"Metadata\": {{\"Project\": {}, \"Created By\": \"Pacini\"}},\n"
                            "  \"Pattern\": [",
-                           json(name).dump(-1, ' ', false, json::error_handler_t::replace));
+                           inQuotes(name));
     }
 
     void transient(const Transient& event)
@@ -197,9 +196,9 @@ public:
     /// A curve as curves of at most 16 points, whose times count from the first of each.
     void curve(const char* id, const Curve& points)
     {
-        for (std::size_t first = 0; first + 1 < points.size(); first += mostControlPoints - 1)
+        for (std::size_t first = 0; first + 1 < points.size(); first += maxControlPoints - 1)
         {
-            const std::size_t last = std::min(first + mostControlPoints, points.size());
+            const std::size_t last = std::min(first + maxControlPoints, points.size());
             const double start = rounded(points[first].time);
             begin();
             fmt::format_to(out(),
@@ -262,6 +261,7 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
             writer.continuous(at(k), at(k + 1.0), joined.intensity, pattern.base);
     }
 }
+} // namespace
 
 bool isAhap(std::string_view bytes)
 {
@@ -270,13 +270,12 @@ bool isAhap(std::string_view bytes)
             bytes.find("\"ParameterCurve\"") != std::string_view::npos ||
             bytes.find("\"Version\"") != std::string_view::npos);
 }
-} // namespace
 
 Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(
+    NormalisedVoice voice = normalisedVoice(
         clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
     constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
     voice.losses.addCrowding(voice.events, resolved);
@@ -301,13 +300,6 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
         result.files.push_back({std::string(ahapTransients), second.finish()});
     result.losses = std::move(voice.losses).sorted();
     return result;
-}
-
-const ForeignFormat& ahapFormat()
-{
-    static const ForeignFormat format{"ahap",        "Apple Core Haptics, AHAP", ".ahap", isAhap, readAhap, writeAhap,
-                                      ahapTransients};
-    return format;
 }
 
 } // namespace pacini

@@ -89,7 +89,7 @@ std::vector<SumPoint> sumOf(const std::vector<Band>& bands, double most)
 }
 } // namespace
 
-Result<bool> limitSum(std::vector<Band>& bands, double most, std::size_t mostPoints)
+Result<bool> limitSum(std::vector<Band>& bands, double most, std::size_t maxPoints)
 {
     constexpr double rounding = 1.0 + 1e-6;
     if (bands.size() < 2)
@@ -116,7 +116,7 @@ Result<bool> limitSum(std::vector<Band>& bands, double most, std::size_t mostPoi
                 limited.push_back(second);
             count += 2;
         }
-        if (count > mostPoints)
+        if (count > maxPoints)
             return Error{ErrorCode::tooLarge, "", "needs too many points to be kept within full drive"};
         band.amplitude = std::move(limited);
     }

@@ -40,6 +40,16 @@ std::string builderCalls(const std::vector<AndroidPoint>& points)
 }
 } // namespace
 
+bool isAndroidKotlin(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
+}
+
+bool isAndroidJava(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
+}
+
 Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params)
 {
     AndroidExport made = androidEffectsOf(clip, params);
@@ -102,20 +112,6 @@ public final class {} {{
                                timingsOf(made.effects.waveform, "                "),
                                amplitudesOf(made.effects.waveform, "                ")),
                    std::move(made.losses));
-}
-
-const ForeignFormat& androidKotlinFormat()
-{
-    static constexpr ForeignFormat format{
-        "android-kotlin", "Android vibration effect, Kotlin", ".kt", nullptr, nullptr, writeAndroidKotlin};
-    return format;
-}
-
-const ForeignFormat& androidJavaFormat()
-{
-    static constexpr ForeignFormat format{"android-java",  "Android vibration effect, Java", ".java", nullptr, nullptr,
-                                          writeAndroidJava};
-    return format;
 }
 
 } // namespace pacini

@@ -3,7 +3,7 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/android/AndroidWaveform.h"
 
 #include <pacini/synthesis/TransientPulse.h>
@@ -138,11 +138,7 @@ double largestRounding(const SingleVoice& voice)
 
 AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
 {
-    LossList losses;
-    SingleVoice voice = oneVoice(clip, params.profile, androidMotorFrequency);
-    losses.addOneVoice(clip, voice);
-    losses.addText(clip, true);
-    losses.limit(voice.amplitude, 1.0);
+    auto [voice, losses] = reducedVoice(clip, params, androidMotorFrequency);
     losses.limit(voice.events, 1.0);
     losses.addCrowding(voice.events, 2.0 * steepest);
     for (const Transient& event : voice.events)
@@ -182,7 +178,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         point.frequency = sharpnessOf(point.frequency);
     if (bent > 1e-9)
         losses.add(LossKind::frequency, 0.0, voice.duration, bent,
-                   fmt::format("basic envelope: frequencies outside {} to {} Hz become the ends of the range",
+                   fmt::format("basic envelope: frequencies outside {} to {} Hz are limited to this range",
                                decimal(range.low, 0), decimal(range.high, 0)));
     constexpr std::size_t advised = 16;
     const auto& points = result.effects.envelope.points;

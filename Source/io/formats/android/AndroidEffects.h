@@ -2,7 +2,7 @@
 
 // A clip as the vibration effects of Android.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cmath>
 #include <cstdint>

@@ -2,10 +2,15 @@
 
 // Vibration effects of Android as JSON, XML, Kotlin and Java.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 namespace pacini
 {
+
+[[nodiscard]] bool isAndroidJson(std::string_view bytes);
+[[nodiscard]] bool isAndroidXml(std::string_view bytes);
+[[nodiscard]] bool isAndroidKotlin(std::string_view bytes);
+[[nodiscard]] bool isAndroidJava(std::string_view bytes);
 
 /// Reads the JSON that writeAndroidJson() writes: of its effects `waveformEnvelope`, else `basicEnvelope`, else
 /// `waveform`. A warning says what is not read: amplitudes of -1 (the device's default) become 255, repetition is left
@@ -24,10 +29,5 @@ namespace pacini
 /// A function that returns the effect: the envelope from API 36 on where the device plays it, before the waveform.
 [[nodiscard]] Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params);
 [[nodiscard]] Result<ExportedClip> writeAndroidJava(const Clip& clip, const ExportParams& params);
-
-[[nodiscard]] const ForeignFormat& androidJsonFormat();
-[[nodiscard]] const ForeignFormat& androidXmlFormat();
-[[nodiscard]] const ForeignFormat& androidKotlinFormat();
-[[nodiscard]] const ForeignFormat& androidJavaFormat();
 
 } // namespace pacini

@@ -12,7 +12,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostPoints = 5'000'000;
+constexpr std::size_t maxPoints = 5'000'000;
 constexpr double longestMs = limits::duration * 1000.0;
 
 class AndroidReader
@@ -31,8 +31,8 @@ public:
             {
                 std::vector<double> timings, amplitudes;
                 int repeat = -1;
-                reader.numbers("timings", timings, mostPoints);
-                reader.numbers("amplitudes", amplitudes, mostPoints);
+                reader.numbers("timings", timings, maxPoints);
+                reader.numbers("amplitudes", amplitudes, maxPoints);
                 reader.integer("repeat", repeat, "must be a whole number");
                 if (timings.size() != amplitudes.size())
                     reader.fail("amplitudes",
@@ -69,7 +69,7 @@ public:
                           if (initial)
                               checkFrequency(start, *initial, isBasic);
                           double sum = 0.0;
-                          reader.list("controlPoints", envelope.points, mostPoints, "control points",
+                          reader.list("controlPoints", envelope.points, maxPoints, "control points",
                                       [&](AndroidPoint& point) { readPoint(point, isBasic, sum); });
                           if (!reader.error && envelope.points.empty())
                               reader.fail("controlPoints", "has no control point");

@@ -1,7 +1,7 @@
 #include "io/formats/android/AndroidWaveform.h"
 
-#include "io/formats/FormatLosses.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/LossList.h"
+#include "io/formats/VoiceReduction.h"
 
 #include <algorithm>
 #include <cmath>

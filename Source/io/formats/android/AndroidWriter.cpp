@@ -34,6 +34,7 @@ std::string xmlEnvelope(const AndroidEnvelope& envelope, const char* tag, const 
                             decimal(point.amplitude, 4), frequency, decimal(point.frequency, 4), point.duration);
     return text + fmt::format("  </{}>\n", tag);
 }
+} // namespace
 
 bool isAndroidJson(std::string_view bytes)
 {
@@ -41,7 +42,11 @@ bool isAndroidJson(std::string_view bytes)
     return (bytes.find("\"timings\"") != none && bytes.find("\"amplitudes\"") != none) ||
            bytes.find("\"controlPoints\"") != none;
 }
-} // namespace
+
+bool isAndroidXml(std::string_view bytes)
+{
+    return bytes.find("<vibration-effect>") != std::string_view::npos;
+}
 
 Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& params)
 {
@@ -95,20 +100,6 @@ Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& param
                                                            "initialFrequencyHz", "amplitude", "frequencyHz"))});
     }
     return result;
-}
-
-const ForeignFormat& androidJsonFormat()
-{
-    static constexpr ForeignFormat format{
-        "android", "Android vibration effects, JSON", ".json", isAndroidJson, readAndroidJson, writeAndroidJson};
-    return format;
-}
-
-const ForeignFormat& androidXmlFormat()
-{
-    static constexpr ForeignFormat format{"android-xml", "Android vibration XML", ".xml", nullptr,
-                                          nullptr,       writeAndroidXml};
-    return format;
 }
 
 } // namespace pacini

@@ -2,10 +2,12 @@
 
 // Clips as comma-separated tables, for spreadsheets and scripts.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 namespace pacini
 {
+
+[[nodiscard]] bool isCsv(std::string_view bytes);
 
 /// Reads a table whose first line names its columns: `time` (s) and any of `envelope`, `centroid`, `amplitude L C H`
 /// and `pitch L C H` (a band from L to H Hz with its centre at C), `noise L H`, `event` and `sharpness`; plain
@@ -16,7 +18,5 @@ namespace pacini
 
 /// Writes all curves and events of the clip as they are; names, markers and parameters are lost.
 [[nodiscard]] Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams& params);
-
-[[nodiscard]] const ForeignFormat& csvFormat();
 
 } // namespace pacini

@@ -18,7 +18,7 @@ namespace pacini
 namespace
 {
 constexpr double plainFrequency = 150.0; // Hz, of an amplitude without frequency
-constexpr std::size_t mostColumns = 2 * limits::bands + 64;
+constexpr std::size_t maxColumns = 2 * limits::bands + 64;
 
 std::string_view trimmed(std::string_view text)
 {
@@ -109,8 +109,8 @@ private:
             if (line.find(candidate) != std::string_view::npos)
                 separator = candidate;
         const auto titles = parts(line, separator);
-        if (titles.size() > mostColumns)
-            return fail(number, mostColumns, fmt::format("there are more than {} columns", mostColumns));
+        if (titles.size() > maxColumns)
+            return fail(number, maxColumns, fmt::format("there are more than {} columns", maxColumns));
         for (std::size_t i = 0; i < titles.size() && !error; ++i)
         {
             columns.push_back(placeOf(titles[i], number, i));

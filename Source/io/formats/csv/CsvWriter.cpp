@@ -58,12 +58,12 @@ private:
     std::vector<std::string> titles;
     std::map<std::pair<double, std::size_t>, std::vector<std::pair<std::size_t, double>>> rows;
 };
+} // namespace
 
 bool isCsv(std::string_view bytes)
 {
     return bytes.starts_with("time,") || bytes.starts_with("time;") || bytes.starts_with("time\t");
 }
-} // namespace
 
 Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams&)
 {
@@ -117,13 +117,6 @@ Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams&)
     result.files.push_back({"", table.text()});
     result.losses = std::move(losses).sorted();
     return result;
-}
-
-const ForeignFormat& csvFormat()
-{
-    static constexpr ForeignFormat format{"csv",   "Table of all curves, comma-separated", ".csv", isCsv, readCsv,
-                                          writeCsv};
-    return format;
 }
 
 } // namespace pacini

@@ -2,10 +2,12 @@
 
 // `.haps` files, version 5, of Interhaptics (Razer).
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 namespace pacini
 {
+
+[[nodiscard]] bool isHaps(std::string_view bytes);
 
 /// Reads the vibration: transient notes become events, continuous ones a band each (those of one melody that do not
 /// overlap share one); gains of perception, melody and note multiply, muted melodies are left out. Keyframes count from
@@ -17,8 +19,6 @@ namespace pacini
 /// Writes events as the notes of the first melody and the one voice of the clip as one note of the second, whose
 /// frequencies are in Hz. At most 60 amplitude and 20 frequency points per second unless `params` say otherwise.
 [[nodiscard]] Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params);
-
-[[nodiscard]] const ForeignFormat& hapsFormat();
 
 /// What Interhaptics' own files state as the length of a transient, s.
 inline constexpr double hapsTransientLength = 0.022;

@@ -14,7 +14,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostElements = 5'000'000;
+constexpr std::size_t maxElements = 5'000'000;
 
 struct Keyframe
 {
@@ -50,7 +50,7 @@ void readModulation(FieldsReader& reader, const char* name, std::vector<Keyframe
     reader.object(name, keyframes, Need::optional,
                   [&](std::vector<Keyframe>& points)
                   {
-                      reader.list("m_keyframes", points, mostElements, "keyframes",
+                      reader.list("m_keyframes", points, maxElements, "keyframes",
                                   [&](Keyframe& keyframe)
                                   {
                                       reader.number("m_time", keyframe.time, Need::required);
@@ -67,7 +67,7 @@ void readVibration(FieldsReader& reader, Vibration& vibration)
                 {
                     reader.number("m_gain", melody.gain, Need::optional);
                     reader.number("m_mute", melody.mute, Need::optional);
-                    reader.list("m_notes", melody.notes, mostElements, "notes",
+                    reader.list("m_notes", melody.notes, maxElements, "notes",
                                 [&](Note& note)
                                 {
                                     reader.number("m_startingPoint", note.start, Need::required);
@@ -156,7 +156,8 @@ private:
             double value = keyframes[i].value;
             if (!(value >= low && value <= high))
             {
-                report.warn(place + ".m_value", fmt::format("is outside {} to {} and moved there", low, high));
+                report.warn(place + ".m_value",
+                            fmt::format("is outside of {} to {} and is limited to this range", low, high));
                 value = std::clamp(value, low, high);
             }
             curve.push_back({time, value * scale});
@@ -167,7 +168,7 @@ private:
         };
         if (!std::is_sorted(curve.begin(), curve.end(), earlier))
         {
-            report.warn(where + ".m_keyframes", "are not in order of time and are put into it");
+            report.warn(where + ".m_keyframes", "are not in order of time and are sorted");
             std::stable_sort(curve.begin(), curve.end(), earlier);
         }
         return curve;

@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/haps/HapsFormat.h"
 
 #include <fmt/format.h>
@@ -41,20 +41,16 @@ std::string melody(const std::string& notes)
     return fmt::format(
         "\n      {{\n        \"m_mute\": 0,\n        \"m_gain\": 1,\n        \"m_notes\": [{}]\n      }}", notes);
 }
+} // namespace
 
 bool isHaps(std::string_view bytes)
 {
     return bytes.find("\"m_vibration\"") != std::string_view::npos;
 }
-} // namespace
 
 Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
 {
-    SingleVoice voice = oneVoice(clip, params.profile, hapsMotorFrequency);
-    LossList losses;
-    losses.addOneVoice(clip, voice);
-    losses.addText(clip, true);
-    losses.limit(voice.amplitude, 1.0); // players take gains of notes above 1
+    auto [voice, losses] = reducedVoice(clip, params, hapsMotorFrequency); // players take gains of notes above 1
     if (!isSingleVoice(clip) || params.amplitudePoints)
     {
         const Curve before = voice.amplitude;
@@ -111,12 +107,6 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
                          perception("m_texture", ""), perception("m_stiffness", ""))});
     result.losses = std::move(losses).sorted();
     return result;
-}
-
-const ForeignFormat& hapsFormat()
-{
-    static constexpr ForeignFormat format{"haps", "Interhaptics, version 5", ".haps", isHaps, readHaps, writeHaps};
-    return format;
 }
 
 } // namespace pacini

@@ -3,7 +3,7 @@
 // `.haptic` files, version 1, of Lofelt Studio and Meta Haptics Studio: an amplitude curve with emphases on its points,
 // and a frequency curve, as JSON.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cstddef>
 
@@ -12,6 +12,8 @@ namespace pacini
 
 /// Longer texts are refused; an hour at 60 points per second is a third of it.
 inline constexpr std::size_t largestHapticText = std::size_t(32) << 20;
+
+[[nodiscard]] bool isHaptic(std::string_view bytes);
 
 /// Reads what any of the format's readers takes: single points, clips without duration, steps, a first point after 0,
 /// frequencies beyond the amplitudes (cut), and no frequencies (the middle of the range). A clip that ends with an
@@ -25,7 +27,5 @@ inline constexpr std::size_t largestHapticText = std::size_t(32) << 20;
 /// exactly, first point at 0, frequencies from the first to the last amplitude point. An emphasis weaker than the
 /// curve at its time is raised to it. Errors: those of validate().
 [[nodiscard]] Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params);
-
-[[nodiscard]] const ForeignFormat& hapticFormat();
 
 } // namespace pacini

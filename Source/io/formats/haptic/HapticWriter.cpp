@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/FormatLosses.h"
-#include "io/formats/VoiceExport.h"
+#include "io/formats/LossList.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/haptic/HapticFormat.h"
 
 #include <fmt/compile.h>
@@ -84,7 +84,7 @@ void attach(std::vector<Point>& points, const std::vector<Transient>& events, Lo
     losses.append(raised);
 }
 
-std::string textOf(const ExportVoice& voice, const std::string& source, const std::vector<Point>& amplitude,
+std::string textOf(const NormalisedVoice& voice, const std::string& source, const std::vector<Point>& amplitude,
                    const std::vector<Point>& frequency)
 {
     std::string text = fmt::format("{{\n"
@@ -114,10 +114,10 @@ std::string textOf(const ExportVoice& voice, const std::string& source, const st
 }
 
 /// Where floats are coarse.
-void addTimeLoss(const ExportVoice& voice, LossList& losses)
+void addTimeLoss(const NormalisedVoice& voice, LossList& losses)
 {
     constexpr double visible = 1e-4; // s
-    LossTrack track(LossKind::timeStep, "times are 32-bit floats, which are coarse here");
+    LossTrack track(LossKind::timeStep, "times are rounded to 32-bit floats, which are coarse here");
     for (const Breakpoint& point : voice.level)
     {
         const double error = std::abs(static_cast<double>(static_cast<float>(point.time)) - point.time);
@@ -125,6 +125,7 @@ void addTimeLoss(const ExportVoice& voice, LossList& losses)
     }
     losses.append(track);
 }
+} // namespace
 
 bool isHaptic(std::string_view bytes)
 {
@@ -135,13 +136,12 @@ bool isHaptic(std::string_view bytes)
     };
     return has("\"signals\"") && has("\"envelopes\"") && !has("\"clipId\"");
 }
-} // namespace
 
 Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ExportVoice voice = exportVoice(clip, params, {.range = questRange, .events = questPlayer});
+    NormalisedVoice voice = normalisedVoice(clip, params, {.range = questRange, .events = questPlayer});
     addTimeLoss(voice, voice.losses);
     voice.losses.addCrowding(voice.events, questPlayer.crispLength);
     std::vector<Point> amplitude = rounded(voice.level);
@@ -150,13 +150,6 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
     result.files.push_back({"", textOf(voice, clip.source.file, amplitude, rounded(voice.frequency))});
     result.losses = std::move(voice.losses).sorted();
     return result;
-}
-
-const ForeignFormat& hapticFormat()
-{
-    static const ForeignFormat format{
-        "haptic", "Lofelt and Meta Haptics Studio, version 1", ".haptic", isHaptic, readHaptic, writeHaptic};
-    return format;
 }
 
 } // namespace pacini

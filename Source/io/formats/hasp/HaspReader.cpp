@@ -42,18 +42,18 @@ std::vector<ProjectClip> clipsOf(const nlohmann::json& clips)
 
 std::string namesOf(const std::vector<ProjectClip>& clips)
 {
-    constexpr std::size_t mostNamed = 5;
+    constexpr std::size_t maxNamed = 5;
     std::string names;
-    for (std::size_t i = 0; i < std::min(clips.size(), mostNamed); ++i)
+    for (std::size_t i = 0; i < std::min(clips.size(), maxNamed); ++i)
         names += fmt::format("{}'{}'", i > 0 ? ", " : "", shownText(clips[i].name));
-    return names + (clips.size() > mostNamed ? ", ..." : "");
+    return names + (clips.size() > maxNamed ? ", ..." : "");
 }
+} // namespace
 
 bool isHasp(std::string_view bytes)
 {
     return bytes.find("\"clips\"") != std::string_view::npos && bytes.find("\"clipId\"") != std::string_view::npos;
 }
-} // namespace
 
 Result<ImportedClip> readHasp(std::string_view bytes)
 {
@@ -89,13 +89,6 @@ Result<ImportedClip> readHasp(std::string_view bytes)
     for (const std::string& warning : haptic->warnings)
         result.warnings.push_back(where + "." + warning);
     return result;
-}
-
-const ForeignFormat& haspFormat()
-{
-    static const ForeignFormat format{"hasp", "Meta Haptics Studio, projects of one clip", ".hasp", isHasp, readHasp,
-                                      nullptr};
-    return format;
 }
 
 } // namespace pacini

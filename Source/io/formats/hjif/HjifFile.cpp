@@ -11,11 +11,11 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostElements = 5'000'000;
+constexpr std::size_t maxElements = 5'000'000;
 
 void readEffects(FieldsReader& reader, const char* name, std::vector<HjifEffect>& effects)
 {
-    reader.list(name, effects, mostElements, "effects",
+    reader.list(name, effects, maxElements, "effects",
                 [&](HjifEffect& effect)
                 {
                     reader.text("effect_type", effect.type);
@@ -24,7 +24,7 @@ void readEffects(FieldsReader& reader, const char* name, std::vector<HjifEffect>
                     reader.optionalNumber("phase", effect.phase);
                     reader.optionalText("base_signal", effect.baseSignal);
                     reader.optionalText("wavelet_stream", effect.stream);
-                    reader.list("keyframes", effect.keyframes, mostElements, "keyframes",
+                    reader.list("keyframes", effect.keyframes, maxElements, "keyframes",
                                 [&](HjifKeyframe& keyframe)
                                 {
                                     reader.number("relative_position", keyframe.position, Need::optional);

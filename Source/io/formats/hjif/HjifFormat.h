@@ -2,7 +2,7 @@
 
 // The interchange format of MPEG haptics (ISO/IEC 23090-31), .hjif.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 #include <cmath>
 #include <numbers>
@@ -30,8 +30,6 @@ namespace pacini
 [[nodiscard]] Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params);
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
-
-[[nodiscard]] const ForeignFormat& hjifFormat();
 
 /// How long the reference player's only transient is, s.
 inline constexpr double hjifTransientLength = 0.022;

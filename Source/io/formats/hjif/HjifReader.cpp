@@ -14,13 +14,6 @@ bool isHjif(std::string_view bytes)
     return bytes.find("\"perceptions\"") != none && bytes.find("\"avatars\"") != none;
 }
 
-const ForeignFormat& hjifFormat()
-{
-    static constexpr ForeignFormat format{
-        "hjif", "MPEG haptics interchange (ISO/IEC 23090-31)", ".hjif", isHjif, readHjif, writeHjif};
-    return format;
-}
-
 Result<ImportedClip> readHjif(std::string_view bytes)
 {
     ImportedClip result;

@@ -1,6 +1,6 @@
 #include "io/formats/hjif/HjifVoices.h"
 
-#include "io/formats/PlayedClip.h"
+#include "io/formats/hjif/BakedClip.h"
 #include "io/formats/hjif/HjifEvents.h"
 #include "io/formats/hjif/HjifFit.h"
 #include "io/formats/hjif/HjifFormat.h"
@@ -74,7 +74,7 @@ Clip reduced(const Clip& clip, CarrierMode carriers, const Reduction& how)
         for (Band& band : few.bands)
             band.pitch = fewPitches(std::move(band.pitch), how.semitones);
     }
-    Clip played = playedClip(few, 1.0, fineStep);
+    Clip played = bakedClip(few, 1.0, fineStep);
     markCovered(played, clip);
     return played;
 }
@@ -204,7 +204,7 @@ Clip hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort)
 {
     const DecoderParams decoder = decoderParamsFor(clip, {}, {}, 67.0);
     if (clip.envelope.empty() || clip.bands.empty() || !decoder.followEnvelope)
-        return playedClip(clip, 1.0, fineStep);
+        return bakedClip(clip, 1.0, fineStep);
     const bool search = effort == HjifEffort::search && clip.duration <= longestSearched;
     Written written = search ? Search(clip, decoder).best() : usual(clip, decoder.carriers);
     if (clip.bands.size() > written.all.bands.size())

@@ -16,7 +16,7 @@ enum class HjifEffort
     usual   ///< one that is mostly good: 1 ms
 };
 
-/// The clip as playedClip() makes it, on four to six bands where its bands have pitch (with the events that leaves the
+/// The clip as bakedClip() makes it, on four to six bands where its bands have pitch (with the events that leaves the
 /// seven of the Simple Parametric profile): more take more bytes, since each carries the rise and fall of the envelope,
 /// and beat more. Pitch is within one or two semitones, of the eighth to the quarter of an octave that skin tells
 /// apart. How many bands, how near their pitch and how many points are what makes the file feel most like the clip for

@@ -16,9 +16,9 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostSamples = std::size_t(1) << 25; // of all channels: more than an hour at 8 kHz
-constexpr std::size_t mostResampled = 8;                  // bands: their filters can be long
-constexpr double lowestRate = 100.0;                      // Hz
+constexpr std::size_t maxSamples = std::size_t(1) << 25; // of all channels: more than an hour at 8 kHz
+constexpr std::size_t maxResampled = 8;                  // bands: their filters can be long
+constexpr double lowestRate = 100.0;                     // Hz
 
 void scale(Curve& curve, double factor)
 {
@@ -48,9 +48,9 @@ std::span<float> HjifWaveform::room(std::size_t first, std::size_t count, Import
     const std::size_t end = first + count;
     if (end > samples.size())
     {
-        if (end > mostSamples || drawn + end - samples.size() > mostSamples)
+        if (end > maxSamples || drawn + end - samples.size() > maxSamples)
         {
-            report.fail(where, fmt::format("makes the waveforms longer than {} samples", mostSamples),
+            report.fail(where, fmt::format("makes the waveforms longer than {} samples", maxSamples),
                         ErrorCode::tooLarge);
             return {};
         }
@@ -75,8 +75,8 @@ void HjifWaveform::addWavelet(const HjifBand& band, std::span<const HjifPlaced> 
         return report.fail(where + ".block_length",
                            fmt::format("must be a power of two of {} to {} samples in ticks, not {}", hjifSmallestBlock,
                                        hjifLargestBlock, *band.blockLength));
-    if (blocks.size() > mostSamples / *size)
-        return report.fail(where, fmt::format("makes the waveforms longer than {} samples", mostSamples),
+    if (blocks.size() > maxSamples / *size)
+        return report.fail(where, fmt::format("makes the waveforms longer than {} samples", maxSamples),
                            ErrorCode::tooLarge);
     std::vector<float> samples(blocks.size() * *size);
     bool moved = false;
@@ -97,12 +97,12 @@ void HjifWaveform::addWavelet(const HjifBand& band, std::span<const HjifPlaced> 
         report.warn(where, "blocks with gaps between them are played end to end, as the reference player does");
     if (static_cast<int>(rate) != fs)
     {
-        if (++resampled > mostResampled)
-            return report.fail(where, fmt::format("is one of more than {} bands of other sample rates", mostResampled),
+        if (++resampled > maxResampled)
+            return report.fail(where, fmt::format("is one of more than {} bands of other sample rates", maxResampled),
                                ErrorCode::tooLarge);
         const Resampler<float> resampler(static_cast<int>(rate), fs);
-        if (resampler.outputFrames(samples.size()) > mostSamples)
-            return report.fail(where, fmt::format("makes the waveforms longer than {} samples", mostSamples),
+        if (resampler.outputFrames(samples.size()) > maxSamples)
+            return report.fail(where, fmt::format("makes the waveforms longer than {} samples", maxSamples),
                                ErrorCode::tooLarge);
         std::vector<float> slower = std::exchange(samples, std::vector<float>(resampler.outputFrames(samples.size())));
         resampler.process(slower, 0, 0, samples);
@@ -157,8 +157,8 @@ Clip HjifWaveform::translated(double duration)
         frames = std::max(frames, channel.size());
     if (duration > 0.0 && duration * fs < static_cast<double>(frames))
         frames = static_cast<std::size_t>(std::llround(duration * fs));
-    constexpr std::size_t mostChannels = 64; // of the encoder
-    const std::size_t count = std::min(channels.size(), mostChannels);
+    constexpr std::size_t maxChannels = 64; // of the encoder
+    const std::size_t count = std::min(channels.size(), maxChannels);
     Encoder encoder({}); // normalising: how weak a curve may be is judged by the loudest
     encoder.start(fs, static_cast<int>(count));
     constexpr std::size_t chunk = 4096;

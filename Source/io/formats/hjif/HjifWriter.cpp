@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/hjif/HjifEvents.h"
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifVoices.h"

@@ -1,7 +1,7 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
+#include "io/formats/openxr/OpenXrFormat.h"
 #include "io/formats/samples/DriveSamples.h"
-#include "io/formats/samples/PcmFormat.h"
 
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostSamples = 4000; // in one buffer or envelope
-constexpr int usualRate = 2000;           // Hz, that of Quest controllers
+constexpr std::size_t maxSamples = 4000; // in one buffer or envelope
+constexpr int usualRate = 2000;          // Hz, that of Quest controllers
 
 struct OpenXrClip
 {
@@ -48,7 +48,7 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     SingleVoice voice = oneVoice(clip, params.profile);
     const double rate = params.amplitudePoints.value_or(100.0);
     const double wanted = std::ceil(clip.duration * rate);
-    const double count = std::clamp(wanted, 1.0, static_cast<double>(mostSamples));
+    const double count = std::clamp(wanted, 1.0, static_cast<double>(maxSamples));
     LossList& losses = result.drive.losses;
     if (wanted > count)
         losses.add(LossKind::points, 0.0, clip.duration, 0.0,
@@ -58,7 +58,8 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
     const double step = std::max(clip.duration, 1e-3) / count;
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "amplitude envelope: events become bursts");
-    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * step, "amplitude envelope: times are those of its steps");
+    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * step,
+               "amplitude envelope: times are rounded to its steps");
     losses.limit(voice.amplitude, 1.0);
     losses.limit(voice.events, 1.0);
     result.duration = std::llround(1e9 * step * count);
@@ -73,11 +74,22 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
 std::vector<std::span<const float>> buffersOf(const std::vector<float>& samples)
 {
     std::vector<std::span<const float>> buffers;
-    for (std::size_t at = 0; at < samples.size(); at += mostSamples)
-        buffers.push_back(std::span(samples).subspan(at, std::min(mostSamples, samples.size() - at)));
+    for (std::size_t at = 0; at < samples.size(); at += maxSamples)
+        buffers.push_back(std::span(samples).subspan(at, std::min(maxSamples, samples.size() - at)));
     return buffers;
 }
 } // namespace
+
+bool isOpenXrHeader(std::string_view bytes)
+{
+    return bytes.starts_with("/* XR_FB_haptic_pcm:");
+}
+
+bool isOpenXrJson(std::string_view bytes)
+{
+    return bytes.find("\"amplitudeEnvelopeVibration\"") != std::string_view::npos ||
+           bytes.find("\"pcmVibration\"") != std::string_view::npos;
+}
 
 Result<ExportedClip> writeOpenXrHeader(const Clip& clip, const ExportParams& params)
 {
@@ -106,7 +118,7 @@ static const uint32_t {1}_amplitude_count = {6};
 static const float {1}_amplitudes[{6}] = {{{7}
 }};
 )",
-             mostSamples, name, made->drive.sampleRate, samples.size(),
+             maxSamples, name, made->drive.sampleRate, samples.size(),
              numbersInLines(samples, 10, [](float x) { return floatNumber(static_cast<double>(x)); }), made->duration,
              made->amplitudes.size(), numbersInLines(made->amplitudes, 10, floatNumber))});
     result.losses = std::move(made.value().drive.losses).sorted();
@@ -141,20 +153,6 @@ Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& param
                                             made->amplitudes.size(), numbersInLines(made->amplitudes, 10, number))});
     result.losses = std::move(made.value().drive.losses).sorted();
     return result;
-}
-
-const ForeignFormat& openXrHeaderFormat()
-{
-    static constexpr ForeignFormat format{
-        "openxr", "OpenXR PCM and amplitude envelope, C header", ".h", nullptr, nullptr, writeOpenXrHeader};
-    return format;
-}
-
-const ForeignFormat& openXrJsonFormat()
-{
-    static constexpr ForeignFormat format{
-        "openxr-json", "OpenXR PCM and amplitude envelope, JSON", ".json", nullptr, nullptr, writeOpenXrJson};
-    return format;
 }
 
 } // namespace pacini

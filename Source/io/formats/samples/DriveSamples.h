@@ -1,14 +1,25 @@
 #pragma once
 
-// The drive signal within full scale, for formats that are samples.
+// The drive signal of a clip, for formats that are samples.
 
 #include "io/formats/LossList.h"
 
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <optional>
 #include <vector>
 
 namespace pacini
 {
 
+/// The drive signal of the clip at `sampleRate` Hz (2000 to 768000), made for `profile` when there is one. Errors:
+/// those of compilePlan().
+[[nodiscard]] Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate,
+                                                     const std::optional<Profile>& profile);
+
+/// The drive signal within full scale.
 struct DriveSamples
 {
     int sampleRate = 0;         ///< Hz

@@ -1,8 +1,8 @@
 #pragma once
 
-// The drive signal itself: WAV, raw samples, a C array for firmware, and the arrays of OpenXR.
+// The drive signal itself: WAV, raw samples and a C array for firmware.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 namespace pacini
 {
@@ -15,22 +15,9 @@ namespace pacini
 [[nodiscard]] Result<ExportedClip> writeRaw8(const Clip& clip, const ExportParams& params);
 [[nodiscard]] Result<ExportedClip> writeRaw16(const Clip& clip, const ExportParams& params);
 
+[[nodiscard]] bool isCArray(std::string_view bytes);
+
 /// A C header with the 8-bit samples as a `static const int8_t` array, their number and rate.
 [[nodiscard]] Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params);
-
-/// For XR_FB_haptic_pcm and XR_FB_haptic_amplitude_envelope: a C header, or JSON, with the drive signal as floats
-/// within -1..1, cut into buffers of at most 4000 samples to be appended, and the strength as amplitudes of 0 to 1 over
-/// its duration in ns, 100 per second or as many as fit 4000. The rate is 2000 Hz where it is not given; what the
-/// device plays at is asked of the runtime.
-[[nodiscard]] Result<ExportedClip> writeOpenXrHeader(const Clip& clip, const ExportParams& params);
-[[nodiscard]] Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& params);
-
-[[nodiscard]] const ForeignFormat& wav8Format();
-[[nodiscard]] const ForeignFormat& wav16Format();
-[[nodiscard]] const ForeignFormat& raw8Format();
-[[nodiscard]] const ForeignFormat& raw16Format();
-[[nodiscard]] const ForeignFormat& cArrayFormat();
-[[nodiscard]] const ForeignFormat& openXrHeaderFormat();
-[[nodiscard]] const ForeignFormat& openXrJsonFormat();
 
 } // namespace pacini

@@ -99,6 +99,11 @@ std::string upperCase(std::string name)
 }
 } // namespace
 
+bool isCArray(std::string_view bytes)
+{
+    return bytes.starts_with("#ifndef HAPTIC_");
+}
+
 Result<ExportedClip> writeWav8(const Clip& clip, const ExportParams& params)
 {
     return writeWav(clip, params, 8);
@@ -136,39 +141,6 @@ Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params)
                          numbersInLines(samples, 20, [](float x) { return fmt::format("{}", stepsOf(x, 8)); }))});
     result.losses = std::move(drive.value().losses).sorted();
     return result;
-}
-
-const ForeignFormat& wav8Format()
-{
-    static constexpr ForeignFormat format{"wav8", "Drive signal, WAV, 8 bit", ".wav", nullptr, nullptr, writeWav8};
-    return format;
-}
-
-const ForeignFormat& wav16Format()
-{
-    static constexpr ForeignFormat format{"wav16", "Drive signal, WAV, 16 bit", ".wav", nullptr, nullptr, writeWav16};
-    return format;
-}
-
-const ForeignFormat& raw8Format()
-{
-    static constexpr ForeignFormat format{"raw8",   "Drive signal, signed 8-bit samples", ".s8", nullptr, nullptr,
-                                          writeRaw8};
-    return format;
-}
-
-const ForeignFormat& raw16Format()
-{
-    static constexpr ForeignFormat format{"raw16",   "Drive signal, signed 16-bit samples", ".s16", nullptr, nullptr,
-                                          writeRaw16};
-    return format;
-}
-
-const ForeignFormat& cArrayFormat()
-{
-    static constexpr ForeignFormat format{"c",        "Drive signal, C array for firmware", ".h", nullptr, nullptr,
-                                          writeCArray};
-    return format;
 }
 
 } // namespace pacini

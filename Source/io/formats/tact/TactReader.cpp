@@ -1,6 +1,6 @@
 #include "io/FieldsReader.h"
 #include "io/formats/ForeignText.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/tact/TactFormat.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace pacini
 
 namespace
 {
-constexpr std::size_t mostElements = 5'000'000;
+constexpr std::size_t maxElements = 5'000'000;
 constexpr double longestMs = limits::duration * 1000.0;
 
 /// A straight piece of strength.
@@ -66,7 +66,7 @@ private:
         bool enabled = true;
         reader.truth("enable", enabled);
         std::vector<int> effects;
-        reader.list("effects", effects, mostElements, "effects", [&](int&) { readEffect(enabled); });
+        reader.list("effects", effects, maxElements, "effects", [&](int&) { readEffect(enabled); });
     }
 
     void readEffect(bool enabled)
@@ -102,7 +102,7 @@ private:
                       [&](int&)
                       {
                           std::vector<Feedback> feedback;
-                          reader.list("feedback", feedback, mostElements, "feedback",
+                          reader.list("feedback", feedback, maxElements, "feedback",
                                       [&](Feedback& one) { readFeedback(one, isPath, start, enabled); });
                       });
     }
@@ -113,7 +113,7 @@ private:
         reader.number("startTime", feedback.start, isPath ? Need::optional : Need::required);
         reader.number("endTime", feedback.end, isPath ? Need::optional : Need::required);
         reader.optionalText("playbackType", feedback.playback);
-        reader.list("pointList", feedback.points, mostElements, "points",
+        reader.list("pointList", feedback.points, maxElements, "points",
                     [&](std::pair<double, double>& point)
                     {
                         reader.number("time", point.first, isPath ? Need::required : Need::optional);
@@ -247,7 +247,7 @@ Result<ImportedClip> readTact(std::string_view bytes)
         return *reader.reader.error;
     if (const std::size_t texts = reader.reader.textsTaken(); texts > 0)
         result.warnings.push_back(
-            fmt::format("project.tracks: {} in quotes, taken as what they say",
+            fmt::format("project.tracks: {} in quotes and read as numbers",
                         texts == 1 ? std::string("a number is") : fmt::format("{} numbers are", texts)));
     SingleVoice voice;
     voice.duration = reader.duration / 1000.0;

@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/LossList.h"
-#include "io/formats/PlayedClip.h"
+#include "io/formats/VoiceReduction.h"
 #include "io/formats/tact/TactFormat.h"
 
 #include <fmt/format.h>
@@ -17,24 +17,19 @@ namespace
 {
 constexpr double frame = static_cast<double>(tactFrame) / 1000.0; // s
 constexpr std::array<const char*, 2> positions{"ForearmL", "ForearmR"};
+} // namespace
 
 bool isTact(std::string_view bytes)
 {
     constexpr auto none = std::string_view::npos;
     return bytes.find("\"project\"") != none && bytes.find("\"tracks\"") != none;
 }
-} // namespace
 
 Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
 {
-    SingleVoice voice = oneVoice(clip, params.profile, tactMotorFrequency);
-    LossList losses;
-    losses.addStrengthOnly(clip, voice);
-    losses.addText(clip, true);
-    losses.limit(voice.amplitude, 1.0);
-    losses.limit(voice.events, 1.0);
+    auto [voice, losses] = reducedStrength(clip, params, tactMotorFrequency);
     losses.addCrowding(voice.events, 2.0 * frame);
-    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * frame, "times are those of frames of 20 ms");
+    losses.add(LossKind::timeStep, 0.0, clip.duration, 0.5 * frame, "times are rounded to frames of 20 ms");
     std::vector<double> levels = strengthOf(voice, frame, frame);
     std::string feedback;
     const auto count = static_cast<std::int64_t>(levels.size());
@@ -99,12 +94,6 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
                          name, decimal(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes, end)});
     result.losses = std::move(losses).sorted();
     return result;
-}
-
-const ForeignFormat& tactFormat()
-{
-    static constexpr ForeignFormat format{"tact", "bHaptics, strength only", ".tact", isTact, readTact, writeTact};
-    return format;
 }
 
 } // namespace pacini

@@ -2,10 +2,12 @@
 
 // .vij files of Lofelt Studio Desktop, data model 0.2: the forerunner of .haptic, as JSON.
 
-#include "io/formats/ForeignFormat.h"
+#include "io/formats/ClipFormat.h"
 
 namespace pacini
 {
+
+[[nodiscard]] bool isVij(std::string_view bytes);
 
 /// Reads the envelopes of amplitude and frequency and the transients of `voices`. As Lofelt's own upgrade to .haptic
 /// does, the last amplitude holds until the stated duration; other than that upgrade, which drops transients that stand
@@ -13,7 +15,5 @@ namespace pacini
 /// `variation` and `voices.bands` is not kept. Errors: as in readForeignTree(), and invalidData with its path for
 /// missing or mistyped entries, no amplitude point, times below 0, going back or beyond 24 hours.
 [[nodiscard]] Result<ImportedClip> readVij(std::string_view bytes);
-
-[[nodiscard]] const ForeignFormat& vijFormat();
 
 } // namespace pacini

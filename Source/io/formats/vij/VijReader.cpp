@@ -84,7 +84,7 @@ private:
         else if (!(read.time <= limits::duration))
             time.fail("is later than 24 hours", ErrorCode::tooLarge);
         if (!(read.value >= 0.0 && read.value <= 1.0))
-            report.warn(value.path(), "is outside of 0 to 1 and becomes its end");
+            report.warn(value.path(), "is outside of 0 to 1 and is limited to this range");
         curve.push_back({read.time, std::clamp(read.value, 0.0, 1.0)});
     }
 
@@ -101,7 +101,7 @@ private:
     {
         constexpr double plain = 0.5;
         if (sharpnesses.size() != strengths.size())
-            report.warn("voices.transients", "strengths and sharpnesses are not as many; the nearest sharpness counts");
+            report.warn("voices.transients", "there are not as many sharpnesses as strengths; the nearest one is used");
         for (const Breakpoint& strength : strengths)
             clip.transients.push_back(
                 {strength.time, strength.value, sharpnesses.empty() ? plain : valueAt(sharpnesses, strength.time)});
@@ -112,12 +112,12 @@ private:
     ImportReport report;
     Clip clip;
 };
+} // namespace
 
 bool isVij(std::string_view bytes)
 {
     return bytes.find("\"voices\"") != std::string_view::npos && bytes.find("\"envelopes\"") != std::string_view::npos;
 }
-} // namespace
 
 Result<ImportedClip> readVij(std::string_view bytes)
 {
@@ -130,12 +130,6 @@ Result<ImportedClip> readVij(std::string_view bytes)
         return clip.error();
     result.clip = std::move(*clip);
     return result;
-}
-
-const ForeignFormat& vijFormat()
-{
-    static const ForeignFormat format{"vij", "Lofelt Studio Desktop, version 0.2", ".vij", isVij, readVij, nullptr};
-    return format;
 }
 
 } // namespace pacini

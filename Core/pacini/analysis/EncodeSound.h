@@ -1,0 +1,85 @@
+#pragma once
+
+// The way from the samples of a sound to its clip.
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/foundation/Result.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace pacini
+{
+
+/// What is known of a sound before its samples are read; see Encoder::start().
+struct SoundFormat
+{
+    int sampleRate = 0; ///< Hz
+    int channels = 1;
+    std::uint64_t expectedFrames = 0; ///< 0: not known
+    std::optional<double> peak = {};  ///< as SoundPeak finds it
+};
+
+/// Interleaved samples, whole frames; none at the end of the sound.
+using SoundPart = Result<std::span<const float>>;
+
+/// Samples of one part, so that parts of every number of channels take about as much memory.
+[[nodiscard]] constexpr std::size_t soundPartLength(std::size_t channels) noexcept
+{
+    return channels * std::max<std::size_t>(1, 65536 / channels);
+}
+
+/// A sound in memory, part by part as it is read from a file.
+class SoundParts
+{
+public:
+    SoundParts(std::span<const float> interleaved, int channels) noexcept
+        : rest(interleaved), length(soundPartLength(static_cast<std::size_t>(channels)))
+    {
+    }
+
+    [[nodiscard]] SoundPart operator()()
+    {
+        const auto part = rest.first(std::min(length, rest.size()));
+        rest = rest.subspan(part.size());
+        return part;
+    }
+
+    [[nodiscard]] std::size_t samplesLeft() const noexcept { return rest.size(); }
+
+private:
+    std::span<const float> rest;
+    std::size_t length;
+};
+
+/// The clip of the sound that `next()` hands out as SoundPart by SoundPart, as precise as it was found. Errors: those
+/// of next().
+template <typename Next>
+[[nodiscard]] Result<Clip> encodePrecisely(Encoder& encoder, const SoundFormat& format, Next&& next)
+{
+    encoder.start(format.sampleRate, format.channels, format.expectedFrames, format.peak);
+    for (;;)
+    {
+        const SoundPart part = next();
+        if (!part)
+            return part.error();
+        if (part->empty())
+            return encoder.finish();
+        encoder.push(*part);
+    }
+}
+
+/// The same on the grids of `quantise` bits, as clip files hold it.
+template <typename Next>
+[[nodiscard]] Result<Clip> encodeSound(Encoder& encoder, const SoundFormat& format, Next&& next)
+{
+    auto clip = encodePrecisely(encoder, format, std::forward<Next>(next));
+    return clip ? onGrids(std::move(clip).value()) : clip;
+}
+
+} // namespace pacini

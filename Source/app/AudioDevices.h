@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Sound devices around the plugin: what goes in, and which channel of the interface the actuator hangs on.
+
+#include "app/LoadedSound.h"
+#include "app/TestSignal.h"
+#include "plugin/engine/PluginProcessor.h"
+
+#include <pacini/realtime/HandOver.h>
+
+#include <juce_audio_devices/juce_audio_devices.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace pacini::app
+{
+
+enum class InputChoice
+{
+    device, ///< inputs of the interface
+    test,   ///< the test signal
+    file    ///< the loaded file, again and again
+};
+
+/// All channels are numbered from 0, -1 is none.
+struct Routing
+{
+    InputChoice input = InputChoice::device;
+    int mainInput = 0; ///< the first of two
+    int sidechainInput = 2;
+    int mainOutput = 0; ///< the first of two, where the sound is heard
+    int hapticOutput = 2;
+    int hapticChannels = 1; ///< so many from hapticOutput on carry the drive
+    bool operator==(const Routing&) const = default;
+};
+
+/// Runs the plugin's processor in the callback of a sound device.
+class AudioDevices final : private juce::AudioIODeviceCallback
+{
+public:
+    explicit AudioDevices(plugin::PluginProcessor& wanted);
+    ~AudioDevices() override;
+
+    /// Opens a device with as many channels as it has; an error text, empty when all is well. [message]
+    juce::String open(const juce::XmlElement* saved, const juce::String& deviceType);
+
+    [[nodiscard]] juce::AudioDeviceManager& devices() noexcept { return manager; }
+    /// Channels of the open device. [message]
+    [[nodiscard]] juce::StringArray inputNames() const;
+    [[nodiscard]] juce::StringArray outputNames() const;
+
+    [[nodiscard]] Routing routing() const noexcept;
+    void setRouting(const Routing& wanted) noexcept;
+
+    /// Loads a file and plays it from its beginning. [message]
+    Result<void> play(const juce::File& file);
+
+private:
+    using Sounds = HandOver<LoadedSound>;
+
+    static constexpr int pieceFrames = 512;
+    static constexpr int maxChannels = 256;
+
+    void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
+    void audioDeviceStopped() override;
+    void audioDeviceIOCallbackWithContext(const float* const* in, int ins, float* const* out, int outs, int frames,
+                                          const juce::AudioIODeviceCallbackContext& context) override;
+    void fillInputs(const Routing& now, const float* const* in, int ins, int done, int frames) noexcept;
+    void takeSound() noexcept;
+
+    plugin::PluginProcessor& processor;
+    juce::AudioDeviceManager manager;
+
+    std::atomic<InputChoice> input{InputChoice::device};
+    std::atomic<int> mainInput{0}, sidechainInput{2}, mainOutput{0}, hapticOutput{2}, hapticChannels{1};
+
+    juce::File file;
+    std::unique_ptr<Sounds> sounds = std::make_unique<Sounds>();
+    std::unique_ptr<Sounds::Node> sound; // the audio thread's
+    std::size_t position = 0;
+    TestSignal test;
+    juce::AudioBuffer<float> buffer{3, pieceFrames};
+    juce::MidiBuffer midi;
+    /// Where a channel of the device lies among those that are switched on; -1: it is off.
+    std::array<int, maxChannels> inputPlaces{}, outputPlaces{};
+};
+
+} // namespace pacini::app

@@ -1,0 +1,244 @@
+#include "cli/measure/AnalyseSubcommand.h"
+
+#include "cli/Checks.h"
+#include "cli/InputFiles.h"
+#include "cli/ProfileInput.h"
+#include "cli/plot/ResponseFigure.h"
+#include "io/AtomicFile.h"
+#include "io/FileExtension.h"
+#include "io/ProfileFile.h"
+#include "io/ResponseTable.h"
+
+#include <pacini/linearize/MeasuredProfile.h>
+#include <pacini/linearize/MeasurementFindings.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// What all recordings together say of the actuator.
+Result<MeasurementFindings> findingsOf(const AnalysedRecordings& analysed, double smoothing, double distortionLimit)
+{
+    std::vector<const SweepMeasurement*> placements;
+    for (const AnalysedRecording& recording : analysed.recordings)
+        placements.push_back(&recording.measurement);
+    return pacini::findingsOf(placements, analysed.average, smoothing, distortionLimit);
+}
+
+std::string table(const AnalysedRecordings& analysed)
+{
+    const FrequencyResponse& response = analysed.average.response;
+    std::vector<TableColumn> columns{{"frequency", response.frequency}, {"dB", response.level}};
+    const auto add = [&](std::string name, std::vector<double> values)
+    {
+        values.resize(response.size(), std::numeric_limits<double>::quiet_NaN());
+        columns.push_back({std::move(name), std::move(values)});
+    };
+    if (analysed.recordings.size() > 1)
+        add("spread dB", analysed.average.spread);
+    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
+    {
+        const SweepMeasurement& measured = analysed.recordings[i].measurement;
+        const LevelMeasurement& level = measured.levels[measured.main];
+        const std::string number = analysed.recordings.size() > 1 ? fmt::format(" {}", i + 1) : "";
+        if (analysed.recordings.size() > 1)
+            add("dB" + number, level.response.level);
+        add("SNR dB" + number, level.snr.level);
+        add("distortion %" + number, level.distortion);
+    }
+    return tableText(columns);
+}
+
+Json report(const AnalysedRecordings& analysed, const MeasurementFindings& findings, const std::string& output)
+{
+    Json recordings = Json::array();
+    Json outliers = Json::array();
+    for (std::size_t i = 0; i < analysed.recordings.size(); ++i)
+    {
+        const AnalysedRecording& recording = analysed.recordings[i];
+        Json warnings = Json::array();
+        for (const MeasurementWarning& warning : recording.measurement.warnings)
+            warnings.push_back({{"where", warning.where}, {"message", warning.message}});
+        Json entry{{"input", recording.file}, {"latency", recording.measurement.latency}};
+        if (recording.measurement.driftPpm)
+            entry["driftPpm"] = *recording.measurement.driftPpm;
+        entry["offset"] = analysed.average.offsets[i];
+        entry["warnings"] = std::move(warnings);
+        recordings.push_back(std::move(entry));
+    }
+    for (const PlacementOutlier& outlier : analysed.average.outliers)
+        outliers.push_back(
+            {{"input", analysed.recordings[outlier.index].file}, {"offset", outlier.offset}, {"shape", outlier.shape}});
+    const ResponseFeatures& features = findings.features;
+    Json json{{"output", output},
+              {"resonance", {{"frequency", features.resonance.frequency}, {"q", features.resonance.q}}},
+              {"plateau", features.plateau},
+              {"even", {{"lowFrequency", features.even.low}, {"highFrequency", features.even.high}}},
+              {"felt", {{"lowFrequency", features.felt.low}, {"highFrequency", features.felt.high}}}};
+    if (findings.times)
+        json["response"] = {{"riseTime", findings.times->riseTime}, {"fallTime", findings.times->fallTime}};
+    json["distortion"] = findings.distortion;
+    if (findings.distortionDrive)
+        json["distortionDrive"] = *findings.distortionDrive;
+    json["outliers"] = std::move(outliers);
+    json["recordings"] = std::move(recordings);
+    return json;
+}
+
+std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& findings, double distortionLimit)
+{
+    const ResponseFeatures& features = findings.features;
+    std::string lines =
+        fmt::format("{} recording{}{}: resonance {:.2f} Hz, Q {:.2f}; plateau {} dB; felt from {:.0f} to {:.0f} "
+                    "Hz, even within "
+                    "3 dB from {:.0f} to {:.0f} Hz",
+                    analysed.recordings.size(), analysed.recordings.size() == 1 ? "" : "s",
+                    findings.outliers.empty() ? "" : fmt::format(", {} of them left out", findings.outliers.size()),
+                    features.resonance.frequency, features.resonance.q, decimalText(features.plateau, 1),
+                    features.felt.low, features.felt.high, features.even.low, features.even.high);
+    if (findings.times)
+        lines += fmt::format("\n  rises in {:.1f} ms, falls in {:.1f} ms", 1e3 * findings.times->riseTime,
+                             1e3 * findings.times->fallTime);
+    lines += fmt::format(
+        "\n  distortion at most {:.2g} % at {} dB", findings.distortion,
+        decimalText(*std::max_element(analysed.sweep.sweep.levels.begin(), analysed.sweep.sweep.levels.end()), 1));
+    if (findings.distortionDrive)
+        lines += fmt::format(", passes {:.3g} % at {} dB", distortionLimit, decimalText(*findings.distortionDrive, 1));
+    for (const AnalysedRecording& recording : analysed.recordings)
+        lines += fmt::format("\n  {}: latency {} ms{}", printable(recording.file),
+                             decimalText(1e3 * recording.measurement.latency, 2),
+                             recording.measurement.driftPpm
+                                 ? fmt::format(", clock {} ppm", signedText(*recording.measurement.driftPpm, 1))
+                                 : "");
+    return lines;
+}
+} // namespace
+
+CLI::App* AnalyseSubcommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("analyse", "Find the response of an actuator from recordings of a sweep");
+    options.declare(*command);
+    command->add_option("-o,--output", output, "Profile (.json) or table (.csv) to write")->type_name("OUT");
+    command->add_option("--profile", base, "Profile for what was not measured, such as drive limits")
+        ->type_name("PROFILE");
+    command->add_option("--name", name, "Name of the profile to write")->type_name("NAME");
+    command->add_option("--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)")
+        ->type_name("PICTURE");
+    command->add_option("--distortion-limit", distortionLimit, "Distortion for which the drive level is reported, %")
+        ->capture_default_str()
+        ->check(numberFrom(0.01, 100.0))
+        ->type_name("%");
+    command->footer(
+        "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
+        "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
+    return command;
+}
+
+Exit AnalyseSubcommand::run(Console& console)
+{
+    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
+    {
+        console.error(file, error);
+        return exit;
+    };
+    const std::string extension = lowerExtension(output);
+    if (!output.empty() && extension != ".json" && extension != ".csv")
+        return fail(output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .csv"}, Exit::usage);
+    if (!picture.empty() && !plot::pictureFormatOf(picture))
+        return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                    Exit::usage);
+    for (const std::string& result : {output, picture})
+        if (!result.empty() && sameFileKey(result) == sameFileKey(options.sweep))
+            return fail(result,
+                        {ErrorCode::invalidArgument, "", "is the description of the sweep; name another output"},
+                        Exit::usage);
+    Profile profile;
+    profile.technology = Technology::vca;
+    profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();
+    if (!base.empty())
+    {
+        auto opened = openProfile(console, base);
+        if (!opened)
+            return Exit::failed;
+        profile = std::move(*opened);
+    }
+    if (!name.empty())
+        profile.name = name;
+
+    const auto analysed = analyseRecordings(console, options);
+    if (!analysed)
+        return Exit::failed;
+    if (!analysed->sweep.equalizedFor.empty())
+        console.warning(options.sweep, fmt::format("went through the equaliser of '{}': this is its response with the "
+                                                   "equaliser; 'pacini measure verify' judges it",
+                                                   analysed->sweep.equalizedFor));
+    const auto findings = findingsOf(*analysed, options.smoothingOctaves(), distortionLimit);
+    if (!findings)
+        return fail("", findings.error());
+
+    if (extension == ".json")
+    {
+        const auto& levels = analysed->sweep.sweep.levels;
+        setMeasurement(profile, analysed->average.response, *findings, analysed->recordings.size(),
+                       *std::max_element(levels.begin(), levels.end()));
+        if (const auto written = writeProfile(output, profile); !written)
+            return fail(output, written.error());
+    }
+    else if (extension == ".csv")
+        if (const auto written = writeFileAtomically(output, table(*analysed)); !written)
+            return fail(output, written.error());
+    if (!picture.empty())
+        if (const auto drawn = drawPicture(*analysed, findings->features); !drawn)
+            return fail(picture, drawn.error());
+
+    console.addToReport(report(*analysed, *findings, output));
+    console.print(text(*analysed, *findings, distortionLimit));
+    if (!output.empty())
+        console.wrote(output);
+    if (!picture.empty())
+        console.wrote(picture);
+    return Exit::ok;
+}
+
+Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& analysed,
+                                                   const ResponseFeatures& features) const
+{
+    plot::ResponseFigureContent content;
+    content.title = !name.empty()    ? name
+                    : output.empty() ? "Measured response"
+                                     : std::filesystem::path(output).stem().string();
+    content.subtitle = fmt::format("resonance {:.1f} Hz, Q {:.2f}", features.resonance.frequency, features.resonance.q);
+    content.lowFrequency = features.felt.low;
+    content.highFrequency = features.felt.high;
+    const bool several = analysed.recordings.size() > 1;
+    for (std::size_t i = 0; i < analysed.recordings.size() && several; ++i)
+    {
+        const auto& outliers = analysed.average.outliers;
+        const bool out = std::any_of(outliers.begin(), outliers.end(),
+                                     [i](const PlacementOutlier& outlier) { return outlier.index == i; });
+        content.responses.push_back({out ? "left out" : "placements", analysed.recordings[i].measurement.response(),
+                                     out ? plot::ResponseRole::outlier : plot::ResponseRole::placement});
+    }
+    const SweepMeasurement& first = analysed.recordings.front().measurement;
+    const LevelMeasurement& level = first.levels[first.main];
+    content.responses.push_back({"noise", level.noise, plot::ResponseRole::noise});
+    content.responses.push_back({several ? "average" : "response", analysed.average.response});
+    content.distortion = plot::NamedResponse{"all harmonics", {level.response.frequency, level.distortion}};
+    const plot::FigureStyle style;
+    return plot::writeFigure(picture, makeResponseFigure(content, style), style);
+}
+
+} // namespace pacini::cli

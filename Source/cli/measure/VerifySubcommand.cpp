@@ -1,0 +1,182 @@
+#include "cli/measure/VerifySubcommand.h"
+
+#include "cli/Checks.h"
+#include "cli/plot/ResponseFigure.h"
+#include "io/ProfileFile.h"
+
+#include <pacini/linearize/MeasuredProfile.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json outlierJson(const LinearityOutlier& outlier)
+{
+    return {{"lowFrequency", outlier.lowFrequency},
+            {"highFrequency", outlier.highFrequency},
+            {"deviation", outlier.deviation}};
+}
+
+Json linearityJson(const Linearity& linearity)
+{
+    Json outliers = Json::array();
+    for (const LinearityOutlier& outlier : linearity.outliers)
+        outliers.push_back(outlierJson(outlier));
+    return {{"passed", linearity.passed()},
+            {"lowFrequency", linearity.lowFrequency},
+            {"highFrequency", linearity.highFrequency},
+            {"tolerance", linearity.tolerance},
+            {"level", linearity.level},
+            {"meanDeviation", linearity.meanDeviation},
+            {"standardDeviation", linearity.standardDeviation},
+            {"worstDeviation", linearity.worstDeviation},
+            {"worstFrequency", linearity.worstFrequency},
+            {"outliers", std::move(outliers)}};
+}
+
+std::string linearityText(const Linearity& linearity)
+{
+    std::string text =
+        fmt::format("mean deviation {:.2f} dB, SD {:.2f} dB, worst {} dB at {:.0f} Hz, from {:.0f} to {:.0f} Hz",
+                    linearity.meanDeviation, linearity.standardDeviation, signedText(linearity.worstDeviation, 2),
+                    linearity.worstFrequency, linearity.lowFrequency, linearity.highFrequency);
+    for (const LinearityOutlier& outlier : linearity.outliers)
+        text += fmt::format("\n  {:.0f} to {:.0f} Hz: {} dB", outlier.lowFrequency, outlier.highFrequency,
+                            signedText(outlier.deviation, 2));
+    return text;
+}
+
+FrequencyResponse responseBefore(const ProfileMeasurement& measurement)
+{
+    FrequencyResponse response;
+    for (const MeasuredPoint& point : measurement.points)
+    {
+        response.frequency.push_back(point.frequency);
+        response.level.push_back(point.level);
+    }
+    return response;
+}
+} // namespace
+
+CLI::App* VerifySubcommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("verify", "Prove that an actuator is flat through its equaliser");
+    options.declare(*command);
+    command
+        ->add_option("--profile", profile,
+                     "Profile with the equaliser through which the sweep was played; the proof is written into it")
+        ->required()
+        ->type_name("PROFILE.json");
+    command->add_option("-o,--output", output, "Profile to write instead")->type_name("PROFILE.json");
+    command->add_option("--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)")
+        ->type_name("PICTURE");
+    command->add_option("--tolerance", tolerance, "Deviation from the mean that passes, dB to both sides")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, 100.0))
+        ->type_name("DB");
+    command->add_option("--low", low, "Start of the range to judge, Hz [of the profile]")
+        ->check(numberFrom(0.1, 200000.0))
+        ->type_name("HZ");
+    command->add_option("--high", high, "End of the range to judge, Hz [of the profile]")
+        ->check(numberFrom(0.1, 200000.0))
+        ->type_name("HZ");
+    command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
+                    "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
+    return command;
+}
+
+Exit VerifySubcommand::run(Console& console)
+{
+    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
+    {
+        console.error(file, error);
+        return exit;
+    };
+    if (!picture.empty() && !plot::pictureFormatOf(picture))
+        return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                    Exit::usage);
+    ReadWarnings warnings(console.isStrict());
+    auto actuator = readProfile(profile, &warnings);
+    if (!actuator)
+        return fail(profile, actuator.error());
+    console.warnings(profile, warnings.texts());
+    if (actuator->equalizer.empty())
+        return fail(profile, {ErrorCode::invalidData, "equalizer",
+                              "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+    const auto analysed = analyseRecordings(console, options);
+    if (!analysed)
+        return Exit::failed;
+    if (analysed->sweep.equalizedFor.empty())
+        return fail(options.sweep, {ErrorCode::invalidData, "equalizedFor",
+                                    "is missing: this sweep did not go through an equaliser; make one with 'pacini "
+                                    "measure sweep --profile'"});
+    if (analysed->sweep.equalizedFor != actuator->name)
+        console.warning(options.sweep, fmt::format("went through the equaliser of '{}', not of '{}'",
+                                                   analysed->sweep.equalizedFor, actuator->name));
+
+    const FrequencyResponse& after = analysed->average.response;
+    const LinearityParams params{low.value_or(actuator->range.lowFrequency),
+                                 high.value_or(actuator->range.highFrequency), tolerance};
+    const auto linearity = judgeLinearity(after, params);
+    if (!linearity)
+        return fail(profile, linearity.error());
+    setVerification(*actuator, after, *linearity);
+    const std::string target = output.empty() ? profile : output;
+    if (const auto written = writeProfile(target, *actuator); !written)
+        return fail(target, written.error());
+    console.wrote(target);
+
+    if (!picture.empty())
+    {
+        plot::ResponseFigureContent content;
+        content.title = actuator->name;
+        content.subtitle = fmt::format("{}: {:.2f} dB mean deviation, {} dB at most, tolerance \u00b1{:.3g} dB",
+                                       linearity->passed() ? "flat" : "not flat", linearity->meanDeviation,
+                                       signedText(linearity->worstDeviation, 2), tolerance);
+        content.equalizer = actuator->equalizer;
+        content.sampleRate = analysed->sweep.sweep.sampleRate;
+        content.lowFrequency = params.lowFrequency;
+        content.highFrequency = params.highFrequency;
+        content.linearity = *linearity;
+        for (const AnalysedRecording& recording : analysed->recordings)
+            if (analysed->recordings.size() > 1)
+                content.responses.push_back({fmt::format("{} placements", analysed->recordings.size()),
+                                             recording.measurement.response(), plot::ResponseRole::placement});
+        if (!actuator->measurement->points.empty())
+            content.responses.push_back(
+                {"before", responseBefore(*actuator->measurement), plot::ResponseRole::measured});
+        content.responses.push_back({"with the equaliser", after, plot::ResponseRole::flattened});
+        const plot::FigureStyle style;
+        if (const auto drawn = plot::writeFigure(picture, makeResponseFigure(content, style), style); !drawn)
+            return fail(picture, drawn.error());
+        console.wrote(picture);
+    }
+
+    Json each = Json::array();
+    for (const AnalysedRecording& recording : analysed->recordings)
+        if (const auto one = judgeLinearity(recording.measurement.response(), params))
+            each.push_back({{"input", recording.file},
+                            {"meanDeviation", one->meanDeviation},
+                            {"worstDeviation", one->worstDeviation},
+                            {"worstFrequency", one->worstFrequency}});
+    Json report{{"profile", target}};
+    report.update(linearityJson(*linearity));
+    report["recordings"] = std::move(each);
+    console.addToReport(report);
+    console.print(fmt::format("{}: {} within \u00b1{:.3g} dB: {}", printable(target),
+                              linearity->passed() ? "PASS" : "FAIL", tolerance, linearityText(*linearity)));
+    if (linearity->passed())
+        return Exit::ok;
+    return fail(target, {ErrorCode::invalidData, "", fmt::format("is not flat within \u00b1{:.3g} dB", tolerance)});
+}
+
+} // namespace pacini::cli

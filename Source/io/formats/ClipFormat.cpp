@@ -1,0 +1,258 @@
+#include "io/formats/ClipFormat.h"
+
+#include "io/formats/ahap/AhapFormat.h"
+#include "io/formats/android/AndroidFormat.h"
+#include "io/formats/csv/CsvFormat.h"
+#include "io/formats/haps/HapsFormat.h"
+#include "io/formats/haptic/HapticFormat.h"
+#include "io/formats/hasp/HaspFormat.h"
+#include "io/formats/hjif/HjifFormat.h"
+#include "io/formats/json/JsonFormat.h"
+#include "io/formats/openxr/OpenXrFormat.h"
+#include "io/formats/packed/PackedFormat.h"
+#include "io/formats/samples/PcmFormat.h"
+#include "io/formats/tact/TactFormat.h"
+#include "io/formats/vij/VijFormat.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pacini
+{
+
+namespace
+{
+/// Readers of other programs' formats are as strict as they are.
+template <Result<ImportedClip> (*read)(std::string_view)>
+Result<ImportedClip> always(std::string_view bytes, bool)
+{
+    return read(bytes);
+}
+
+/// All that `stream` writes as one file.
+template <void (*stream)(Clip, const ClipFormat::PieceSink&)>
+Result<ExportedClip> inOnePiece(const Clip& clip, const ExportParams&)
+{
+    if (auto valid = validate(clip); !valid)
+        return valid.error();
+    ExportedClip result;
+    std::string& bytes = result.files.emplace_back().bytes;
+    stream(clip, [&bytes](std::string_view piece) { bytes += piece; });
+    return result;
+}
+
+/// Sounds are read by the encoder.
+constexpr bool isNoClip(std::string_view)
+{
+    return false;
+}
+
+constexpr std::array formats{
+    ClipFormat{.name = "json",
+               .title = "Pacini clip (JSON)",
+               .extension = ".json",
+               .keeps = "Keeps everything: curves, events, noise, markers, source.",
+               .recognises = isClipJson,
+               .reader = readClipJsonFile,
+               .writer = inOnePiece<streamClipJson>,
+               .stream = streamClipJson},
+    ClipFormat{.name = "packed",
+               .title = "Pacini clip (packed)",
+               .extension = ".pacb",
+               .keeps = "Keeps everything on the grids of the clip's quantiser, in a small file.",
+               .recognises = isPackedClip,
+               .reader = always<readPackedClip>,
+               .writer = inOnePiece<streamPackedClip>,
+               .stream = streamPackedClip},
+    ClipFormat{.name = "haptic",
+               .title = "Lofelt and Meta Haptics Studio, version 1",
+               .extension = ".haptic",
+               .keeps = "One voice: a curve of amplitude, one of frequency, and events as emphases.",
+               .recognises = isHaptic,
+               .reader = always<readHaptic>,
+               .writer = writeHaptic},
+    ClipFormat{.name = "vij",
+               .title = "Lofelt Studio Desktop, version 0.2",
+               .extension = ".vij",
+               .keeps = "One voice: a curve of amplitude, one of frequency, and events.",
+               .recognises = isVij,
+               .reader = always<readVij>},
+    ClipFormat{.name = "hasp",
+               .title = "Meta Haptics Studio, projects of one clip",
+               .extension = ".hasp",
+               .keeps = "One voice: a curve of amplitude, one of frequency, and events as emphases.",
+               .recognises = isHasp,
+               .reader = always<readHasp>},
+    ClipFormat{.name = "ahap",
+               .title = "Apple Core Haptics, AHAP",
+               .extension = ".ahap",
+               .keeps = "One voice: a curve of intensity, one of sharpness, and events.",
+               .recognises = isAhap,
+               .reader = always<readAhap>,
+               .writer = writeAhap,
+               .companion = ahapTransients},
+    ClipFormat{.name = "hjif",
+               .title = "MPEG haptics interchange (ISO/IEC 23090-31)",
+               .extension = ".hjif",
+               .keeps = "Bands with their amplitudes and frequencies, and events.",
+               .recognises = isHjif,
+               .reader = always<readHjif>,
+               .writer = writeHjif},
+    ClipFormat{.name = "haps",
+               .title = "Interhaptics, version 5",
+               .extension = ".haps",
+               .keeps = "One voice: a curve of amplitude, one of frequency, and events without sharpness.",
+               .recognises = isHaps,
+               .reader = always<readHaps>,
+               .writer = writeHaps},
+    ClipFormat{.name = "android",
+               .title = "Android vibration effects, JSON",
+               .extension = ".json",
+               .keeps = "One voice as envelopes, and its strength in steps for devices that play no envelopes.",
+               .recognises = isAndroidJson,
+               .reader = always<readAndroidJson>,
+               .writer = writeAndroidJson},
+    ClipFormat{.name = "android-xml",
+               .title = "Android vibration XML",
+               .extension = ".xml",
+               .keeps = "The strength of one voice in steps.",
+               .recognises = isAndroidXml,
+               .writer = writeAndroidXml},
+    ClipFormat{.name = "android-kotlin",
+               .title = "Android vibration effect, Kotlin",
+               .extension = ".kt",
+               .keeps = "One voice as an envelope, and its strength in steps for devices that play no envelopes.",
+               .recognises = isAndroidKotlin,
+               .writer = writeAndroidKotlin},
+    ClipFormat{.name = "android-java",
+               .title = "Android vibration effect, Java",
+               .extension = ".java",
+               .keeps = "One voice as an envelope, and its strength in steps for devices that play no envelopes.",
+               .recognises = isAndroidJava,
+               .writer = writeAndroidJava},
+    ClipFormat{.name = "openxr",
+               .title = "OpenXR PCM and amplitude envelope, C header",
+               .extension = ".h",
+               .keeps = "Samples of the drive signal, and its strength as an envelope.",
+               .recognises = isOpenXrHeader,
+               .writer = writeOpenXrHeader},
+    ClipFormat{.name = "openxr-json",
+               .title = "OpenXR PCM and amplitude envelope, JSON",
+               .extension = ".json",
+               .keeps = "Samples of the drive signal, and its strength as an envelope.",
+               .recognises = isOpenXrJson,
+               .writer = writeOpenXrJson},
+    ClipFormat{.name = "tact",
+               .title = "bHaptics, strength only",
+               .extension = ".tact",
+               .keeps = "The strength of one voice in frames of 20 ms.",
+               .recognises = isTact,
+               .reader = always<readTact>,
+               .writer = writeTact},
+    ClipFormat{.name = "csv",
+               .title = "Table of all curves, comma-separated",
+               .extension = ".csv",
+               .keeps = "All curves, events and noise; no names, markers and parameters of the encoder.",
+               .recognises = isCsv,
+               .reader = always<readCsv>,
+               .writer = writeCsv},
+    ClipFormat{.name = "wav8",
+               .title = "Drive signal, WAV, 8 bit",
+               .extension = ".wav",
+               .keeps = "Samples of the drive signal for the chosen actuator. They cannot be edited further.",
+               .recognises = isNoClip,
+               .writer = writeWav8,
+               .isSamples = true},
+    ClipFormat{.name = "wav16",
+               .title = "Drive signal, WAV, 16 bit",
+               .extension = ".wav",
+               .keeps = "Samples of the drive signal for the chosen actuator. They cannot be edited further.",
+               .recognises = isNoClip,
+               .writer = writeWav16,
+               .isSamples = true},
+    ClipFormat{.name = "raw8",
+               .title = "Drive signal, signed 8-bit samples",
+               .extension = ".s8",
+               .keeps = "Samples of the drive signal for the chosen actuator. They cannot be edited further.",
+               .writer = writeRaw8,
+               .isSamples = true},
+    ClipFormat{.name = "raw16",
+               .title = "Drive signal, signed 16-bit samples",
+               .extension = ".s16",
+               .keeps = "Samples of the drive signal for the chosen actuator. They cannot be edited further.",
+               .writer = writeRaw16,
+               .isSamples = true},
+    ClipFormat{.name = "c",
+               .title = "Drive signal, C array for firmware",
+               .extension = ".h",
+               .keeps = "Samples of the drive signal for the chosen actuator. They cannot be edited further.",
+               .recognises = isCArray,
+               .writer = writeCArray,
+               .isSamples = true},
+};
+} // namespace
+
+std::span<const ClipFormat> clipFormats()
+{
+    return formats;
+}
+
+const ClipFormat* clipFormatNamed(std::string_view name)
+{
+    const auto found =
+        std::find_if(formats.begin(), formats.end(), [&](const ClipFormat& format) { return format.name == name; });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+const ClipFormat& jsonFormat()
+{
+    return formats[0];
+}
+
+const ClipFormat& packedFormat()
+{
+    return formats[1];
+}
+
+const ClipFormat* clipFormatWrittenTo(std::string_view extension)
+{
+    const auto found =
+        std::find_if(formats.begin(), formats.end(),
+                     [&](const ClipFormat& format) { return format.isWritten() && format.extension == extension; });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+bool isOwnExtension(std::string_view extension)
+{
+    const ClipFormat* format = clipFormatWrittenTo(extension);
+    return format != nullptr && format->isOwn();
+}
+
+const ClipFormat* clipFormatOf(std::string_view extension, std::string_view bytes)
+{
+    const ClipFormat* found = nullptr;
+    const ClipFormat* byName = nullptr;
+    for (const ClipFormat& format : formats)
+    {
+        const bool named = format.extension == extension;
+        const bool recognised = format.recognises != nullptr && format.recognises(bytes);
+        if (recognised && (named || format.isOwn()))
+            return &format;
+        if (recognised && found == nullptr)
+            found = &format;
+        if (named && byName == nullptr && !format.isOwn() && (format.isRead() || format.recognises == nullptr))
+            byName = &format;
+    }
+    return found == nullptr && extension != ".json" ? byName : found;
+}
+
+std::string_view lossName(LossKind kind)
+{
+    constexpr std::array<std::string_view, 11> names{"bands",    "points",    "length",   "frequency",
+                                                     "timeStep", "amplitude", "crowding", "event",
+                                                     "noise",    "empty",     "text"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+} // namespace pacini

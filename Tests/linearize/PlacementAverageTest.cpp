@@ -1,0 +1,138 @@
+#include "support/Catch.h"
+
+#include <pacini/foundation/Gaussian.h>
+#include <pacini/linearize/PlacementAverage.h>
+#include <pacini/linearize/ResponseSmoothing.h>
+#include <pacini/linearize/SimulatedRig.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace pacini;
+
+namespace
+{
+/// Analytic responses of the wristband on `count` people: mass, spring and damper of the skin from half to twice the
+/// usual, the level by up to 0.5 dB, each point with 0.2 dB of noise.
+std::vector<FrequencyResponse> wearers(std::size_t count, std::uint64_t seed, BodyPoint point)
+{
+    RigParams rig;
+    rig.point = point;
+    Random random(seed);
+    Gaussian noise(seed + 99);
+    std::vector<FrequencyResponse> out;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        auto worn = rig;
+        for (double* part : {&worn.body->skinMass, &worn.body->skinStiffness, &worn.body->skinDamping})
+            *part *= std::exp2(random.uniform(-1.0, 1.0));
+        worn.contact = random.uniform(-0.5, 0.5);
+        FrequencyResponse response{logSpaced(20.0, 1000.0, 120), {}};
+        for (const double f : response.frequency)
+            response.level.push_back(rigLevel(worn, f) + 0.2 * noise.next());
+        out.push_back(response);
+    }
+    return out;
+}
+
+/// The largest distance of `average` from the plain mean of `clean` from 30 to 1000 Hz.
+double bias(const FrequencyResponse& average, const std::vector<FrequencyResponse>& clean)
+{
+    auto mean = average;
+    for (std::size_t k = 0; k < mean.size(); ++k)
+    {
+        mean.level[k] = 0.0;
+        for (const auto& response : clean)
+            mean.level[k] += response.level[k] / static_cast<double>(clean.size());
+    }
+    double largest = 0.0;
+    for (std::size_t k = 0; k < mean.size(); ++k)
+        if (mean.frequency[k] >= 30.0)
+            largest = std::max(largest, std::abs(average.level[k] - mean.level[k]));
+    return largest;
+}
+} // namespace
+
+TEST_CASE("Loosely worn placements hardly move the average of fourteen, and are named", "[linearize]")
+{
+    double worst = 0.0;
+    for (const BodyPoint point : {BodyPoint::device, BodyPoint::skin})
+        for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            for (const std::size_t loose : {0u, 2u, 4u})
+            {
+                CAPTURE(seed, loose);
+                auto placements = wearers(14, seed, point);
+                const std::vector<FrequencyResponse> clean(placements.begin() + static_cast<std::ptrdiff_t>(loose),
+                                                           placements.end());
+                for (std::size_t i = 0; i < loose; ++i)
+                    for (double& level : placements[i].level)
+                        level -= 6.0;
+                const auto average = averagePlacements(placements).value();
+                const double error = bias(average.response, clean);
+                worst = std::max(worst, error);
+                CHECK(error <= (loose == 4 ? 0.6 : 0.35));
+                std::size_t named = 0;
+                for (const auto& outlier : average.outliers)
+                {
+                    named += outlier.index < loose ? 1 : 0;
+                    if (outlier.index < loose)
+                        CHECK(outlier.offset == Approx(-6.0).margin(2.5));
+                }
+                CHECK(named == loose);
+                CHECK(average.outliers.size() <= loose + 1);
+            }
+    INFO("largest bias " << worst << " dB");
+    CHECK(worst < 0.5);
+}
+
+TEST_CASE("A placement of another shape is left out even at the same level", "[linearize]")
+{
+    auto placements = wearers(9, 5, BodyPoint::device);
+    const auto clean = std::vector<FrequencyResponse>(placements.begin(), placements.end() - 1);
+    for (std::size_t k = 0; k < placements[8].size(); ++k)
+        placements[8].level[k] += k % 40 < 20 ? 8.0 : -8.0; // resonances of something loose
+    const auto average = averagePlacements(placements).value();
+    REQUIRE(average.outliers.size() == 1);
+    CHECK(average.outliers[0].index == 8);
+    CHECK(average.outliers[0].shape > 3.0);
+    CHECK(bias(average.response, clean) < 0.35);
+}
+
+TEST_CASE("The spread of placements is their standard deviation", "[linearize]")
+{
+    std::vector<FrequencyResponse> placements(5,
+                                              FrequencyResponse{logSpaced(20.0, 1000.0, 30), std::vector<double>(30)});
+    for (std::size_t i = 0; i < 5; ++i)
+        for (double& level : placements[i].level)
+            level = 10.0 + 0.5 * static_cast<double>(i);
+    const auto average = averagePlacements(placements).value();
+    CHECK(average.response.level[7] == Approx(11.0));
+    CHECK(average.spread[7] == Approx(0.5 * std::sqrt(2.5)));
+    CHECK(average.offsets[4] == Approx(1.0));
+    CHECK(average.outliers.empty());
+    const auto one = averagePlacements(std::span(placements).first(1)).value();
+    CHECK(one.response.level == placements[0].level);
+    CHECK(one.spread[0] == 0.0);
+}
+
+TEST_CASE("Placements that cannot be averaged are named", "[linearize]")
+{
+    const auto good = wearers(3, 1, BodyPoint::device);
+    CHECK(averagePlacements({}).error().where == "placements");
+    auto bad = good;
+    bad[1].level[4] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(averagePlacements(bad).error().where == "placements[1].points[4].level");
+    bad = good;
+    bad[2].frequency[3] += 0.01;
+    CHECK(averagePlacements(bad).error().where == "placements[2]");
+    bad = good;
+    bad[2].frequency.pop_back();
+    bad[2].level.pop_back();
+    CHECK(averagePlacements(bad).error().where == "placements[2]");
+    PlacementAverageParams params;
+    params.offsetLimit = -1.0;
+    CHECK(averagePlacements(good, params).error().where == "offsetLimit");
+    params = {};
+    params.lowFrequency = 5000.0;
+    CHECK(averagePlacements(good, params).error().where == "lowFrequency");
+}
