@@ -79,7 +79,7 @@ inline Profile randomProfile(std::uint64_t seed)
     if (chance())
     {
         ProfileMeasurement& measured = profile.measurement.emplace();
-        measured.fittings = whole(1, 1000000);
+        measured.placements = whole(1, 1000000);
         measured.drive = random.uniform(-200.0, 40.0);
         if (chance())
             measured.distortionDrive = random.uniform(-200.0, 40.0);
