@@ -207,10 +207,9 @@ slow-tests)
     install_packages "${portability_packages[@]}"
     run_tests release --label-regex slow --no-tests=ignore
     ;;
-# The command, and the rooms whose code leans most on the library.
 clang-tests)
     install_packages "${portability_packages[@]}"
-    build clang-libc++ "pacini pacini_tests" "-DPACINI_TEST_ROOMS=foundation;filters;clip;simplify;io;io/formats;devices"
+    build clang-libc++ "pacini pacini_tests"
     run_tests clang-libc++ --tests-regex '^(tests|cli)-' --label-exclude slow
     ;;
 sanitized-tests)
