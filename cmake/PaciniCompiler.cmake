@@ -49,7 +49,9 @@ if(MSVC)
     target_compile_options(pacini_warnings INTERFACE /W4 $<$<BOOL:${PACINI_WARNINGS_AS_ERRORS}>:/WX>)
 else()
     target_compile_options(pacini_warnings INTERFACE
-        -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow> -Wconversion -Wsign-conversion -Wdouble-promotion
+        -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow> -Wconversion -Wsign-conversion
+        # Clang says it of double to long double, too.
+        $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
         # GCC 12 sees overlaps in additions of std::string that are none (its bug 105651), and bounds likewise.
         $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict$<SEMICOLON>-Wno-array-bounds>
         $<$<BOOL:${PACINI_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -20,6 +20,8 @@ host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x
     umockdev gir1.2-umockdev-1.0 python3-gi)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
+# For slow tests alone: other machines, which must make the same clips, and another compiler with its library.
+portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang libc++-dev libc++abi-dev)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}")
@@ -155,7 +157,7 @@ run_tests() { # preset, arguments of ctest
 
 case "${1:-}" in
 deps)
-    install_packages "${build_packages[@]}" "${test_packages[@]}"
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}"
     install_host_modules
     ;;
 build)
@@ -202,7 +204,13 @@ test)
     ;;
 # What only CI runs, after `test`.
 slow-tests)
+    install_packages "${portability_packages[@]}"
     run_tests release --label-regex slow --no-tests=ignore
+    ;;
+clang-tests)
+    install_packages "${portability_packages[@]}"
+    build clang-libc++ "pacini pacini_tests"
+    run_tests clang-libc++ --tests-regex '^(tests|cli)-' --label-exclude slow
     ;;
 sanitized-tests)
     build asan all

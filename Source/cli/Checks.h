@@ -5,14 +5,14 @@
 
 #include "io/NearestName.h"
 
+#include <pacini/foundation/ParseNumber.h>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -43,11 +43,10 @@ template <typename Integer>
     return CLI::Validator(
         [=](std::string& text)
         {
-            Integer value{};
-            const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool good =
-                failure == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest;
-            return good ? std::string() : fmt::format("'{}' is not a whole number from {}", text, range);
+            const auto value = parseNumber<Integer>(text);
+            return value && *value >= lowest && *value <= highest
+                       ? std::string()
+                       : fmt::format("'{}' is not a whole number from {}", text, range);
         },
         range);
 }

@@ -1,10 +1,11 @@
 #include "cli/ControllerInput.h"
 
+#include <pacini/foundation/ParseNumber.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -42,16 +43,6 @@ bool holdsText(std::string_view text, std::string_view part)
         return lowered(a) == lowered(b);
     };
     return std::search(text.begin(), text.end(), part.begin(), part.end(), alike) != text.end();
-}
-
-/// The whole of `text` as a number.
-std::optional<std::size_t> numberIn(std::string_view text)
-{
-    std::size_t number = 0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failure != std::errc() || end != text.data() + text.size())
-        return std::nullopt;
-    return number;
 }
 } // namespace
 
@@ -104,7 +95,7 @@ ControllerModel modelNamed(std::string_view name)
 
 Result<std::optional<Controller>> chosenController(const std::vector<Controller>& connected, const std::string& named)
 {
-    if (const auto number = numberIn(named))
+    if (const auto number = parseNumber<std::size_t>(named))
     {
         if (*number < 1 || *number > connected.size())
             return std::optional<Controller>();

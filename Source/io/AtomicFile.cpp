@@ -237,7 +237,7 @@ Result<std::size_t> writeFileAtomically(const fs::path& path, std::span<const st
 
 Result<std::size_t> writeFileAtomically(const fs::path& path, std::string_view text, Existing existing)
 {
-    return writeFileAtomically(path, std::as_bytes(std::span(text)), existing);
+    return writeFileAtomically(path, std::as_bytes(std::span<const char>(text)), existing);
 }
 
 bool isStandardOutput(const fs::path& path)

@@ -214,7 +214,7 @@ Result<std::size_t> writeClip(const fs::path& path, Clip clip, const ClipFormat&
                   [&](std::string_view piece)
                   {
                       bytes += piece.size();
-                      file->write(std::as_bytes(std::span(piece)));
+                      file->write(std::as_bytes(std::span<const char>(piece)));
                   });
     if (auto done = file->commit(); !done)
         return done.error();

@@ -6,19 +6,18 @@
 #include "io/JsonText.h"
 #include "io/ReadWarnings.h"
 
+#include <pacini/foundation/ParseNumber.h>
 #include <pacini/foundation/Result.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -241,11 +240,10 @@ public:
 private:
     bool numberIn(const std::string& text, double& value)
     {
-        double number = 0.0;
-        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+        const auto number = parseNumber(text);
+        if (!number || !std::isfinite(*number))
             return false;
-        value = number;
+        value = *number;
         ++numbersInTexts;
         return true;
     }

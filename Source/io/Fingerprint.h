@@ -21,7 +21,7 @@ public:
         for (const std::byte b : bytes)
             state = (state ^ static_cast<std::uint64_t>(b)) * 0x100000001B3ull;
     }
-    void add(std::string_view text) noexcept { add(std::as_bytes(std::span(text))); }
+    void add(std::string_view text) noexcept { add(std::as_bytes(std::span<const char>(text))); }
 
     [[nodiscard]] std::uint64_t value() const noexcept { return state; }
 

@@ -3,6 +3,8 @@
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 
+#include <pacini/foundation/ParseNumber.h>
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -49,13 +51,7 @@ std::optional<double> numberIn(std::string_view cell, bool commaIsPoint)
     std::string text(cell);
     if (const auto comma = text.find(','); commaIsPoint && comma != std::string::npos)
         text[comma] = '.';
-    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* end = text.data() + text.size();
-    double value = 0.0;
-    const auto [stop, failure] = std::from_chars(begin, end, value);
-    if (begin == end || stop != end || failure != std::errc())
-        return std::nullopt;
-    return value;
+    return parseNumber(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
 }
 
 struct Row

@@ -48,7 +48,7 @@ TEST_CASE("Until commit the target is untouched and the temporary has a recognis
     {
         auto file = AtomicFile::create(folder / "clip.json");
         REQUIRE(file.ok());
-        REQUIRE(file->write(std::as_bytes(std::span(std::string_view("new")))));
+        REQUIRE(file->write(std::as_bytes(std::span<const char>(std::string_view("new")))));
         CHECK(bytesOf(folder / "clip.json") == "old");
         REQUIRE(folder.entries() == 2);
         for (const auto& entry : fs::directory_iterator(folder.path()))
@@ -75,7 +75,7 @@ TEST_CASE("A file that is to be kept is kept, also one that appears while ours i
 
     auto file = AtomicFile::create(folder / "x", Existing::keep);
     REQUIRE(file.ok());
-    file->write(std::as_bytes(std::span(std::string_view("ours"))));
+    file->write(std::as_bytes(std::span<const char>(std::string_view("ours"))));
     put(folder / "x", "theirs");
     const auto done = file->commit();
     REQUIRE_FALSE(done.ok());

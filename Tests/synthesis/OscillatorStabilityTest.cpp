@@ -209,7 +209,6 @@ TEST_CASE("Sinusoids keep their phase over 24 hours of changes of speed and pitc
 
 TEST_CASE("Breakpoints from 1 ms to 1 h apart are joined to 2e-7 of their range", "[synthesis][stability]")
 {
-    Random random(23);
     for (const double fs : {8000.0, 48000.0, 192000.0})
         for (const double seconds : {0.001, 0.0123, 0.5, 60.0, 3600.0})
             for (const double start : {0.0, 0.7, day - 1.0})

@@ -194,9 +194,9 @@ private:
         FrameGroup drives{};
         std::size_t position = 0;
 
-        void follow(double drive, const WornCoefficients& guard) noexcept
+        void follow(double drive, const WornCoefficients& coefficients) noexcept
         {
-            const WornCoefficients::Steps& steps = guard.steps.back();
+            const WornCoefficients::Steps& steps = coefficients.steps.back();
             drives[position] = drive;
             if (++position < groupFrames)
             {
@@ -206,7 +206,7 @@ private:
             }
             position = 0;
             for (std::size_t i = 0; i < steps.size(); ++i)
-                now[i] = start[i] = guard.groups[i].next(start[i], drives);
+                now[i] = start[i] = coefficients.groups[i].next(start[i], drives);
         }
         void beginGroup() noexcept
         {

@@ -91,7 +91,7 @@ public:
         const std::int64_t unused = std::min(firstSample() - start, static_cast<std::int64_t>(samples.size()));
         if (unused > 0)
         {
-            samples.erase(samples.begin(), samples.begin() + unused);
+            samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(unused));
             start += unused;
         }
     }

@@ -99,11 +99,11 @@ private:
             importance[i] += weight;
         }
 
-        Curve fit(CurveFitter& curves, double otherwise, double price)
+        Curve fit(CurveFitter& fitter, double otherwise, double price)
         {
             for (std::size_t i = 0; i < sums.size(); ++i)
                 sums[i] = importance[i] > 1e-9 ? sums[i] / importance[i] : i > 0 ? sums[i - 1] : otherwise;
-            return curves.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
+            return fitter.fitPitch(sums, importance, 3.0 * BandAnalysisResult::bandStep, price);
         }
 
     private:

@@ -46,7 +46,8 @@ public:
             const bool bit = ((shifted >> i) & 1u) != 0;
             const std::size_t depth = bits - 1 - i;
             const bool learnt = depth < 2 && bits < lower.size();
-            const bool got = learnt ? coder.bit(bit, lower[bits][depth * 2 + (result & depth)]) : coder.bit(bit);
+            const std::size_t context = depth * 2 + (static_cast<std::size_t>(result) & depth);
+            const bool got = learnt ? coder.bit(bit, lower[bits][context]) : coder.bit(bit);
             result = (result << 1) | static_cast<std::uint64_t>(got);
         }
         return result - 1;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cfloat>
 #include <climits>
 #include <cmath>
 #include <cstddef>
@@ -23,6 +24,11 @@
 
 namespace pacini
 {
+
+// Reader and writer start from the same odds, and clips have the same bytes on every machine, only where a double is
+// computed as one.
+static_assert(FLT_EVAL_METHOD != 1 && FLT_EVAL_METHOD != 2,
+              "the compiler keeps more digits than a double has: on 32-bit x86 add -msse2 -mfpmath=sse");
 
 /// Parameters of packing. The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
 struct PackParams

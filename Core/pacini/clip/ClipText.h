@@ -5,6 +5,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedText.h>
+#include <pacini/foundation/ParseNumber.h>
 
 #include <algorithm>
 #include <array>
@@ -107,11 +108,7 @@ inline std::vector<EncoderParameter> parametersOf(const std::string& text)
         EncoderParameter parameter{unescaped(line.substr(1, equals - 1)), {}};
         const std::string_view value = line.substr(equals + 1);
         if (line[0] == 'n')
-        {
-            double number = 0.0;
-            std::from_chars(value.data(), value.data() + value.size(), number);
-            parameter.value = number;
-        }
+            parameter.value = parseNumber(value).value_or(0.0);
         else if (line[0] == 'b')
             parameter.value = value == "1";
         else

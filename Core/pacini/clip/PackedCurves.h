@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -54,8 +53,13 @@ public:
                     const double young = age == 0 ? 0.6 : 1.0;
                     here[age][near][total] = AdaptiveBit(std::min(0.9, pull * young / pointEvery), 5);
                 }
-        for (std::size_t k = 0; k < spreads; ++k)
-            differences[k] = AdaptiveSignedNumber(0.85 * std::pow(1.5, static_cast<double>(k)));
+        // Each power of 1.5 is exact, as no library's std::pow need be: reader and writer must agree to the last bit.
+        double power = 1.0;
+        for (AdaptiveSignedNumber& model : differences)
+        {
+            model = AdaptiveSignedNumber(0.85 * power);
+            power *= 1.5;
+        }
     }
 
     /// Writes `curve`, or ignores it and reads it; ticks are not decreasing and lie in 0..lastTick. When reading, a

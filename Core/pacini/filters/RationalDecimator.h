@@ -139,7 +139,7 @@ private:
             first = firstInput();
         }
         const auto drop = std::clamp<std::int64_t>(first - historyStart, 0, static_cast<std::int64_t>(history.size()));
-        history.erase(history.begin(), history.begin() + drop);
+        history.erase(history.begin(), history.begin() + static_cast<std::ptrdiff_t>(drop));
         historyStart += drop;
     }
 

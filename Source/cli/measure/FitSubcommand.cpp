@@ -8,6 +8,7 @@
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
 
+#include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
 #include <pacini/linearize/MeasuredProfile.h>
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -140,11 +140,10 @@ CLI::App* FitSubcommand::declare(CLI::App& app)
         ->check(CLI::Validator(
             [](const std::string& text)
             {
-                int count = 0;
-                const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), count);
-                const bool good =
-                    failure == std::errc() && end == text.data() + text.size() && count >= 1 && count <= 16;
-                return good || text == "auto" ? std::string() : text + " is neither auto nor a number from 1 to 16";
+                const auto count = parseNumber<int>(text);
+                return (count && *count >= 1 && *count <= 16) || text == "auto"
+                           ? std::string()
+                           : text + " is neither auto nor a number from 1 to 16";
             },
             "", "sections"))
         ->type_name("K|auto");

@@ -6,6 +6,7 @@
 #include "io/AudioReader.h"
 #include "io/FileExtension.h"
 
+#include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/SimulatedRig.h>
 #include <pacini/linearize/SweepAnalysis.h>
 
@@ -25,10 +26,8 @@ namespace
 {
 std::optional<double> number(std::string_view text)
 {
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return failure == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? std::optional(value)
-                                                                                              : std::nullopt;
+    const auto value = parseNumber(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// m/s^2 from a number of them, or of g.

@@ -3,10 +3,11 @@
 #include "io/formats/ImportedClip.h"
 #include "io/formats/csv/CsvFormat.h"
 
+#include <pacini/foundation/ParseNumber.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -18,15 +19,6 @@ namespace
 {
 constexpr double plainFrequency = 150.0; // Hz, of an amplitude without frequency
 constexpr std::size_t maxColumns = 2 * limits::bands + 64;
-
-std::optional<double> numberOf(std::string_view text)
-{
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-        return {};
-    return value;
-}
 
 std::string_view trimmed(std::string_view text)
 {
@@ -144,7 +136,7 @@ private:
         std::vector<double> numbers;
         for (std::size_t i = 1; i < words.size(); ++i)
         {
-            const auto value = numberOf(words[i]);
+            const auto value = parseNumber(words[i]);
             if (!value || !(*value >= 0.0 && *value <= limits::frequency))
                 return ignored(title);
             numbers.push_back(*value);
@@ -214,7 +206,7 @@ private:
         {
             if (cells[i].empty() || columns[i].kind == Column::ignored)
                 continue;
-            values[i] = numberOf(cells[i]);
+            values[i] = parseNumber(cells[i]);
             if (!values[i])
                 return fail(number, i, fmt::format("'{}' is no number", shownText(cells[i])));
             if (!std::isfinite(*values[i]))

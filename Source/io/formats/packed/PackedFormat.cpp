@@ -15,7 +15,7 @@ bool isPackedClip(std::string_view bytes)
 
 Result<ImportedClip> readPackedClip(std::string_view bytes)
 {
-    auto clip = unpackClip(std::as_bytes(std::span(bytes)));
+    auto clip = unpackClip(std::as_bytes(std::span<const char>(bytes)));
     if (!clip)
         return clip.error();
     return ImportedClip{std::move(clip).value(), {}};
