@@ -134,6 +134,24 @@ TEST_CASE("The edits over an analysis make the clip again, bit for bit")
     }
 }
 
+TEST_CASE("An edit of one of two bands with the same centre comes back on that one")
+{
+    Clip clip = fileClip(3);
+    clip.bands.assign(2, clip.bands.front());
+    for (std::size_t band : {0u, 1u})
+    {
+        Document document;
+        const int id = document.addClip("Add", clip).value();
+        Clip edited = clip;
+        edited.bands[band].amplitude = {{0.0, 0.25}, {clip.duration, 0.5}};
+        REQUIRE(document.setClip(id, "Edit", edited));
+        const auto item = document.clip(id);
+        REQUIRE(document.reanalyse(id, "Again", item->encoder, Clip(*item->analysis)));
+        CHECK(document.clip(id)->unfitting.empty());
+        CHECK(*document.clip(id)->clip == *item->clip);
+    }
+}
+
 TEST_CASE("Edit, save, close, open, export: identical clips and edits")
 {
     const test::TempFolder folder;
