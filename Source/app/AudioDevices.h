@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sound devices around the plugin: what goes in, and which channel of the interface the actuator hangs on.
+// Routing of the standalone program's sound device: the plugin's inputs, the sound's output, and the channel of the
+// actuator.
 
 #include "app/LoadedSound.h"
 #include "app/TestSignal.h"
@@ -26,7 +27,7 @@ enum class InputChoice
     file    ///< the loaded file, again and again
 };
 
-/// All channels are numbered from 0, -1 is none.
+/// Input and channels of each signal, numbered from 0; -1 is none.
 struct Routing
 {
     InputChoice input = InputChoice::device;

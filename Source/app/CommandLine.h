@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The command line of a program with a window.
+// Command-line parsing for the programs with a window: --help, --version and wrong usage.
 
 #include <CLI/CLI.hpp>
 #include <juce_core/juce_core.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A sound file in memory, at the rate at which it is to be played.
+// Sound file in memory, resampled to the rate at which it is to be played.
 
 #include <pacini/foundation/Result.h>
 

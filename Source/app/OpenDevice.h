@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sound device that a program starts with.
+// Choice of the sound device at start-up: of the kind asked for, else the saved one, else the system's.
 
 #include <juce_audio_devices/juce_audio_devices.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What goes in and where it comes out, above the plugin's window.
+// Routing bar above the plugin's window: menus of the inputs, the sound's output and the haptic output.
 
 #include "app/AudioDevices.h"
 #include "editor/Theme.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the standalone program remembers, and what its command line says instead.
+// Stored settings and command-line options of the standalone program.
 
 #include "app/AudioDevices.h"
 
@@ -12,7 +12,7 @@
 namespace pacini::app
 {
 
-/// See the help of the program, `--help`.
+/// Choices of the command line, see `--help`.
 struct CommandLineChoices
 {
     bool fresh = false;

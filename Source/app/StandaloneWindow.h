@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The plugin's window with the routing bar above it.
+// Window of the standalone program: the plugin's window with the routing bar above it.
 
 #include "app/AudioDevices.h"
 #include "app/RoutingBar.h"

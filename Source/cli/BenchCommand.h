@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that runs the benchmarks.
+
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 #include "cli/bench/Bench.h"

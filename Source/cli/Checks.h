@@ -1,6 +1,6 @@
 #pragma once
 
-// What option values must be. Like the checks of CLI11, but NaN is refused, a near name is suggested, and the messages
+// Validators of option values. Like those of CLI11, but NaN is refused, the nearest name is suggested, and the messages
 // read well.
 
 #include "io/NearestName.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// What every subcommand of pacini is.
+// Interface of the subcommands of pacini, their list, and the program that runs them.
 
 #include "cli/Console.h"
 

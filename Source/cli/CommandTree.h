@@ -1,6 +1,6 @@
 #pragma once
 
-// The commands and options as they are declared, for all that shows them: help, the manual page and completions.
+// Commands and options as declared, as a tree from which help, the manual page and completions are made.
 
 #include <CLI/CLI.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that compares haptic signals with the sounds they were made from.
+
 #include "cli/Command.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Compares one candidate with its reference.
+// Comparison job: the quality measures of one candidate against its reference.
 
 #include "cli/ComparePairs.h"
 #include "io/AudioReader.h"
@@ -28,7 +28,7 @@ struct CompareSettings
     Onsets ambiguous; ///< events that count neither for nor against
 };
 
-/// What came of one pair.
+/// Result of the comparison of one pair.
 struct CompareResult
 {
     double duration = 0.0;             ///< s of the reference

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which files are compared with which.
+// Pairs of reference and candidate files for a comparison.
 
 #include "cli/InputFiles.h"
 

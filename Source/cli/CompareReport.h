@@ -1,6 +1,6 @@
 #pragma once
 
-// What the comparison of many pairs comes to, as a table and as JSON.
+// Report of a comparison of many pairs, as a table and as JSON.
 
 #include "cli/CompareJob.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that prints shell completions.
+
 #include "cli/Command.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the command line says, and where: results on stdout, messages and progress on stderr; with --json one object on
-// stdout and no other text.
+// Output of the command line: results on stdout, messages and progress on stderr; with --json one object on stdout and
+// no other text.
 
 #include "cli/JsonReport.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Game controllers and other haptic devices that the user names.
+// Look-up of game controllers and other haptic devices by the name that the user gives.
 
 #include "devices/ControllerReports.h"
 #include "devices/HidList.h"

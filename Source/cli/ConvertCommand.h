@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that converts clips and profiles between formats.
+
 #include "cli/Command.h"
 #include "cli/ConvertJob.h"
 #include "cli/ExportOptions.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Converts one clip.
+// Conversion job: one clip from one format to another.
 
 #include "cli/ConvertManifest.h"
 #include "cli/Overwrite.h"
@@ -24,7 +24,7 @@ struct ConvertSettings
     bool strict = false; ///< see readClip()
 };
 
-/// What came of one clip.
+/// Result of the conversion of one clip.
 struct ConvertResult
 {
     ManifestEntry entry;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The record of what a folder was converted to.
+// Manifest of a conversion: which inputs became which outputs, so that a later run converts only what has changed.
 
 #include "io/FileHandle.h"
 #include "io/formats/ClipFormat.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Counted things in messages.
+// Numbers with their noun in the singular or the plural, for messages.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that lists the connected haptic devices.
+
 #include "cli/Command.h"
 
 namespace pacini::cli

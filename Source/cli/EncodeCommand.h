@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that encodes sounds.
+
 #include "cli/Command.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"

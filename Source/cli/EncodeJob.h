@@ -1,6 +1,6 @@
 #pragma once
 
-// Encodes one file into another.
+// Encoding job: one sound file into a clip or, by methods that make no clip, a drive signal.
 
 #include "cli/Overwrite.h"
 #include "cli/Stopwatch.h"
@@ -33,7 +33,7 @@ struct EncodeSettings
                          ///< method, always are
 };
 
-/// What came of one file.
+/// Result of the encoding of one file.
 struct EncodeResult
 {
     std::size_t bytes = 0; ///< size of the output file, or files

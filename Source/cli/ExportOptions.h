@@ -1,6 +1,6 @@
 #pragma once
 
-// Options of the commands that write clips for other programs.
+// Command-line options of exports, for the commands that write clips for other programs.
 
 #include "cli/Console.h"
 #include "io/formats/ClipFormat.h"
@@ -13,7 +13,7 @@
 namespace pacini::cli
 {
 
-/// What the user says of an export; declared once per command.
+/// Export options as the user gives them; declared once per command.
 class ExportOptions
 {
 public:

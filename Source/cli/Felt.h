@@ -1,6 +1,6 @@
 #pragma once
 
-// What is felt instead of what drives.
+// Settings for rendering the felt acceleration instead of the drive signal.
 
 #include <pacini/actuator/FeltModel.h>
 
@@ -9,7 +9,7 @@
 namespace pacini::cli
 {
 
-/// From drive signals to samples of felt acceleration.
+/// Conversion of drive signals to samples of felt acceleration.
 struct FeltSettings
 {
     FeltModelParams model;

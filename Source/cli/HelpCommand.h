@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that prints help.
+
 #include "cli/Command.h"
 
 #include <string>

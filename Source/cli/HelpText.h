@@ -1,6 +1,6 @@
 #pragma once
 
-// What `pacini help` and --help print.
+// Help text, as `pacini help` and --help print it.
 
 #include "cli/CommandTree.h"
 

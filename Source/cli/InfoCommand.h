@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that describes files.
+
 #include "cli/Command.h"
 
 #include <string>

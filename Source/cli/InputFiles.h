@@ -1,6 +1,6 @@
 #pragma once
 
-// Which files a command works on, and what its results are called.
+// Input files of a command, and the paths of its results.
 
 #include <pacini/foundation/Result.h>
 
@@ -40,7 +40,7 @@ struct InputFiles
 /// The extensions of audio files that are looked for in folders.
 [[nodiscard]] const std::vector<std::string>& audioExtensions();
 
-/// How results are called.
+/// Naming of results.
 struct OutputNames
 {
     std::string given;     ///< file or folder that the user named; may be empty
@@ -48,7 +48,7 @@ struct OutputNames
     std::string beside;    ///< of results in the folder of their inputs
 };
 
-/// Where one result goes.
+/// Path of one result.
 struct OutputPlace
 {
     std::filesystem::path path;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ends work in order when the user or the system asks for it.
+// Signal handling: ends work in order when the user or the system asks for it.
 
 #include <pacini/foundation/Units.h>
 

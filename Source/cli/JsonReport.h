@@ -1,6 +1,6 @@
 #pragma once
 
-// What a command tells a program with --json: one object of the same shape whether it went well or not.
+// JSON report of a command (--json): one object of the same shape whether it went well or not.
 
 #include <pacini/foundation/Result.h>
 
@@ -14,8 +14,8 @@
 namespace pacini::cli
 {
 
-/// The object: {"pacini", "version", "command", "ok", the command's own members, "written", "failures", "warnings"};
-/// Resources/schema/pacini.report.schema.json describes it.
+/// Builder of the object {"pacini", "version", "command", "ok", the command's own members, "written", "failures",
+/// "warnings"}; Resources/schema/pacini.report.schema.json describes it.
 class JsonReport
 {
 public:

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that checks clips and scenes.
+
 #include "cli/Command.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that prints the manual page.
+
 #include "cli/Command.h"
 
 namespace pacini::cli

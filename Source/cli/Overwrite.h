@@ -1,6 +1,6 @@
 #pragma once
 
-// What a command may do to files that stand where its results go.
+// Overwrite policy: which existing files a command may replace by its results.
 //
 // A file that the user named as the output is replaced, unless it is one of the inputs or what they were made from.
 // Any other is replaced only when it was made by Pacini from the same input and is still as it was made; otherwise
@@ -21,7 +21,7 @@
 namespace pacini::cli
 {
 
-/// What the user allowed to be replaced at the place of one result.
+/// Permission to replace a file that stands at the place of one result.
 enum class Replaceable
 {
     own,   ///< what Pacini made from the same input

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that plays clips on haptic devices.
+
 #include "cli/Command.h"
 #include "cli/Interruption.h"
 #include "devices/ClipRumble.h"

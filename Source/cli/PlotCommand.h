@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that draws charts.
+
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 #include "cli/plot/Figure.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// Set-up of the process: signals and standard streams.
+
 namespace pacini::cli
 {
 

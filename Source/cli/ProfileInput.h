@@ -1,6 +1,6 @@
 #pragma once
 
-// Actuator profiles that the user names.
+// Look-up of actuator profiles by file or by the name of a shipped one.
 
 #include "cli/Console.h"
 #include "io/ReadWarnings.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a profile says, in words and as JSON.
+// Description of an actuator profile, as text and as JSON.
 
 #include <pacini/actuator/Profile.h>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that lists the shipped actuator profiles.
+
 #include "cli/Command.h"
 
 namespace pacini::cli

@@ -1,5 +1,7 @@
 #pragma once
 
+// Location of the running program, beside which its profiles are looked for.
+
 #include <filesystem>
 
 namespace pacini::cli

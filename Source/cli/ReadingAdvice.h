@@ -1,6 +1,6 @@
 #pragma once
 
-// What to do about a sound that cannot be read whole.
+// Advice in error messages about damaged sounds: the option that reads them as they are.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that renders clips and scenes.
+
 #include "cli/Command.h"
 #include "cli/InputFiles.h"
 #include "cli/Overwrite.h"

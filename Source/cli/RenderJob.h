@@ -1,6 +1,6 @@
 #pragma once
 
-// Renders one clip or scene into one sound file.
+// Rendering job: one clip or scene into one sound file.
 
 #include "cli/Felt.h"
 #include "cli/Overwrite.h"
@@ -22,7 +22,7 @@
 namespace pacini::cli
 {
 
-/// How to render. The first group is done to the whole scene; a clip is a scene of one play.
+/// Settings of a rendering. The first group is done to the whole scene; a clip is a scene of one play.
 struct RenderSettings
 {
     double gain = 0.0;          ///< dB

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a rendering did and what it left out, for programs and for people.
+// Report of a rendering and of what its plan left out, as JSON and as text.
 
 #include "cli/RenderJob.h"
 

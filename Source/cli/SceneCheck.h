@@ -1,6 +1,6 @@
 #pragma once
 
-// What in a scene does nothing, or less than is written there.
+// Lint checks of a scene: what in it does nothing, or less than is written there.
 
 #include <pacini/synthesis/Scene.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a scene holds, for people and for programs.
+// Description of a scene's content, as JSON and as text.
 
 #include <pacini/synthesis/Scene.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// When the plays of a scene sound, and how strong.
+// Timeline of a scene: start, end and level of each play.
 
 #include <pacini/synthesis/PlayTimeline.h>
 #include <pacini/synthesis/Scene.h>

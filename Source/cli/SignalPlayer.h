@@ -1,6 +1,6 @@
 #pragma once
 
-// Plays a plan as the signal that is to be written.
+// Offline player of a render plan: its drive signals, or the accelerations felt from them, block by block.
 
 #include "cli/Felt.h"
 

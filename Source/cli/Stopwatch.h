@@ -1,6 +1,6 @@
 #pragma once
 
-// Adds up the time that some pieces of work take.
+// Stopwatch that adds up the time of several pieces of work.
 
 #include <chrono>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A list of files to turn into other files, and what came of each.
+// Batch tasks: files to turn into other files, with the result or the error of each.
 
 #include "cli/Console.h"
 #include "cli/InputFiles.h"

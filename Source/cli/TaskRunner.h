@@ -1,6 +1,6 @@
 #pragma once
 
-// Works through a list on several threads, with progress.
+// Parallel loop over a list of tasks, with progress.
 
 #include "cli/Console.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The terminal that stderr may be.
+// Capabilities of the terminal on stderr: redrawing, width.
 
 #include <cstddef>
 #include <string>

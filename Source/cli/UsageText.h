@@ -1,6 +1,6 @@
 #pragma once
 
-// What is said of a command line that cannot be understood.
+// Error message for a command line that cannot be parsed.
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the bands of a clip play during a short stretch of it.
+// Average amplitude and pitch of each band of a clip over a short stretch of time.
 
 #include "devices/HdRumble.h"
 

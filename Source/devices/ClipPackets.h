@@ -1,6 +1,6 @@
 #pragma once
 
-// What a clip holds for each packet that is sent.
+// Packets of a clip: the tones of its bands and its events, cut into equal intervals.
 
 #include "devices/BandTones.h"
 

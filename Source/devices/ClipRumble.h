@@ -1,6 +1,6 @@
 #pragma once
 
-// From a clip to what a controller plays, packet after packet.
+// Conversion of a clip to the states of a controller (HD rumble, motors, waveforms), packet after packet.
 
 #include "devices/ClipPackets.h"
 #include "devices/ControllerReports.h"
@@ -28,7 +28,7 @@ namespace pacini::devices
 /// one, and between the two by equal energy. [any]
 [[nodiscard]] MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept;
 
-/// Asked for one packet after another.
+/// Converter of a clip to states of a controller, asked for one packet after another.
 ///
 /// On waveforms (see chosenWaveforms()), an event is triggered in its packet, as strong as it is, and what lasts gives
 /// way to it until it has ended. What lasts follows the levels of two motors: where the strong one is ahead it is a

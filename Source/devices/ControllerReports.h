@@ -1,6 +1,6 @@
 #pragma once
 
-// What each kind of controller, or other haptic device, is sent, and how often.
+// Output protocol of each kind of controller or other haptic device: its reports and their timing.
 
 #include "devices/KnownControllers.h"
 #include "devices/MotorLevels.h"
@@ -16,7 +16,7 @@
 namespace pacini::devices
 {
 
-/// What a controller can be told depends on its kind and on its connection; an unknown connection counts as a cable.
+/// Kind and connection of a controller, which decide its reports; an unknown connection counts as a cable.
 struct ControllerModel
 {
     ControllerHaptics haptics = ControllerHaptics::hdRumble;
@@ -25,7 +25,7 @@ struct ControllerModel
     bool operator==(const ControllerModel&) const = default;
 };
 
-/// What a controller is to play: SidesRumble for HD rumble, WaveformState for waveforms, MotorLevels for the others.
+/// State that a controller plays: SidesRumble for HD rumble, WaveformState for waveforms, MotorLevels for the others.
 using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState>;
 
 /// Whether a state is to be sent even if it is the one that was sent before. [any]
@@ -34,7 +34,7 @@ using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState>;
 /// The state in which nothing moves. [any]
 [[nodiscard]] RumbleState silentState(ControllerHaptics haptics) noexcept;
 
-/// How often a controller is sent what.
+/// Timing of the packets to a controller.
 struct Pacing
 {
     Seconds interval;          ///< from packet to packet, at least

@@ -1,6 +1,6 @@
 #pragma once
 
-// The checksum at the end of Bluetooth reports.
+// CRC-32, the checksum at the end of Bluetooth reports.
 
 #include <cstddef>
 #include <cstdint>

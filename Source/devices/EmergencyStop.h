@@ -1,6 +1,6 @@
 #pragma once
 
-// The last packet of a program that crashes.
+// Crash handler that silences a controller with a last report.
 
 #include "devices/ReportSink.h"
 

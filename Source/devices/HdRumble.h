@@ -19,7 +19,7 @@ struct RumbleTone
     bool operator==(const RumbleTone&) const = default;
 };
 
-/// What one side plays: two sinusoids whose ranges overlap. Silent, it stands at the resonances of the actuator.
+/// The tones of one side: two sinusoids whose ranges overlap. Silent, it stands at the resonances of the actuator.
 struct RumbleTones
 {
     RumbleTone high{Hertz(320.0), 0.0};

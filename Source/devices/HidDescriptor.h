@@ -1,6 +1,6 @@
 #pragma once
 
-// What the reports of a HID device hold, by its report descriptor.
+// Parser of HID report descriptors: the fields that the reports of a device hold.
 
 #include <pacini/foundation/Result.h>
 

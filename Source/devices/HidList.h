@@ -1,6 +1,6 @@
 #pragma once
 
-// The game controllers and other haptic devices that are connected.
+// Enumeration of the connected game controllers and other haptic devices.
 
 #include "devices/KnownControllers.h"
 #include "devices/WaveformDevice.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the report descriptor of a listed device comes from. Only for files that are built with hidapi.
+// Access to the report descriptor of a listed device. Only for files that are built with hidapi.
 
 #include <hidapi.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The usages that are told before a main item of a HID report descriptor.
+// Usages (local items) in front of a main item of a HID report descriptor.
 
 #include "devices/HidItem.h"
 
@@ -12,7 +12,7 @@
 namespace pacini::devices
 {
 
-/// Takes local items. Source: HID 1.11, 6.2.2.8.
+/// Collects usages from local items. Source: HID 1.11, 6.2.2.8.
 class HidUsages
 {
 public:

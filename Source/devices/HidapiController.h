@@ -1,6 +1,6 @@
 #pragma once
 
-// A controller that is open for writing, through hidapi.
+// Connection to a controller through hidapi, on macOS and Windows.
 
 #include "devices/OpenController.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A controller that is open for writing, on Linux.
+// Connection to a controller through hidraw, on Linux.
 
 #include "devices/OpenController.h"
 

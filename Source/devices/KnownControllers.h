@@ -1,6 +1,6 @@
 #pragma once
 
-// Which controllers take the reports of this folder.
+// Table of the supported controllers: USB ids -> kind of haptics.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace pacini::devices
 {
 
-/// What moves a controller, or another haptic device.
+/// Kind of haptics of a controller, or of another haptic device.
 enum class ControllerHaptics
 {
     hdRumble,   ///< SwitchReports.h
@@ -19,7 +19,7 @@ enum class ControllerHaptics
     waveforms,  ///< WaveformReport.h
 };
 
-/// How a controller is connected.
+/// Connection of a controller.
 enum class Transport
 {
     unknown,

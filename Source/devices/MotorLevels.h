@@ -1,6 +1,6 @@
 #pragma once
 
-// The two motors of a classic game controller.
+// Levels of the two motors of a classic game controller.
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A controller that is open for writing.
+// Interface of a connection to a controller, open for writing reports.
 
 #include "devices/ControllerReports.h"
 #include "devices/HidList.h"

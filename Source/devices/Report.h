@@ -1,6 +1,6 @@
 #pragma once
 
-// One output report, as it goes to a controller.
+// HID output report, as it goes to a controller.
 
 #include <algorithm>
 #include <array>

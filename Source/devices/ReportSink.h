@@ -1,6 +1,6 @@
 #pragma once
 
-// Where reports go.
+// Interface for receivers of output reports: a controller, or a list of what would be sent.
 
 #include "devices/Report.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// From the bands of a clip to the two sinusoids of an HD rumble actuator, packet after packet.
+// Mapping of a clip's bands to the two sinusoids of an HD rumble actuator, packet after packet.
 
 #include "devices/HdRumble.h"
 
@@ -61,8 +61,7 @@ inline constexpr Hertz carrierBorder{160.0 * std::numbers::sqrt2};
     return {joinedTones(high[0], high[1]), joinedTones(low[0], low[1])};
 }
 
-/// How fast packets follow the bands. A time is how long it takes to come within 37 % (1/e) of a new value; 0 follows
-/// at once.
+/// Smoothing of the packets. A time is how long it takes to come within 37 % (1/e) of a new value; 0 follows at once.
 struct RumbleMapperParams
 {
     Seconds interval{0.015};      ///< from packet to packet, above 0
@@ -71,9 +70,10 @@ struct RumbleMapperParams
     bool operator==(const RumbleMapperParams&) const = default;
 };
 
-/// One side of a controller. An actuator that is told to jump clicks: amplitudes and logarithms of frequencies go to
-/// their targets exponentially, so never beyond them, and independently of the interval. A carrier that starts from
-/// silence starts at its new frequency, as nobody has felt another; one that fades out keeps its frequency.
+/// Smoothed mapping for one side of a controller. An actuator that is told to jump clicks: amplitudes and logarithms of
+/// frequencies go to their targets exponentially, so never beyond them, and independently of the interval. A carrier
+/// that starts from silence starts at its new frequency, as nobody has felt another; one that fades out keeps its
+/// frequency.
 class RumbleMapper
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Plays a clip on a controller, from a thread of its own.
+// Clip player for a controller, on a thread of its own.
 
 #include "devices/ClipRumble.h"
 #include "devices/ControllerReports.h"
@@ -17,7 +17,7 @@
 namespace pacini::devices
 {
 
-/// What came of playing.
+/// Statistics of a playback.
 struct PlayReport
 {
     std::int64_t sent = 0;    ///< reports

@@ -1,6 +1,6 @@
 #pragma once
 
-// The time by which packets are sent.
+// Clock for the times at which packets are sent: the real one and a simulated one.
 
 #include <pacini/foundation/Units.h>
 
@@ -31,7 +31,7 @@ public:
     virtual void interrupt() = 0;
 };
 
-/// The real time. Waiting until a point of time, not for a duration, adds no error from packet to packet.
+/// Clock of the real time. Waiting until a point of time, not for a duration, adds no error from packet to packet.
 class SteadyClock : public SendClock
 {
 public:
@@ -69,7 +69,7 @@ private:
     bool interrupted = false;
 };
 
-/// A time that waiting moves on at once, for lists of what would be sent and for tests.
+/// Simulated clock, which waiting moves on at once: for lists of what would be sent and for tests.
 class InstantClock : public SendClock
 {
 public:

@@ -22,7 +22,7 @@ inline constexpr std::size_t sonyBluetoothSize = 78;
 [[nodiscard]] std::array<std::byte, sonyBluetoothSize> dualShock4BluetoothReport(const MotorLevels& motors,
                                                                                  int pollInterval = 4) noexcept;
 
-/// What moves the DualSense's voice coils, which can only do one at a time.
+/// Signal source of the DualSense's voice coils, which can only follow one at a time.
 enum class DualSenseMode
 {
     audioHaptics,   ///< its audio channels 3 and 4; levels are not sent

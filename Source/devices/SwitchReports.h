@@ -11,7 +11,7 @@
 namespace pacini::devices
 {
 
-/// Both sides. A single Joy-Con listens to its own.
+/// HD rumble of both sides. A single Joy-Con listens to its own.
 struct SidesRumble
 {
     RumbleBytes left = neutralRumble;

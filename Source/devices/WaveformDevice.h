@@ -1,6 +1,6 @@
 #pragma once
 
-// Which waveforms a haptic device has, and which of them play a clip.
+// HID devices with built-in waveforms: the waveforms that a device lists, and the choice of those that play a clip.
 
 #include "devices/HidDescriptor.h"
 #include "devices/WaveformReport.h"
@@ -24,7 +24,7 @@ struct ToldNumber
     std::size_t bytes = 0; ///< of its report, with the report's number
 };
 
-/// One line of a device's list.
+/// One entry of a device's list of waveforms.
 struct ListedWaveform
 {
     std::uint16_t ordinal = 0;          ///< 3 or above
@@ -56,8 +56,7 @@ using FeatureReader = std::function<Result<std::vector<std::byte>>(std::uint8_t 
 /// Errors: `io`: the device does not tell its waveforms, or none of them can be played. [worker]
 [[nodiscard]] Result<WaveformTrigger> chosenWaveforms(const WaveformDevice& device, const FeatureReader& read);
 
-/// A haptic device as no real one is: an event, a buzz and a rumble, intensities in hundredths. For lists of what would
-/// be sent.
+/// A made-up haptic device: an event, a buzz and a rumble, intensities in hundredths. For lists of what would be sent.
 [[nodiscard]] constexpr WaveformTrigger standardTrigger() noexcept
 {
     return {.report = 1,

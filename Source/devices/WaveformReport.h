@@ -11,7 +11,7 @@
 namespace pacini::devices
 {
 
-/// Where a number stands in a report; with 0 bits nowhere.
+/// Position and range of a number in a report; with 0 bits it is not there.
 struct ReportField
 {
     std::uint16_t bit = 0; ///< from the lowest bit of the byte after the report's number on
@@ -21,8 +21,8 @@ struct ReportField
     bool operator==(const ReportField&) const = default;
 };
 
-/// What a device is told, and which of its waveforms are played: their ordinals, 0 for none. The device keeps playing a
-/// waveform that lasts 0 s until it is stopped.
+/// Layout of the report that triggers waveforms, and the ordinals of those that are played, 0 for none. The device
+/// keeps playing a waveform that lasts 0 s until it is stopped.
 struct WaveformTrigger
 {
     std::uint8_t report = 0; ///< its number
@@ -50,7 +50,7 @@ struct WaveformTrigger
 inline constexpr std::uint16_t ordinalNone = 1;
 inline constexpr std::uint16_t ordinalStop = 2;
 
-/// What a device plays.
+/// Kinds of waveforms that a device plays.
 enum class Waveform
 {
     stop,

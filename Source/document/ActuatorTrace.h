@@ -1,6 +1,6 @@
 #pragma once
 
-// What an actuator really plays of a clip, and what of it is lost on the way.
+// Trace of a clip on an actuator: what it really plays of the clip, and what is lost on the way.
 
 #include "document/view/Columns.h"
 
@@ -21,7 +21,7 @@
 namespace pacini
 {
 
-/// Why something of a clip does not come out as it is.
+/// Reason why something of a clip is not played as it is.
 enum class Loss : std::uint8_t
 {
     none,
@@ -40,7 +40,8 @@ struct LostPart
     bool operator==(const LostPart&) const = default;
 };
 
-/// One played clip. Immutable once made; the same steps of time for all. Levels are in dB re full drive.
+/// Trace of one clip that was played. Immutable once made; the same steps of time for all. Levels are in dB re full
+/// drive.
 class ActuatorTrace
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sounds -> clips, as `pacini encode` makes them.
+// Analysis of a sound for the editor: sound -> clip, as `pacini encode` makes it.
 
 #include "document/AudioReference.h"
 
@@ -11,7 +11,7 @@
 namespace pacini
 {
 
-/// Asked now and then with what is done, 0 to 1; false stops the work.
+/// Progress callback, called now and then with what is done, 0 to 1; false stops the work.
 using GoOn = std::function<bool(double done)>;
 
 /// The clip of a sound on the grids of `params.quantise` bits, named after its file. Errors: those of validate(params);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sounds that a project is made from: named, recognised when they have moved, carried along on request.
+// References to the sounds that a project is made from: recognised when they have moved, embedded on request.
 
 #include "io/AudioReader.h"
 
@@ -50,7 +50,7 @@ struct DescribedAudio
 };
 [[nodiscard]] Result<DescribedAudio> describeAudio(const std::filesystem::path& path, bool embed = false);
 
-/// Where a sound is now.
+/// Current place of a sound.
 struct LocatedAudio
 {
     std::filesystem::path path;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Nothing of more than a few seconds is ever lost: autosave, and what it can give back.
+// Autosave and recovery of projects: nothing of more than a few seconds is ever lost.
 
 #include "document/Document.h"
 

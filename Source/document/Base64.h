@@ -1,6 +1,6 @@
 #pragma once
 
-// Bytes in text: Base64 (RFC 4648, section 4).
+// Base64, bytes as text (RFC 4648, section 4).
 
 #include <array>
 #include <cstdint>

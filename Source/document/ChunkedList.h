@@ -1,6 +1,6 @@
 #pragma once
 
-// Long lists of which many slightly different versions are kept.
+// Persistent list in shared chunks, for long lists of which many slightly different versions are kept.
 
 #include <algorithm>
 #include <cstddef>

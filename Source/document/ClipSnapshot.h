@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as the history keeps it.
+// Snapshot of a clip in the undo history, which shares memory with other versions.
 
 #include "document/ChunkedList.h"
 

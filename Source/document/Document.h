@@ -1,6 +1,6 @@
 #pragma once
 
-// An open project: what an editor's windows talk to.
+// Document: an open project with its file and its undo history.
 
 #include "document/History.h"
 #include "document/Project.h"
@@ -19,10 +19,10 @@
 namespace pacini
 {
 
-/// Steps of one gesture (a drag, a turn of a knob) are one step of undo. 0: a step of its own.
+/// Id of a gesture (a drag, a turn of a knob), whose steps are one step of undo. 0: a step of its own.
 using Gesture = std::uint64_t;
 
-/// What an autosave needs, to go to another thread. Copying it is cheap.
+/// State of a document as an autosave needs it, to go to another thread. Copying it is cheap.
 struct DocumentSnapshot
 {
     Project project;

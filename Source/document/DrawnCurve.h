@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves drawn and bent with a pointer: what is seen on the screen becomes few points.
+// Freehand drawing and bending of curves: a pointer's path on the screen becomes few breakpoints.
 
 #include "document/view/TimeAxis.h"
 #include "document/view/ValueAxis.h"

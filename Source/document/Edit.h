@@ -1,6 +1,6 @@
 #pragma once
 
-// Hand edits as data: what lies over an analysis and is applied anew when the analysis changes.
+// Edit operations as data: the hand edits over an analysis, which are applied anew when the analysis changes.
 
 #include "document/ChunkedList.h"
 
@@ -32,7 +32,7 @@ struct TransientPatch
     bool operator==(const TransientPatch&) const = default;
 };
 
-/// All markers.
+/// All markers, replaced.
 struct MarkersEdit
 {
     std::vector<Marker> markers;

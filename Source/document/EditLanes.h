@@ -1,6 +1,6 @@
 #pragma once
 
-// Which lanes an operation names.
+// Lanes of an edit operation: visits those that it names.
 
 #include "document/Edit.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Hand edits over an analysis: made and applied.
+// Application of hand edits to a clip.
 
 #include "document/Edit.h"
 

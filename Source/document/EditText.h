@@ -1,6 +1,6 @@
 #pragma once
 
-// Hand edits in words, for lists of them.
+// Descriptions of hand edits in words, for lists of them.
 
 #include "document/Edit.h"
 

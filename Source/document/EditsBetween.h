@@ -1,6 +1,6 @@
 #pragma once
 
-// What has changed between two clips, as edits.
+// Difference of two clips, as edits.
 
 #include "document/Edit.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Settings of the analysis that have a name.
+// Presets of the encoder parameters.
 
 #include <pacini/analysis/Encoder.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Clips of a project into a folder, in one format.
+// Batch export: clips of a project into a folder, in one format.
 
 #include "io/formats/ClipFormat.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What of a folder can be opened.
+// Search of a folder for sounds and clips that can be opened.
 
 #include <filesystem>
 #include <string>

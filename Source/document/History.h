@@ -1,6 +1,6 @@
 #pragma once
 
-// Undo and redo without a limit.
+// Undo history without a limit.
 
 #include "document/ClipSnapshot.h"
 #include "document/Project.h"

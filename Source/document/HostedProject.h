@@ -19,7 +19,7 @@
 namespace pacini
 {
 
-/// Stands between the plugin's processor and an editor, which may not be there (yet).
+/// Link between the plugin's processor and an editor, which may not be there (yet).
 class HostedProject
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the parts of a Document do to clips and sounds of a project.
+// Helpers of Document that change clips and sounds of a project.
 
 #include "document/Project.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Edits of the markers of a clip: a list in order of time goes in, another comes out.
+// Edits of the markers of a clip. Pure functions: a list in order of time goes in, another comes out.
 
 #include <pacini/clip/Clip.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Edit operations fit for a file.
+// Validation of edit operations before they are applied and stored.
 
 #include "document/ProjectFields.h"
 

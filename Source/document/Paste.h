@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// What was copied, and where in frequency each of its lanes lay (0 for envelope and centroid).
+/// Content of the clipboard, with the frequency that each of its lanes had (0 for envelope and centroid).
 struct Copied
 {
     Fragment fragment;

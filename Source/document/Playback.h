@@ -1,6 +1,6 @@
 #pragma once
 
-// What is heard while editing, as plain data.
+// Playback settings of the preview: what is heard, loop, takes, solo and mute, as plain data.
 
 #include <pacini/clip/edits/Audition.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Plays a clip while it is edited.
+// Preview engine: plays a clip while it is edited.
 
 #include "document/Playback.h"
 #include "document/PreviewSource.h"
@@ -35,7 +35,7 @@ namespace pacini
 class PreviewEngine
 {
 public:
-    /// What the actuator gets.
+    /// Meter readings of the drive signal.
     struct Meters
     {
         double peak = 0.0;          ///< of the drive signal, 1 = full drive

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sound of a clip, ready to be played beside it.
+// Source sound of a clip at the device's rate, to be played beside the clip.
 
 #include "io/AudioReader.h"
 

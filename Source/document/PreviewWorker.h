@@ -1,6 +1,6 @@
 #pragma once
 
-// The thread that builds what a PreviewEngine plays.
+// Background thread that builds what a PreviewEngine plays.
 
 #include "document/PreviewEngine.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Who wrote a file, and whether it still runs.
+// Process ids: this process's, and whether another process still runs.
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a project holds: a plain value. Its large parts are immutable and shared, so that a copy is cheap and may go to
-// any thread.
+// Project: clips, sounds, groups, notes and profile, as a plain value. Its large parts are immutable and shared, so
+// that a copy is cheap and may go to any thread.
 
 #include "document/AudioReference.h"
 #include "document/Reapply.h"

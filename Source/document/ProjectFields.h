@@ -1,6 +1,6 @@
 #pragma once
 
-// The entries of a project in JSON, for its reader and its writer.
+// Field lists of a project in JSON, for its reader and its writer.
 
 #include "document/Project.h"
 #include "document/ProjectJson.h"

@@ -19,7 +19,7 @@ inline constexpr std::string_view projectExtension = ".pacini";
 /// Longer texts are refused: embedded sounds are in them.
 inline constexpr std::size_t largestProjectText = std::size_t(2) << 30;
 
-/// What an autosaved project says about itself.
+/// Entry of an autosaved project about its origin.
 struct RecoveryNote
 {
     std::string path;   ///< of the project file; empty: it had none yet
@@ -28,7 +28,7 @@ struct RecoveryNote
     bool operator==(const RecoveryNote&) const = default;
 };
 
-/// How a project is written.
+/// Options of writing a project.
 struct ProjectTextOptions
 {
     std::filesystem::path folder; ///< paths are written relative to it; empty: as they are

@@ -1,6 +1,6 @@
 #pragma once
 
-// Hand edits applied anew to another analysis.
+// Transfer of hand edits to another analysis.
 
 #include "document/Edit.h"
 
@@ -19,7 +19,7 @@ struct UnfittingEdit
     bool operator==(const UnfittingEdit&) const = default;
 };
 
-/// What the edits of a clip make of another analysis.
+/// Result of applying the edits of a clip to another analysis.
 struct Reapplied
 {
     Clip clip;

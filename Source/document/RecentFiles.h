@@ -1,6 +1,6 @@
 #pragma once
 
-// The projects that were open last.
+// List of the projects that were open last.
 
 #include <pacini/foundation/Result.h>
 

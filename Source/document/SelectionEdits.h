@@ -1,6 +1,6 @@
 #pragma once
 
-// Edits of what is selected over several lanes at once.
+// Edits of a selection over several lanes at once.
 
 #include <pacini/clip/edits/Clipboard.h>
 #include <pacini/clip/edits/PointEdits.h>
@@ -78,7 +78,7 @@ namespace pacini
     return range;
 }
 
-/// How everything selected moves: one shift in time, and each kind of value in its own way.
+/// Movement of a selection: one shift in time, and each kind of value in its own way.
 struct SelectionMove
 {
     double time = 0.0; ///< s; limited as a whole
@@ -179,7 +179,7 @@ namespace detail
     return scope;
 }
 
-/// What simplifying has cost.
+/// Cost of a simplification.
 struct SimplifyCost
 {
     std::size_t before = 0, after = 0; ///< points

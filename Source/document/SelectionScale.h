@@ -1,6 +1,6 @@
 #pragma once
 
-// Scaling of what is selected: closer together or farther apart, in time and in level.
+// Scaling of a selection in time and in level.
 
 #include "document/SelectionEdits.h"
 

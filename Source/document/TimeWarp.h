@@ -1,6 +1,6 @@
 #pragma once
 
-// How the time of one analysis maps to that of another.
+// Time warp: a monotone map from the time of one analysis to that of another.
 
 #include "document/Edit.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The last seconds of the bands of the sound.
+// Scrolling display of the last seconds of the sound's bands.
 
 #include <pacini/realtime/TranslatorMeters.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What was heard, as a clip.
+// Background encoding of captured sound to a clip.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>

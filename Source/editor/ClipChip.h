@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A clip that can be dragged out of the window.
+// Component that shows a clip and can be dragged out of the window.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -16,7 +16,7 @@ namespace pacini::editor
 /// Writes a clip as JSON into a folder for temporary files, under its name. Errors: those of writeClip().
 [[nodiscard]] Result<juce::File> writeForDragging(const Clip& clip);
 
-/// Its name, length and envelope. It is dragged to a folder, or into a program that takes files.
+/// Name, length and envelope of a clip. It is dragged to a folder, or into a program that takes files.
 class ClipChip final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

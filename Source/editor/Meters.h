@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Level bars and the lamp of events.
+// Level meter, and a lamp that lights up with events.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Interface of components that poll what they show.
+
 namespace pacini::editor
 {
 
-/// Something that looks now and then whether what it shows has changed, and repaints only then. Listeners of parameters
-/// would be called on the audio thread under automation, and would have to wake the message thread from there.
+/// Interface for polling: refresh() looks whether what is shown has changed, and repaints only then. Listeners of
+/// parameters would be called on the audio thread under automation, and would have to wake the message thread from
+/// there.
 class Refreshed
 {
 public:

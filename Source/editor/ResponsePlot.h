@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Curves over the logarithm of frequency.
+// Frequency response plot: curves over a logarithmic frequency axis.
 
 #include <pacini/linearize/FrequencyResponse.h>
 

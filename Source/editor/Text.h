@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// UTF-8 texts and paths of Pacini as those of JUCE, and back.
+// Conversion of UTF-8 texts and paths to those of JUCE, and back.
 
 #include <juce_core/juce_core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How everything looks: one grid, one accent, light or dark.
+// Visual theme of all windows: one grid, one accent, light or dark.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The interface in the user's language.
+// Translation of the interface to the user's language.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The actuator configuration files of the Meta haptics SDK: JSON5 with the settings of its renderer.
+// Actuator configuration files (ACF) of the Meta haptics SDK: JSON5 with the settings of its renderer.
 
 #include <pacini/foundation/Result.h>
 
@@ -20,7 +20,7 @@ enum class AcfShape
     triangle
 };
 
-/// How an event is played at one end of the sharpness scale; between the ends the renderer cross-fades.
+/// Playback of an event at one end of the sharpness scale; between the ends the renderer cross-fades.
 struct AcfEmphasisEnd
 {
     double frequency = 55.0; ///< Hz

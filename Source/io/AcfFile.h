@@ -1,6 +1,6 @@
 #pragma once
 
-// Profiles from and to the actuator configuration files (ACF) of the Meta haptics SDK.
+// Conversion of profiles from and to the actuator configuration files (ACF) of the Meta haptics SDK.
 
 #include "io/Acf.h"
 
@@ -20,7 +20,7 @@ struct ProfileOfAcf
     std::vector<std::string> warnings;
 };
 
-/// The other way round.
+/// An ACF made of a profile, and what did not fit, likewise.
 struct AcfOfProfile
 {
     Acf acf;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Writes a file that is either complete or not there: into a temporary beside the target, renamed when it is done.
+// Atomic writing of a file, which is either complete or not there: into a temporary beside the target, renamed when it
+// is done.
 
 #include "io/FileHandle.h"
 #include "io/TemporaryFiles.h"
@@ -13,7 +14,7 @@
 namespace pacini
 {
 
-/// What becomes of a file that is at the target already.
+/// Treatment of a file that is at the target already.
 enum class Existing
 {
     replace,

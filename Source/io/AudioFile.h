@@ -1,6 +1,6 @@
 #pragma once
 
-// Audio files in and out.
+// Audio files: their reader and their writer.
 
 #include "io/AudioReader.h"
 #include "io/AudioWriter.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the header of an audio file promises. libsndfile silently shortens a promise to what the file holds.
+// Size of the audio data that a file's header states. libsndfile silently shortens it to what the file holds.
 
 #include <cstdint>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Streams samples out of an audio file that may be damaged or hostile.
+// Streaming reader of audio files that may be damaged or hostile.
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Result.h>
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// What a reader lets pass instead of reporting it.
+/// Reading options: what is let pass instead of being reported.
 struct AudioReadOptions
 {
     bool allowTruncated = false; ///< deliver what is there of a file that was cut off

@@ -1,6 +1,6 @@
 #pragma once
 
-// Streams samples into a WAV or FLAC file that is complete or not there.
+// Streaming writer of WAV and FLAC files that are complete or not there.
 
 #include "io/AtomicFile.h"
 #include "io/FileOrigin.h"
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// How samples are stored.
+/// Encoding of stored samples.
 enum class SampleEncoding
 {
     float32, ///< as they are, beyond full scale too (WAV only)
@@ -40,7 +40,7 @@ struct AudioWriteParams
     /// What the file is made from, for its header (see FileOrigin.h).
     std::optional<FileOrigin> origin = std::nullopt;
 
-    /// What becomes of a file that is at the target already.
+    /// Treatment of a file that is at the target already.
     Existing existing = Existing::replace;
 
     bool operator==(const AudioWriteParams&) const = default;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The entries of a clip in JSON, which its reader, its writer and its seal follow.
+// Field lists of a clip in JSON, which its reader, its writer and its seal follow.
 
 #include "io/ClipJson.h"
 #include "io/Fields.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Clips, and scenes of them, in files of any format.
+// Reading and writing of clip files in any format, and of what may be a clip or a scene.
 
 #include "io/AtomicFile.h"
 #include "io/formats/ClipFormat.h"

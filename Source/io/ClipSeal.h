@@ -1,6 +1,6 @@
 #pragma once
 
-// The checksum that tells a clip as it was encoded from one that somebody edited since.
+// Seal of a clip: a checksum that tells a clip as it was encoded from one that somebody edited since.
 
 #include <pacini/clip/Clip.h>
 

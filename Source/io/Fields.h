@@ -1,6 +1,6 @@
 #pragma once
 
-// The vocabulary in which the entries of a JSON document are listed, once for its reader and its writer.
+// Field lists: the vocabulary in which the entries of a JSON document are listed, once for its reader and its writer.
 //
 // A list of fields is a function of a value and a visitor that names all entries of the value in the order of the
 // file: visitor.number("time", point.time, Need::required). Visitors: FieldsHandler reads long documents (clips,
@@ -32,7 +32,7 @@ template <typename E, std::size_t Count>
     return {};
 }
 
-/// What a document calls itself in its entries `format` and `version`.
+/// Name and version of a document, as in its entries `format` and `version`.
 struct DocumentFormat
 {
     std::string_view name;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Reads a document of any length into a value, by the fields of its type and as the text comes.
+// Streaming reader of JSON documents by lists of fields: fills a value as the text comes, however long it is.
 
 #include "io/Fields.h"
 #include "io/JsonText.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Reads a value out of a JSON object by the table of its entries.
+// Tree reader of JSON documents by lists of fields: fills a value from a parsed object.
 
 #include "io/Fields.h"
 #include "io/JsonText.h"

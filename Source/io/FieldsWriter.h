@@ -1,6 +1,6 @@
 #pragma once
 
-// Writes a value as a JSON document by the fields of its type.
+// Writer of JSON documents by lists of fields.
 
 #include "io/Fields.h"
 #include "io/JsonText.h"

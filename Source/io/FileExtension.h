@@ -1,6 +1,6 @@
 #pragma once
 
-// File extensions as they are compared: in lower case.
+// File extensions in lower case, for comparison.
 
 #include <algorithm>
 #include <filesystem>

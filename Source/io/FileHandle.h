@@ -1,6 +1,6 @@
 #pragma once
 
-// A C stream that closes itself, and what an errno means in plain words.
+// RAII handle of a C stream, and error messages for errno.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a sound file that Pacini made says of itself, so that it is told from a person's: a line of text in its header.
+// Provenance mark in the header of a sound file that Pacini made, by which it is told from a person's: a line of text.
 
 #include <pacini/foundation/Result.h>
 
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// What a file was made from.
+/// Origin of a file: what it was made from.
 struct FileOrigin
 {
     std::string input;     ///< name of that file, without folders; for people

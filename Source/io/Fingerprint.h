@@ -1,6 +1,6 @@
 #pragma once
 
-// Short fingerprints of bytes, to see whether something is still what it was.
+// Fast non-cryptographic hash of bytes, to see whether something is still what it was.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Opens and reads files that may be missing, hostile or endless.
+// Opening and reading of input files that may be missing, hostile or endless.
 
 #include "io/FileHandle.h"
 

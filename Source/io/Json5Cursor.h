@@ -1,6 +1,6 @@
 #pragma once
 
-// The characters of a JSON5 text, one after the other, with what they mean.
+// Character scanner of JSON5 texts: spaces, comments, names, digits and escapes.
 
 #include "io/JsonSource.h"
 #include "io/Utf8.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// The characters of a text, in memory or from a stream, with their line and column.
+// Character source of the JSON parser: a text in memory or from a stream, with line and column.
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Strict, streaming JSON (RFC 8259) with limits, for texts that may be damaged or hostile.
+// Strict, streaming parser of JSON (RFC 8259) with limits, for texts that may be damaged or hostile.
 
 #include "io/ReadWarnings.h"
 
@@ -95,7 +95,7 @@ private:
 [[nodiscard]] Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes,
                                      ReadWarnings* warnings = nullptr);
 
-/// Where a text goes piece by piece.
+/// Receiver of a text, piece by piece.
 using TextSink = std::function<void(std::string_view)>;
 
 /// Appends `value` as a JSON text in quotes; ill-formed UTF-8 becomes U+FFFD.

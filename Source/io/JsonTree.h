@@ -1,6 +1,6 @@
 #pragma once
 
-// Small JSON documents as trees, read as strictly as clips are.
+// Tree parser of small JSON documents, as strict as that of clips.
 
 #include "io/JsonText.h"
 

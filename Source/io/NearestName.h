@@ -1,6 +1,6 @@
 #pragma once
 
-// Which known name was probably meant by one that is not known.
+// Spelling suggestion: the known name that is nearest to one that is not known.
 
 #include <fmt/format.h>
 

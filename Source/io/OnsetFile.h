@@ -1,6 +1,6 @@
 #pragma once
 
-// Annotated onsets of sounds, as JSON or plain text.
+// Files of annotated onsets, as JSON or plain text.
 
 #include <pacini/foundation/Result.h>
 

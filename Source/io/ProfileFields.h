@@ -1,6 +1,6 @@
 #pragma once
 
-// The entries of a profile file: one table that the reader and the writer both follow.
+// Field lists of an actuator profile in JSON, which its reader and its writer follow.
 
 #include "io/Fields.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Actuator profiles in files.
+// Reading and writing of actuator profile files.
 
 #include "io/ProfileJson.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the readers of clips, scenes and profiles let pass.
+// Warnings of the readers of clips, scenes and profiles: what they let pass, such as unknown keys.
 
 #include <cstddef>
 #include <string>

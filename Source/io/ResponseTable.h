@@ -1,6 +1,6 @@
 #pragma once
 
-// Frequency responses as tables of text: CSV and what measuring programs export.
+// Tables of frequency responses as text: CSV and what measuring programs export.
 
 #include <pacini/linearize/FrequencyResponse.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The entries of a scene in JSON, which its reader and its writer follow.
+// Field lists of a scene in JSON, which its reader and its writer follow.
 
 #include "io/ClipFields.h"
 #include "io/Fields.h"

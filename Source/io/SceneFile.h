@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes in files.
+// Reading and writing of scene files.
 
 #include "io/ReadWarnings.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fingerprints of files, the same as `sha256sum` prints.
+// SHA-256 fingerprints of files, the same as `sha256sum` prints.
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The profiles that come with Pacini.
+// Look-up of the profile files that come with Pacini.
 
 #include <pacini/foundation/Result.h>
 

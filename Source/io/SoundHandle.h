@@ -1,6 +1,6 @@
 #pragma once
 
-// What reading and writing share of libsndfile.
+// RAII handle and error messages of libsndfile, for the reader and the writer of audio files.
 
 #include <sndfile.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a recorded sweep was, beside its sound: without it a recording cannot be analysed.
+// Description file of a measurement sweep, beside its sound: without it a recording cannot be analysed.
 
 #include <pacini/linearize/Sweep.h>
 

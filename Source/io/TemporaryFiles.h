@@ -1,7 +1,7 @@
 #pragma once
 
-// The temporaries of files being written, so that a program that is asked to end leaves none behind, and those that one
-// which was killed did leave behind are removed.
+// Clean-up of temporary files: a program that is asked to end leaves none behind, and those that a killed one did leave
+// behind are removed.
 
 #include <atomic>
 #include <cstdio>

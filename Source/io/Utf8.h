@@ -1,6 +1,6 @@
 #pragma once
 
-// UTF-8, byte by byte (RFC 3629).
+// UTF-8 decoder and encoder (RFC 3629).
 
 #include <cstddef>
 #include <string>

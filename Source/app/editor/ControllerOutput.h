@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A game controller, or another haptic device, that plays what the editor plays.
+// Playback of the edited clip on a game controller or another haptic device.
 
 #include "devices/HidList.h"
 #include "devices/OpenController.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sound device, and which of its channels carry what.
+// Dialog for the sound device, the channels of sound and drive signal, and the game controller.
 
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"

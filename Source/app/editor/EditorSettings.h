@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the editor remembers from one run to the next.
+// Stored settings of the editor, kept from one run to the next.
 
 #include "app/editor/PreviewDevices.h"
 #include "editor/clip/EditorView.h"

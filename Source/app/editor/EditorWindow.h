@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The window of the editor.
+// Main window of the editor.
 
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sound device as what an actuator is measured with.
+// Measurement rig on the editor's sound device: plays the sweep and records the sensor.
 
 #include "document/measure/MeasureCallback.h"
 #include "document/measure/MeasureRig.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sound device of the editor: sound and drive signal on channels of their own.
+// Sound device of the editor: sound and drive signal on channels of their own.
 
 #include "document/ClipPlayer.h"
 #include "editor/clip/session/OutputTrim.h"
@@ -14,7 +14,7 @@
 namespace pacini::app
 {
 
-/// Channels are numbered from 0, -1 is none.
+/// Output channels, numbered from 0; -1 is none.
 struct PreviewOutputs
 {
     int sound = 0;  ///< the first of two

@@ -1,6 +1,6 @@
 #pragma once
 
-// The measurements that `pacini bench` can make: what each does with a sound, and what its columns mean.
+// The benchmarks of `pacini bench`: what each measures on a sound, and the columns of its table.
 
 #include "cli/bench/BenchSound.h"
 #include "cli/bench/BenchTable.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// What came of a bench, and the files that keep it.
+// Report of a benchmark: its tables, and the files that keep them (CSV, JSON, figures).
 
 #include "cli/Overwrite.h"
 #include "cli/bench/Bench.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A sound to measure on.
+// Sound to measure on, with its annotated onsets where they are known.
 
 #include <pacini/foundation/Result.h>
 
@@ -14,7 +14,7 @@
 namespace pacini::cli
 {
 
-/// Where events of a sound are known to be, s.
+/// Annotated onsets of a sound, s.
 struct KnownEvents
 {
     std::vector<double> onsets;

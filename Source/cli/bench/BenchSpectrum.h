@@ -1,6 +1,6 @@
 #pragma once
 
-// Spectra of whole signals, for benches that compare them.
+// Zero-padded spectra of whole signals, for benchmarks that compare them.
 
 #include <pacini/foundation/Fft.h>
 

@@ -14,7 +14,7 @@
 namespace pacini::cli
 {
 
-/// What happens to a column when the rows of several sounds become one.
+/// Reduction of a column when the rows of several sounds become one.
 enum class Reduction
 {
     sound,    ///< the name of the sound: left out

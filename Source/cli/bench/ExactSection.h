@@ -1,6 +1,6 @@
 #pragma once
 
-// What a second-order section would put out without rounding: the yardstick for its forms.
+// Second-order section in extended precision: the reference for the rounding errors of its other forms.
 
 #include <pacini/filters/Biquad.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Run time and result of a piece of work, from the same runs.
+// Timing of a piece of work: its shortest run time and its result, from the same runs.
 
 #include "cli/Stopwatch.h"
 

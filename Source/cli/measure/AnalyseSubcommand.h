@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that analyses recordings of sweeps.
+
 #include "cli/Command.h"
 #include "cli/measure/Recording.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that fits an equaliser to a measured response.
+
 #include "cli/Command.h"
 
 #include <pacini/linearize/EqualizerFitParams.h>

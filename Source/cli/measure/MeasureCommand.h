@@ -1,5 +1,7 @@
 #pragma once
 
+// Command group for the measurement of actuators.
+
 #include "cli/Command.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Recordings of sweeps, as the steps of a measurement read them.
+// Sweep recordings: their options and their analysis, for the steps of a measurement.
 
 #include "cli/Console.h"
 #include "io/SweepFile.h"
@@ -19,7 +19,7 @@
 namespace pacini::cli
 {
 
-/// What the steps that read recordings ask the user.
+/// Command-line options of the steps that read recordings.
 struct RecordingOptions
 {
     std::vector<std::string> recordings;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that simulates the recording of a sweep.
+
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 

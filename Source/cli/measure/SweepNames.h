@@ -1,6 +1,6 @@
 #pragma once
 
-// What the parts of a sweep are called in files and options.
+// Names of a sweep's description file and of its options.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that writes a measurement sweep.
+
 #include "cli/Command.h"
 #include "cli/Overwrite.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Subcommand that verifies an equaliser by a sweep through it.
+
 #include "cli/Command.h"
 #include "cli/measure/Recording.h"
 

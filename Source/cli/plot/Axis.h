@@ -1,6 +1,6 @@
 #pragma once
 
-// An axis of a chart: what range it shows, on which scale, with which ticks.
+// Axis of a chart: its range, scale and ticks.
 
 #include <string>
 #include <vector>

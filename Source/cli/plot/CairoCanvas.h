@@ -1,6 +1,6 @@
 #pragma once
 
-// A canvas for PNG and PDF, on cairo.
+// Canvas for PNG and PDF, on cairo.
 
 #include "cli/plot/Canvas.h"
 

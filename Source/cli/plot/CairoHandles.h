@@ -1,6 +1,6 @@
 #pragma once
 
-// Objects of cairo that free themselves, and the font that all of them use.
+// RAII handles of cairo objects, and the font that all of them use.
 
 #include "cli/plot/Canvas.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Something that can be drawn on and then saved.
+// Canvas: the interface by which figures are drawn and saved in any picture format.
 
 #include "cli/plot/Colour.h"
 #include "cli/plot/Path.h"
@@ -15,7 +15,7 @@
 namespace pacini::plot
 {
 
-/// How a path's line looks.
+/// Line style of a path.
 struct Stroke
 {
     Colour colour;
@@ -24,7 +24,7 @@ struct Stroke
     bool round = true;  ///< ends and corners; round ends make a dot of a segment without length
 };
 
-/// How a path is filled and outlined.
+/// Fill and outline of a path.
 struct Paint
 {
     std::optional<Colour> fill;
@@ -47,7 +47,7 @@ struct TextStyle
     bool upwards = false; ///< turned by 90 degrees, read from the right
 };
 
-/// Where to draw: pixels from the upper left corner. Texts are UTF-8; see printable().
+/// Drawing surface; positions are pixels from the upper left corner. Texts are UTF-8; see printable().
 class Canvas
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a clip holds, as a figure with a common time axis.
+// Figure of a clip: its curves and transients over a common time axis.
 
 #include "cli/plot/Figure.h"
 #include "cli/plot/Waveform.h"

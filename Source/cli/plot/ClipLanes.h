@@ -1,6 +1,6 @@
 #pragma once
 
-// The panels of a clip's bands.
+// Chart panels of a clip's bands: amplitudes in lanes, and pitches.
 
 #include "cli/plot/Panel.h"
 #include "cli/plot/Waveform.h"

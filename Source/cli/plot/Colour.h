@@ -1,6 +1,6 @@
 #pragma once
 
-// Colours.
+// Colours: sRGB with opacity.
 
 #include <cstdint>
 

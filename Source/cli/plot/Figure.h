@@ -1,6 +1,6 @@
 #pragma once
 
-// A picture of one or more panels above each other, with the same x axis.
+// Figure: one or more panels above each other with the same x axis, drawn on a canvas.
 
 #include "cli/plot/Panel.h"
 #include "cli/plot/PictureFile.h"
@@ -19,7 +19,7 @@ struct Figure
     std::vector<Panel> panels; ///< from above; only the lowest shows labels of the x axis
 };
 
-/// How large and on which ground.
+/// Size of a figure, and whether its ground is dark.
 struct FigureStyle
 {
     PictureSize size;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How wide texts are.
+// Font metrics: the width of texts.
 
 #include "cli/plot/Canvas.h"
 

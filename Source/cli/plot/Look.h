@@ -1,6 +1,6 @@
 #pragma once
 
-// How a picture looks: its colours and its sizes.
+// Drawing style of a figure: its colours and its sizes.
 
 #include "cli/plot/Theme.h"
 
@@ -20,7 +20,7 @@ struct Metrics
     [[nodiscard]] double hair() const noexcept { return text / 13.0; } ///< width of thin lines
 };
 
-/// How to draw.
+/// Colours and sizes to draw with.
 struct Look
 {
     Theme theme = lightTheme();

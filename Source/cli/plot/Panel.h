@@ -1,6 +1,6 @@
 #pragma once
 
-// One pair of axes with what they show.
+// Panel of a figure: one pair of axes with its series and legend.
 
 #include "cli/plot/Axis.h"
 #include "cli/plot/Look.h"

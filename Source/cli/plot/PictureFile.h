@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures in files.
+// Picture files: PNG, SVG or PDF by the extension.
 
 #include "cli/Overwrite.h"
 #include "cli/plot/Canvas.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where values of a panel lie on the canvas.
+// Coordinate mapping of a panel: axis values -> pixels of the canvas.
 
 #include "cli/plot/Panel.h"
 

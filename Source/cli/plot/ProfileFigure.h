@@ -1,6 +1,6 @@
 #pragma once
 
-// What an actuator does to the frequencies of a drive signal, as a figure.
+// Figure of an actuator profile: felt acceleration and output filter over frequency.
 
 #include "cli/plot/Figure.h"
 

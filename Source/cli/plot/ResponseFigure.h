@@ -1,6 +1,6 @@
 #pragma once
 
-// Measured responses as a figure.
+// Figure of measured frequency responses, with their distortion and equaliser.
 
 #include "cli/plot/Figure.h"
 

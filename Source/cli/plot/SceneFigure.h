@@ -1,6 +1,6 @@
 #pragma once
 
-// What happens in a scene, as a figure with a common time axis.
+// Figure of a scene: its plays, levels and gains over a common time axis.
 
 #include "cli/plot/Figure.h"
 #include "cli/plot/Waveform.h"

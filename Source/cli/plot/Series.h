@@ -1,6 +1,6 @@
 #pragma once
 
-// What a panel shows, in the units of its axes.
+// Data series of a panel: lines, areas and stems in the units of its axes.
 
 #include "cli/plot/Canvas.h"
 #include "cli/plot/Path.h"
@@ -48,7 +48,7 @@ struct Line
     bool listed = true;                ///< in the legend
 };
 
-/// What lies between two lines with the same x.
+/// Area between two lines with the same x.
 struct Area
 {
     std::string name;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Draws series into the plot of a panel.
+// Drawing of data series, their labels and their samples in the legend.
 
 #include "cli/plot/PlotArea.h"
 

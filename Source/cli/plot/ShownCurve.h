@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of a clip's curve that a picture shows.
+// Curve of a clip cut to the time range of a chart: breakpoints, line, and peaks for each column.
 
 #include "cli/plot/Path.h"
 #include "cli/plot/Waveform.h"

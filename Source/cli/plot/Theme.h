@@ -1,6 +1,6 @@
 #pragma once
 
-// Sets of colours that stay apart for colour-blind eyes.
+// Colour themes for a light and a dark ground, whose colours stay apart for colour-blind eyes.
 
 #include "cli/plot/Colour.h"
 
@@ -11,7 +11,7 @@
 namespace pacini::plot
 {
 
-/// What a picture is drawn with, on a light or a dark ground.
+/// Colours of a picture on a light or a dark ground.
 struct Theme
 {
     Colour ground;

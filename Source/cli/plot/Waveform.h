@@ -1,6 +1,6 @@
 #pragma once
 
-// A sound of any length as a line with no more points than a picture can show.
+// Waveform reduction: a sound of any length as a line with no more points than a picture can show.
 
 #include "cli/plot/Path.h"
 

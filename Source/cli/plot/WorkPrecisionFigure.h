@@ -1,6 +1,6 @@
 #pragma once
 
-// Error against work: the lower left corner is best.
+// Work-precision diagram: error against work of several methods; the lower left corner is best.
 
 #include "cli/plot/Figure.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The way from an actuator to its profile, step by step.
+// Workflow of an actuator's measurement: its steps, from the set-up to the profile.
 
 #include "document/measure/MeasureResults.h"
 
@@ -35,9 +35,9 @@ enum class MeasureStepState
     failed ///< see problem()
 };
 
-/// What has been measured, and what follows from it. Everything behind a step that changes is forgotten; what then has
-/// to be computed anew is told by due(), done elsewhere and brought back with the ticket of that moment: results of
-/// what has changed meanwhile are not taken.
+/// State of a measurement: what has been measured, and what follows from it. Everything behind a step that changes is
+/// forgotten; what then has to be computed anew is told by due(), done elsewhere and brought back with the ticket of
+/// that moment: results of what has changed meanwhile are not taken.
 class ActuatorMeasurement
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a device plays and records for a measurement.
+// Audio callback of a measurement: plays sweeps or a test tone, and records.
 
 #include "document/measure/MeasureRig.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// What the steps of a measurement come to. Each of these takes up to some seconds and touches nothing shared.
+// Results of the steps of a measurement, and the functions that compute them. Each of these takes up to some seconds
+// and touches nothing shared.
 
 #include "document/measure/MeasureSettings.h"
 
@@ -21,7 +22,7 @@
 namespace pacini
 {
 
-/// What came in while a sweep was played.
+/// Recording of a sweep.
 struct RecordedSweep
 {
     std::vector<std::vector<float>> channels;
@@ -58,7 +59,7 @@ struct MeasuredResponse
 
 [[nodiscard]] Result<MeasuredResponse> summarisePlacements(const Placements& placements);
 
-/// What an equaliser is asked for.
+/// Requirements of an equaliser.
 struct EqualizerRequest
 {
     std::optional<int> sections; ///< 1 to 8; none: as few as do

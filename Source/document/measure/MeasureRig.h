@@ -1,6 +1,6 @@
 #pragma once
 
-// What an actuator is measured with.
+// Measurement rig: interface to a device that plays on the actuator and records its sensor.
 
 #include <pacini/foundation/Result.h>
 
@@ -21,7 +21,7 @@ struct RigPorts
     std::string problem;         ///< why nothing can be measured now and what to do, in plain words; empty: it can
 };
 
-/// Which of them are used, counted from 0.
+/// Ports of a rig that are used, counted from 0.
 struct RigWiring
 {
     std::size_t output = 0;

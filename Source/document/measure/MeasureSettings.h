@@ -1,6 +1,6 @@
 #pragma once
 
-// What a person chooses before an actuator is measured.
+// Settings of a measurement: level, range and length of the sweep, calibration of the sensor.
 
 #include <pacini/linearize/EqualizedSweep.h>
 #include <pacini/linearize/MeasurementParams.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// What went wrong with a measurement, in plain words and with what to do about it.
+// Messages for errors and warnings of a measurement, in plain words and with what to do.
 
 #include <pacini/foundation/Result.h>
 #include <pacini/linearize/SweepMeasurement.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A rig to try a measurement on without an actuator.
+// Simulated measurement rig, to try a measurement without an actuator.
 
 #include "document/measure/MeasureRig.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The clips of a project as the lines of a list, under the headings of their groups.
+// List rows of a project's clips, under the headings of their groups.
 
 #include "document/Project.h"
 
@@ -50,7 +50,7 @@ struct ClipRow
     return rows;
 }
 
-/// Where a clip goes, for Document::placeClip().
+/// Destination of a clip, for Document::placeClip().
 struct ClipPlace
 {
     std::size_t index = 0; ///< among the other clips

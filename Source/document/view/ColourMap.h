@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels as colours.
+// Colour map of levels, in steps that are equal for the eye.
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves and sounds as one line for each column of pixels.
+// Column reduction of curves and sounds: the extremes in each column of pixels.
 
 #include "document/view/TimeAxis.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a view goes along with the playhead.
+// Scrolling of a view that follows the playhead.
 
 #include "document/view/TimeAxis.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which breakpoint is under the pointer.
+// Hit test: the breakpoint or the line under the pointer.
 
 #include "document/view/TimeAxis.h"
 #include "document/view/ValueAxis.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the names of markers go.
+// Layout of the labels of markers.
 
 #include "document/view/TimeAxis.h"
 

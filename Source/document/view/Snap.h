@@ -1,6 +1,6 @@
 #pragma once
 
-// What the pointer sticks to.
+// Snapping of the pointer to events, markers, the playhead and grid lines.
 
 #include "document/view/TimeAxis.h"
 
@@ -15,7 +15,7 @@
 namespace pacini
 {
 
-/// What pointers stick to, when they do.
+/// Targets that pointers snap to, while snapping is on.
 struct SnapTargets
 {
     bool on = true;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The spectra of a sound over time at several resolutions.
+// Multi-resolution spectrogram of a sound, filled tile by tile.
 
 #include "document/view/SpectrumAnalyzer.h"
 #include "document/view/TimeAxis.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// The spectrum of a sound at one time, in rows of equal ratios.
+// Spectrum of a sound at one time, on a logarithmic frequency axis.
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/Windows.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Time <-> x.
+// Time axis of a view: time <-> x.
 
 #include <pacini/clip/edits/Lane.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The lines of a time ruler.
+// Tick spacing of a time ruler.
 
 #include <pacini/clip/edits/RangeEdits.h>
 

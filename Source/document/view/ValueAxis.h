@@ -1,6 +1,6 @@
 #pragma once
 
-// Values <-> y.
+// Value axis of a lane: values <-> y, linear, logarithmic or in decibels.
 
 #include <pacini/clip/edits/Lane.h>
 

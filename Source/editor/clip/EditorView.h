@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The whole clip editor as one component: for a window of its own, or for that of a plugin.
+// Main view of the clip editor as one component: for a window of its own, or for that of a plugin.
 
 #include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
@@ -28,7 +28,7 @@
 namespace pacini::editor
 {
 
-/// What is around an editor; its menus leave out what is not there.
+/// Services of the program or plugin around an editor; its menus leave out what is not there.
 struct HostServices
 {
     std::vector<std::filesystem::path> demoSounds;

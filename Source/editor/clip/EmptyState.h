@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What an editor without a clip shows.
+// Start page of an editor without a clip: opening, demo sounds and recent projects.
 
 #include "editor/clip/session/EditorModel.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The questions about files: what to open, whether to save, what to restore.
+// File dialogs of the editor: what to open, whether to save, what to restore.
 
 #include "editor/clip/session/Session.h"
 

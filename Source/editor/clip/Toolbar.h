@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Playing, zooming, the actuator and the clip, always in sight.
+// Toolbar: transport, zoom, actuator and clip, always in sight.
 
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/session/Transport.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is being read and analysed, how far it is, and a button that stops it.
+// Progress bar of reading and analysing, with a button that stops the work.
 
 #include "editor/clip/session/ProjectSounds.h"
 

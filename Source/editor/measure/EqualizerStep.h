@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The equaliser that flattens the response.
+// Equaliser step of the measure page: the fit that flattens the response.
 
 #include "editor/ResponsePlot.h"
 #include "editor/measure/MeasurementController.h"

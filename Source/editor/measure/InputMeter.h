@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The level of an input while its gain is set.
+// Input level meter with peak hold and overload lamp, for setting a gain.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

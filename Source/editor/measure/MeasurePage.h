@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The measurement of an actuator over the whole window.
+// Measure page: the measurement of an actuator over the whole window.
 
 #include "editor/clip/sheets/Sheet.h"
 #include "editor/measure/EqualizerStep.h"
@@ -19,8 +19,8 @@
 namespace pacini::editor
 {
 
-/// Steps at the left, the chosen one beside them. Escape stops a sweep, or closes the page; what was measured stays on
-/// the desk. One page at a time for a desk.
+/// Steps at the left, the chosen one beside them. Escape stops a sweep, or closes the page; what was measured stays in
+/// the controller. One page at a time for a controller.
 class MeasurePage final : public Sheet, private juce::Timer
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A measurement with its rig: what plays, what is analysed in the background, what is written.
+// Controller of a measurement: playing on its rig, analysis in the background, saving of the results.
 
 #include "document/measure/ActuatorMeasurement.h"
 #include "document/measure/MeasureRig.h"

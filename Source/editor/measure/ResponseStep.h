@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the placements say of the actuator.
+// Response step of the measure page: frequency response, distortion and findings of the placements.
 
 #include "editor/ResponsePlot.h"
 #include "editor/measure/MeasurementController.h"

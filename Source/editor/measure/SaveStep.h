@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The profile that comes of it.
+// Save step of the measure page: the profile made of the measurement.
 
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"

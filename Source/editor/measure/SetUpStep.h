@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is measured with, where it is connected, and with which sweep.
+// Set-up step of the measure page: rig, connections and sweep.
 
 #include "editor/measure/InputMeter.h"
 #include "editor/measure/MeasurementController.h"

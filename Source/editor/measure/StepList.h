@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The steps of a measurement with where each stands.
+// List of the measurement's steps with the state of each.
 
 #include "document/measure/ActuatorMeasurement.h"
 

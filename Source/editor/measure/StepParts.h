@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the steps of the measure page are put together from.
+// Common components of the measure page's steps: named controls, notes, tables.
 
 #include "editor/Theme.h"
 
@@ -110,7 +110,7 @@ public:
     static constexpr int leastWidth = 656;
 };
 
-/// What a step asks the page for.
+/// Services of the page that a step may ask for.
 struct StepServices
 {
     std::function<void(const juce::String& title, const juce::String& pattern, bool saving, const juce::String& name,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sweeps, and the placements that were taken.
+// Sweep step of the measure page: playing sweeps, and the list of placements.
 
 #include "editor/measure/InputMeter.h"
 #include "editor/measure/MeasurementController.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The proof: a sweep through the equaliser.
+// Verify step of the measure page: a sweep through the equaliser proves it.
 
 #include "editor/ResponsePlot.h"
 #include "editor/measure/MeasurementController.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// The formats of clip files, Pacini's own and those of other programs: what each reads, writes and loses.
+// Table of the clip file formats, Pacini's own and those of other programs: what each reads, writes and loses.
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
@@ -16,7 +16,7 @@
 namespace pacini
 {
 
-/// What a format makes of a clip in one place.
+/// Kinds of what a format loses or changes of a clip in one place.
 enum class LossKind
 {
     bands,     ///< bands became fewer

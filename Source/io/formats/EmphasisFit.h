@@ -1,6 +1,6 @@
 #pragma once
 
-// Events as emphases: what players that duck the voice under them make of a clip's events.
+// Conversion of a clip's events to emphases, for players that duck the voice under them.
 
 #include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
@@ -13,8 +13,8 @@
 namespace pacini
 {
 
-/// How a player shows events: by an oscillator of its own, which goes from a sine (sharpness 0) to a square (1), while
-/// the voice is weaker.
+/// Playback of events by a player: by an oscillator of its own, which goes from a sine (sharpness 0) to a square (1),
+/// while the voice is weaker.
 struct EmphasisPlayer
 {
     NormalisedRange range = {}; ///< Hz of the dullest and the crispest

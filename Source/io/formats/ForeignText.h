@@ -1,6 +1,6 @@
 #pragma once
 
-// What readers and writers of other programs' texts share.
+// Text helpers that readers and writers of other programs' formats share.
 
 #include "io/JsonText.h"
 

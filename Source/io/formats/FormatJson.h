@@ -1,6 +1,6 @@
 #pragma once
 
-// What the readers of foreign JSON formats share: entries looked up by name, each wrong one with its place.
+// JSON look-up for the readers of foreign formats: entries by name, each wrong one with its place.
 
 #include "io/JsonText.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What readers of several formats do on the way to a clip.
+// Import helpers that readers of several formats share: warnings, bands for overlapping waves, the clip's end.
 
 #include "io/formats/ClipFormat.h"
 
@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// What a reader finds wrong: the first error, and warnings, of which a hostile file makes no more than fifty.
+/// Errors and warnings of a reader: the first error, and warnings, of which a hostile file makes no more than fifty.
 class ImportReport
 {
 public:
@@ -28,7 +28,7 @@ private:
     std::vector<std::string>& warnings;
 };
 
-/// Bands for waves of which some sound side by side.
+/// Allocation of bands to waves of which some sound side by side.
 class ImportLanes
 {
 public:

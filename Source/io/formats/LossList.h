@@ -1,6 +1,6 @@
 #pragma once
 
-// What a format loses of a clip, found place by place.
+// Collector of what a format loses of a clip, found place by place.
 
 #include "io/formats/ClipFormat.h"
 

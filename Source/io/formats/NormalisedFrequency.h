@@ -1,6 +1,6 @@
 #pragma once
 
-// What 0 to 1 mean in formats that leave frequencies to the device.
+// Normalised frequency: the range in Hz of formats that say 0 to 1 and leave the rest to the device.
 
 #include <pacini/actuator/Profile.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves whose values players square.
+// Square root and square of a curve, for formats whose players square its values.
 
 #include <pacini/clip/Curve.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip reduced to one voice, or to a strength, as formats without bands say it, and what that loses.
+// Reduction of a clip to one voice, or to a strength, for formats without bands, and what that loses.
 
 #include "io/formats/ClipFormat.h"
 #include "io/formats/EmphasisFit.h"
@@ -57,7 +57,7 @@ void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& vo
 /// Parts of a quarter of a second or more in which all that sounds is below leastAmplitude, and clips that are silent.
 void addEmptyParts(LossList& losses, const SingleVoice& voice);
 
-/// How a format says amplitudes.
+/// Scale of a format's amplitudes.
 enum class LevelScale
 {
     amplitude, ///< as they are
@@ -73,8 +73,8 @@ struct VoiceFormat
     double frequencyPoints = 30.0; ///< per second
 };
 
-/// What formats say whose levels and frequencies are 0 to 1. The curves have two points or more, go from 0 to the
-/// duration, and their values and those of the events are 0 to 1.
+/// The one voice of a clip for formats whose levels and frequencies are 0 to 1. The curves have two points or more, go
+/// from 0 to the duration, and their values and those of the events are 0 to 1.
 struct NormalisedVoice
 {
     std::string name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where the haptic signal goes.
+// Output routing of the drive signal: haptic output, main output and bypass.
 
 #include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"

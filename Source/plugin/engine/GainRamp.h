@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Gain ramp: linear, sample by sample.
+
 namespace pacini::plugin
 {
 
-/// A gain on its way, in a straight line, sample by sample, so that blocks leave no trace in it.
+/// Gain that moves to its target in a straight line, sample by sample, so that blocks leave no trace in it.
 class GainRamp
 {
 public:

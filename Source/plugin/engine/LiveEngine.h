@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// All that happens to the sound in the plugin, without any host.
+// Live engine of the plugin: all signal processing, without any host.
 
 #include "plugin/engine/ClipPreview.h"
 #include "plugin/engine/DriveRouting.h"

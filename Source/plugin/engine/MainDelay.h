@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sound, as late as the haptic signal.
+// Latency compensation: delays the sound by the latency of the haptic signal.
 
 #include <algorithm>
 #include <cstddef>

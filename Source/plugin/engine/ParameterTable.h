@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Everything that can be automated, once: ids, names, units, ranges, defaults.
+// Table of the plugin's parameters: ids, names, units, ranges, defaults of everything that can be automated.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace pacini::plugin
 {
 
-/// The places of the parameters in parameterTable. Hosts know parameters by their text ids, so the order may change.
+/// Indices of the parameters in parameterTable. Hosts know parameters by their text ids, so the order may change.
 enum class ParameterId : std::size_t
 {
     source,
@@ -60,7 +60,7 @@ enum class SourceChoice
     mix
 };
 
-/// What the main output carries. The haptic output always carries the drive.
+/// Content of the main output. The haptic output always carries the drive.
 enum class OutputMode
 {
     separate,      ///< the sound as it came

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Values of parameters as people read and type them, and as hosts store them.
+// Conversion of parameter values: to text as people read and type it, and to 0 to 1 as hosts store it.
 
 #include "plugin/engine/ParameterTable.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the parameters say, for one block.
+// Parameter values for one block.
 
 #include "plugin/engine/ParameterTable.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a session keeps of the plugin.
+// Plugin state: what a host's session keeps of the plugin, as JSON.
 
 #include "plugin/engine/ParameterValues.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One thread for all instances in a process that does what the audio thread must not.
+// Background thread for all instances in a process, which does what the audio thread must not.
 
 #include <juce_core/juce_core.h>
 

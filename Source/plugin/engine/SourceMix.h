@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one sound that is turned into touch.
+// Source mixer: main input and sidechain as the one mono sound that is turned into touch.
 
 #include "plugin/engine/GainRamp.h"
 #include "plugin/engine/ParameterTable.h"

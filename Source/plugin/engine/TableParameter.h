@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A row of parameterTable as hosts want it.
+// Host parameter (JUCE) of a row of parameterTable.
 
 #include "plugin/engine/ParameterTable.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The last seconds of the sound as a clip: one button, and something to drag out or to save.
+// Capture panel: the last seconds of the sound as a clip, to drag out, edit or save.
 
 #include "editor/CaptureJob.h"
 #include "editor/ClipChip.h"

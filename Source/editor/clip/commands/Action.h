@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A command with its place, its words, its keys and what it does.
+// Menu action: a command with its place, name, help, keys and function.
 
 #include "editor/clip/commands/Command.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be done in the editor, by menu, key, button or test.
+// Command ids of the editor, for menus, keys, buttons and tests.
 
 namespace pacini::editor
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Key logic of a switch that stays when its key is tapped and goes back when it was held.
+
 #include <cstdint>
 
 namespace pacini::editor

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The menu bar and the keys.
+// Menu bar and keyboard shortcuts.
 
 #include "editor/clip/commands/Action.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The edits with arguments that menus offer, see OperationSheet. Those of a scope take it as it is when they are made.
+// Edits with arguments that the menus offer, see OperationSheet. Those of a scope take it as it is when they are made.
 
 #include "editor/clip/sheets/OperationSheet.h"
 

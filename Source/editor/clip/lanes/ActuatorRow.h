@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the chosen actuator really plays of the clip.
+// Actuator row of the clip view: what the chosen actuator really plays of the clip.
 
 #include "document/ActuatorTrace.h"
 #include "editor/clip/session/Actuators.h"

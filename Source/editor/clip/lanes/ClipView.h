@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Everything that a clip holds over one axis of time.
+// Clip view: everything that a clip holds over one time axis.
 
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/lanes/ActuatorRow.h"

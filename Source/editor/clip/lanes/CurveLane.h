@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A curve of the clip as a row.
+// Lane of a curve of the clip.
 
 #include "document/DrawnCurve.h"
 #include "editor/clip/lanes/PlotLane.h"

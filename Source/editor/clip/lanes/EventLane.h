@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The transients of the clip as a row: their levels, or how sharp they feel.
+// Lane of the clip's transients: their levels or their sharpness.
 
 #include "editor/clip/lanes/PlotLane.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How lanes and their values are named and coloured.
+// Names, colours and value texts of lanes.
 
 #include "editor/Theme.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Strip of markers in the clip view.
+
 #include "editor/clip/commands/Command.h"
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"

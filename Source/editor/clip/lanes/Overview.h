@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Overview of the whole clip, which scrolls and zooms the clip view.
+
 #include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One row of the clip view: a head with its name, and a plot over time whose things can be picked, moved and added.
+// Base class of the lanes: a head with the name, and a plot over time whose things can be picked, moved and added.
 
 #include "document/view/ValueAxis.h"
 #include "editor/clip/session/Transport.h"

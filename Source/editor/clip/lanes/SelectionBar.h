@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Time bar of the selection, by which it is stretched.
+
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
 

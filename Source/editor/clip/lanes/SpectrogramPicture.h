@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A spectrogram of a sound as a picture of what is visible.
+// Image of the visible part of a sound's spectrogram, computed in the background.
 
 #include "document/view/Spectrogram.h"
 #include "editor/clip/session/Jobs.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Time ruler of the clip view.
+
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
 
@@ -11,7 +13,7 @@
 namespace pacini::editor
 {
 
-/// Times. A click puts the playhead there, a drag selects a range or moves an end of it.
+/// Ruler with times. A click puts the playhead there, a drag selects a range or moves an end of it.
 class TimeRuler final : public juce::Component, public juce::SettableTooltipClient
 {
 public:

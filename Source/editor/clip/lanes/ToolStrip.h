@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Tool buttons of the clip view.
+
 #include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -8,7 +10,7 @@
 namespace pacini::editor
 {
 
-/// What the mouse does in lanes, beside the ruler: drawing, snapping, and which version is seen and heard.
+/// Switches for what the mouse does in lanes, beside the ruler: drawing, snapping, and which version is seen and heard.
 class ToolStrip final : public juce::Component
 {
 public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Row of the source sound in the clip view.
+
 #include "editor/clip/lanes/SpectrogramPicture.h"
 #include "editor/clip/session/ProjectSounds.h"
 #include "editor/clip/session/ViewState.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the sound of the clip is analysed, and the hand edits that found no place over the analysis.
+// Analysis panel: encoder parameters of the clip, and the hand edits that found no place over the analysis.
 
 #include "editor/clip/panels/UnfittingList.h"
 #include "editor/clip/session/ProjectSounds.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The clips of the project under their groups: chosen, renamed, ordered, grouped by mouse and keys.
+// List of the project's clips under their groups: chosen, renamed, ordered, grouped by mouse and keys.
 
 #include "document/view/ClipRows.h"
 #include "editor/clip/session/EditorModel.h"

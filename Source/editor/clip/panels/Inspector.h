@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is selected, in numbers, and edits of stretches: level, fades, simplifying.
+// Inspector panel: the selection in numbers, and edits of stretches: level, fades, simplifying.
 
 #include "editor/ClipChip.h"
 #include "editor/clip/session/ClipSelection.h"

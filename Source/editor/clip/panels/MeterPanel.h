@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the actuator gets while playing.
+// Meter panel: levels and gain reduction at the actuator during playback.
 
 #include "editor/Meters.h"
 #include "editor/clip/session/Transport.h"

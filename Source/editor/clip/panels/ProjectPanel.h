@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The clips of the project, notes, and whether sounds go with it.
+// Project panel: list of clips, notes, and whether sounds are embedded.
 
 #include "editor/clip/panels/ClipList.h"
 #include "editor/clip/session/ProjectSounds.h"
@@ -13,7 +13,7 @@ namespace pacini::editor
 
 class EditorView;
 
-/// What is typed becomes a step when it has not changed for a moment, or the keyboard goes elsewhere.
+/// Typed notes become a step when they have not changed for a moment, or the keyboard goes elsewhere.
 class ProjectPanel final : public juce::Component, private juce::Timer
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What stands beside the clip, a page at a time.
+// Side panel: tabs with the pages beside the clip.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The hand edits of a clip that wait for another analysis, each with its reason.
+// List of the hand edits that do not fit the current analysis, each with its reason.
 
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"

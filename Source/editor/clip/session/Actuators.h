@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The actuators that can be chosen, and the one of the project.
+// List of actuators that can be chosen, and the choice of the project.
 
 #include "document/BuiltInProfiles.h"
 #include "editor/clip/session/EditorModel.h"

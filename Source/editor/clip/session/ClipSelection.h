@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is selected of the clip that is shown, and the edits that go by it.
+// Selection in the clip that is shown, with its clipboard and the edits that act on it.
 
 #include "document/Paste.h"
 #include "document/SelectionEdits.h"

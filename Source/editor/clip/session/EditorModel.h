@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The open project and the clip of it that is edited.
+// Model of the editor: the open project and the clip of it that is edited.
 
 #include "document/Autosave.h"
 #include "document/Document.h"

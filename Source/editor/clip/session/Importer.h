@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sounds, clips and folders on their way into the project.
+// Background import of sounds, clips and folders into the project.
 
 #include "editor/clip/session/Sound.h"
 
@@ -36,7 +36,7 @@ struct Task
     }
 };
 
-/// What is going on, for a bar.
+/// State of the background work, for a progress bar.
 struct WorkState
 {
     juce::String text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Work that takes too long for the message thread.
+// Background job queue, for work that takes too long for the message thread.
 
 #include <juce_events/juce_events.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Level and lateness of one output, so that what is heard and what is felt meet in time and strength.
+// Level and delay trim of one output, so that what is heard and what is felt meet in time and strength.
 
 #include <algorithm>
 #include <atomic>

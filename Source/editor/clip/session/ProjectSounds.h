@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The sounds behind the clips of the project: read, analysed, missing or kept with it.
+// Source sounds of the project's clips: reading, analysis, search for missing ones, embedding.
 
 #include "editor/clip/session/EditorModel.h"
 #include "editor/clip/session/Importer.h"
@@ -20,7 +20,7 @@
 namespace pacini::editor
 {
 
-/// What is read and analysed in the background; ends when another project is opened. [message]
+/// Reads and analyses in the background, which ends when another project is opened. [message]
 class ProjectSounds
 {
 public:

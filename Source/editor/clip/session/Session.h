@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One editor without its window: the parts that its views share.
+// Editing session: one editor without its window, as the parts that its views share.
 
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"

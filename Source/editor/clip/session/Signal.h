@@ -34,7 +34,7 @@ private:
     mutable std::vector<std::weak_ptr<const std::function<void()>>> followers;
 };
 
-/// What an object follows, as long as it lives: to be its last member. [message]
+/// Subscriptions of an object to signals, as long as it lives: to be its last member. [message]
 class Subscriptions
 {
 public:

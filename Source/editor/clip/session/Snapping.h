@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a dragged point, transient, marker or edge sticks to.
+// Snapping of a dragged point, transient, marker or edge.
 
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
@@ -14,7 +14,7 @@ namespace pacini::editor
 
 inline constexpr double snapReach = 8.0; ///< pixels
 
-/// What moves must not stick to itself.
+/// Targets of snapping that depend on what is dragged: what moves must not snap to itself.
 struct Snapping
 {
     const Clip* clip = nullptr;        ///< where transients and markers are looked for; null: the one that is shown

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A sound as the editor needs it: described, in memory, and ready to be drawn.
+// Sound of the editor: samples in memory with waveform peaks, and the import of files.
 
 #include "document/Analysis.h"
 #include "document/AudioReference.h"
@@ -58,7 +58,7 @@ private:
     return sound ? std::shared_ptr<const AudioData>(sound, &sound->audio) : nullptr;
 }
 
-/// What a file gives to a project: a sound with its analysis, or a clip.
+/// Content of an imported file: a sound with its analysis, or a clip.
 struct Imported
 {
     AudioReference reference; ///< of the sound

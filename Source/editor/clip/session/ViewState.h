@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What of the clip is in sight, and how lanes look and behave.
+// View state: the visible part of the clip, and how lanes look and behave.
 
 #include "document/view/Follow.h"
 #include "document/view/Snap.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Clips for use elsewhere: which, in what format, with what losses, and where to.
+// Export dialog: which clips, in what format, with what losses, and where to.
 
 #include "document/ExportBatch.h"
 #include "editor/clip/session/Actuators.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The manual of the editor, compiled in.
+// Help dialog: the manual of the editor, compiled in.
 
 #include "editor/clip/sheets/Sheet.h"
 

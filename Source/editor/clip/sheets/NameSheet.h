@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Dialog for a name.
+
 #include "editor/clip/sheets/Sheet.h"
 
 #include <functional>

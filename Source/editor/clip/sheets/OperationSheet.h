@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The arguments of an edit, with the clip changing while they do.
+// Dialog for the arguments of an edit, with a live preview on the clip.
 
 #include "editor/clip/session/ClipSelection.h"
 #include "editor/clip/session/Jobs.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// How the editor looks and behaves, in one place; most of it is in the View menu as well.
+// Preferences dialog: looks and behaviour in one place; most of it is in the View menu as well.
 
 #include "editor/clip/sheets/Sheet.h"
 

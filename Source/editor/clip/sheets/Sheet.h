@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Dialogs inside the window: they work the same in a program and in a plugin.
+// Base class of the dialogs inside the window: they work the same in a program and in a plugin.
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -59,7 +59,7 @@ private:
     std::vector<std::unique_ptr<juce::TextButton>> buttons;
 };
 
-/// A text with answers.
+/// Dialog with a text and answers.
 class MessageSheet final : public Sheet
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What keys and mouse do.
+// Dialog with the list of keyboard shortcuts and mouse gestures.
 
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/sheets/Sheet.h"

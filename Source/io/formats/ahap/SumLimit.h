@@ -1,6 +1,6 @@
 #pragma once
 
-// The sum of bands kept within full drive.
+// Limiter of the sum of a clip's bands, to full drive.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>

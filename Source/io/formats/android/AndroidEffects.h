@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as the vibration effects of Android.
+// Conversion of clips to the vibration effects of Android, and back.
 
 #include "io/formats/ClipFormat.h"
 
@@ -35,7 +35,7 @@ struct AndroidEnvelope
     bool operator==(const AndroidEnvelope&) const = default;
 };
 
-/// The three ways to say a clip, from the oldest.
+/// The three forms of a clip as a vibration effect, from the oldest.
 struct AndroidEffects
 {
     std::vector<AndroidStep> waveform;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Vibration effects of Android as JSON, XML, Kotlin and Java.
+// Files with vibration effects of Android: JSON, XML, Kotlin and Java.
 
 #include "io/formats/ClipFormat.h"
 

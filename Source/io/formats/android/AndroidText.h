@@ -1,6 +1,6 @@
 #pragma once
 
-// What the texts of Android's effects share.
+// Text helpers that the writers of Android's effects share.
 
 #include "io/formats/android/AndroidEffects.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The steps of an Android waveform.
+// Conversion of a voice to the steps of an Android waveform.
 
 #include "io/formats/LossList.h"
 #include "io/formats/android/AndroidEffects.h"

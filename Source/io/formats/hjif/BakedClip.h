@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip with what its decoder works out put into its curves.
+// Baked clip: everything that its decoder works out (levelling, pitch, pulse levels) put into its curves.
 
 #include <pacini/clip/Clip.h>
 

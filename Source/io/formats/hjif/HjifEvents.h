@@ -1,6 +1,6 @@
 #pragma once
 
-// How the events of a clip are told in an HJIF file.
+// Representation of a clip's events in an HJIF file: as Transients, as short waves, or as both.
 
 #include <pacini/clip/Clip.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// An HJIF file as it stands: what of it makes a signal.
+// Data model of an HJIF file: the entries that make a signal.
 
 #include <pacini/foundation/Result.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Amplitudes of waves with few keyframes.
+// Least-squares fit of keyframes to the amplitudes of waves.
 
 #include <pacini/clip/Clip.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The interchange format of MPEG haptics (ISO/IEC 23090-31), .hjif.
+// HJIF files, the interchange format of MPEG haptics (ISO/IEC 23090-31).
 
 #include "io/formats/ClipFormat.h"
 

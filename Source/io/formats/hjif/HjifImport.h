@@ -1,6 +1,6 @@
 #pragma once
 
-// The clip that an HJIF file says.
+// Import of an HJIF file: its channels as one clip.
 
 #include "io/formats/hjif/HjifFile.h"
 

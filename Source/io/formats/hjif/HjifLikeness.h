@@ -1,6 +1,6 @@
 #pragma once
 
-// How unlike its clip an HJIF file feels.
+// Perceptual distance between a clip and its HJIF file.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
@@ -12,7 +12,7 @@
 namespace pacini
 {
 
-/// What sets a file apart from Pacini's own render of the clip.
+/// Distance of a file from Pacini's own render of the clip.
 struct HjifDistance
 {
     double value = 0.0;         ///< points; 100 and more for something else altogether

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bit stream of one block of a WaveletWave band.
+// Bit stream decoder (SPIHT) for one block of a WaveletWave band.
 
 #include <cstddef>
 #include <optional>

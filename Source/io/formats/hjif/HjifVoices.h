@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as few waves with few keyframes.
+// Reduction of a clip to few waves with few keyframes.
 
 #include "io/formats/LossList.h"
 
@@ -9,7 +9,7 @@
 namespace pacini
 {
 
-/// How much is tried to make a file of few bytes that feels like the clip.
+/// Effort of the search for a file of few bytes that feels like the clip.
 enum class HjifEffort
 {
     search, ///< up to 42 files are compared with the clip: 45 ms a second of sound

@@ -1,6 +1,6 @@
 #pragma once
 
-// The channels of an HJIF file that are waveforms.
+// Waveform channels of an HJIF file: drawn as samples and translated to a clip.
 
 #include "io/formats/ImportedClip.h"
 #include "io/formats/hjif/HjifFile.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// WaveletWave bands as samples.
+// Inverse wavelet transform: WaveletWave bands as samples.
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The effects of an HJIF file as parts of a clip.
+// Conversion of an HJIF file's effects to bands and events of a clip.
 
 #include "io/formats/ImportedClip.h"
 #include "io/formats/hjif/HjifFile.h"
@@ -13,7 +13,7 @@
 namespace pacini
 {
 
-/// How the numbers of an effect become those of a clip.
+/// Units of an effect's numbers.
 struct HjifScale
 {
     double ticks = 1000.0; ///< per second

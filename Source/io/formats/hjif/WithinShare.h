@@ -1,6 +1,6 @@
 #pragma once
 
-// Fewer points of a curve, by an error that follows its level.
+// Curve simplification within an error that is relative to the level.
 
 #include <pacini/clip/Curve.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pacini's own format to read and edit: clips as JSON (see ClipJson.h).
+// JSON clips, Pacini's own format to read and edit (see ClipJson.h).
 
 #include "io/formats/ClipFormat.h"
 

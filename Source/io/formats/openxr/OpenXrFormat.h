@@ -1,6 +1,6 @@
 #pragma once
 
-// The drive signal and its strength as the arrays that OpenXR takes.
+// Arrays for OpenXR: the drive signal and its strength, as a C header or JSON.
 
 #include "io/formats/ClipFormat.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pacini's own small format: clips quantised and entropy coded (see PackedClip.h).
+// Packed clips, Pacini's own small format: quantised and entropy coded (see PackedClip.h).
 
 #include "io/formats/ClipFormat.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The drive signal of a clip, for formats that are samples.
+// Rendered drive signal of a clip, for formats that are samples.
 
 #include "io/formats/LossList.h"
 

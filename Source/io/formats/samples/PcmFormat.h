@@ -1,6 +1,6 @@
 #pragma once
 
-// The drive signal itself: WAV, raw samples and a C array for firmware.
+// Files with the drive signal itself: WAV, raw samples and a C array for firmware.
 
 #include "io/formats/ClipFormat.h"
 
