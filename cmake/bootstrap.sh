@@ -210,7 +210,7 @@ slow-tests)
 clang-tests)
     install_packages "${portability_packages[@]}"
     build clang-libc++ "pacini pacini_tests"
-    run_tests clang-libc++ --tests-regex '^(tests|cli)-' --label-exclude slow
+    run_tests clang-libc++ --tests-regex '^tests-' --label-exclude slow
     ;;
 sanitized-tests)
     build asan all
