@@ -80,7 +80,7 @@ Error controllerError(int errnoValue)
     case EACCES:
     case EPERM:
         return {ErrorCode::io, "",
-                "may not be opened by this user; as root, copy Pacini's Resources/udev/70-pacini.rules to "
+                "may not be opened by this user; as root, copy Pacini's 70-pacini.rules to "
                 "/etc/udev/rules.d (for what is no game controller, add the line that is told there), run 'udevadm "
                 "control --reload' and connect the controller anew"};
     case EWOULDBLOCK:
