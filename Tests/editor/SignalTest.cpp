@@ -53,11 +53,16 @@ TEST_CASE("Followers may come and go while a signal calls them")
 
 TEST_CASE("A subscription may outlive what it followed")
 {
+    int calls = 0;
     Subscriptions subscriptions;
     {
-        const Signal signal;
-        subscriptions.on({&signal}, [] {});
-        signal.emit();
+        const Signal gone;
+        subscriptions.on({&gone}, [&calls] { ++calls; });
+        gone.emit();
     }
-    SUCCEED();
+    CHECK(calls == 1);
+    const Signal next;
+    subscriptions.on({&next}, [&calls] { calls += 10; });
+    next.emit();
+    CHECK(calls == 11);
 }
