@@ -37,6 +37,7 @@ ELSEWHERE = {
     "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS \"hosts;slow\""),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
+    "python3 Tests/mutate.py": (".ci/run", "Tests/mutate.py"),
     "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),
     "python3 Resources/docs/make_editor_pictures.py": ("Resources/docs/make_editor_pictures.py", "__main__"),
     "Tests/hosts/check_standalone.py PROGRAM PICTURE": ("Tests/hosts/CMakeLists.txt", "check_standalone.py"),
@@ -316,7 +317,7 @@ class Options(CommandTest):
                 PAGES + "devices.md": ["play"],
                 PAGES + "measuring.md": ["measure sweep", "measure analyse", "measure fit", "measure verify",
                                          "measure simulate"]}
-    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make"}
+    OF_OTHER_TOOLS = {"--install", "--component", "--preset", "--workflow", "--make", "--at", "--rooms"}
 
     def help_of(self, command):
         """Option to default; empty without one."""

@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+"""Do the tests notice? Changes one operator, constant, bound, condition or statement at a time in Core and Source/io, runs
+the tests that reach it, and lists what survives.
+
+mutate.py                                     300 random changes, every room: build/mutate/survivors.json
+mutate.py --rooms actuator,realtime --count 60
+mutate.py --at Core/pacini/simplify/GreedyBudget.h:85       every change in that line
+mutate.py --list ...                          only say what would be changed
+
+Exit 1 when fewer than --at-least percent are caught. All changes are compiled into one program, in a copy of the
+sources in build/mutate, and switched on one by one. First come the C++ tests that reach the change, those of its own room
+before the others; what they leave is shown to the golden test of the command (cli/test_outputs.py). A survivor that no
+test can catch is written in mutation/reasons.json with the reason, and is not counted.
+"""
+import argparse
+import json
+import os
+import random
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import time
+from collections import Counter, defaultdict
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "mutation"))
+from changes import changes_of, in_place  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent
+WORK = ROOT / "build/mutate"
+FOLDERS = ["Core/pacini", "Source/io"]
+REASONS = ROOT / "Tests/mutation/reasons.json"
+TESTED = "foundation filters clip clip/edits simplify analysis analysis/methods actuator linearize synthesis realtime evaluate io io/formats document".split()
+MEMORY = 6_000_000_000  # bytes; a change may make a loop that takes all there is
+
+
+def room_of(path):
+    """Core/pacini/clip/edits/Trim.h -> clip/edits, Source/io/formats/ahap/AhapWriter.cpp -> io/formats."""
+    parts = Path(path).parts
+    parts = parts[2:-1] if parts[0] == "Core" else parts[1:-1]
+    return "/".join(parts[:2])
+
+
+def all_changes(rooms, at):
+    found = []
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            name = str(path.relative_to(ROOT))
+            if path.suffix not in {".h", ".cpp"} or (rooms and not any(room_of(name).startswith(room) for room in rooms)):
+                continue
+            found += changes_of(name, path.read_text())
+    if at:
+        found = [change for change in found if f"{change.path}:{change.line}" in at]
+    return found
+
+
+def write_sources(chosen):
+    """The tree in build/mutate/source with the changes in it; files that stay as they are keep their time."""
+    by_path = defaultdict(list)
+    for number, change in enumerate(chosen):
+        if not change.dropped:
+            by_path[change.path].append((number, change))
+    files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True,
+                           check=True).stdout.splitlines()
+    kept = set()
+    for name in files:
+        source, target = ROOT / name, WORK / "source" / name
+        if not source.is_file():
+            continue
+        kept.add(target)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if name in by_path:
+            text = in_place(source.read_text(), by_path[name]).encode()
+        else:
+            text = source.read_bytes()
+        if not target.exists() or target.read_bytes() != text:
+            target.write_bytes(text)
+            shutil.copymode(source, target)
+    for target in (WORK / "source").rglob("*"):
+        if target.is_file() and target not in kept:
+            target.unlink()
+
+
+def configure(rooms):
+    tested = [room for room in TESTED if not rooms or any(room.startswith(wanted) for wanted in rooms)]
+    flags = f"-std=c++20 -w -Wno-narrowing -fpermissive -D_GLIBCXX_ASSERTIONS -include {WORK}/source/Tests/mutation/Mutants.h"
+    subprocess.run(["cmake", "-S", WORK / "source", "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
+                    "-DCMAKE_CXX_FLAGS_DEBUG=-O1", f"-DCMAKE_CXX_FLAGS={flags}", "-DCMAKE_UNITY_BUILD=ON",
+                    "-DCMAKE_UNITY_BUILD_BATCH_SIZE=8", "-DPACINI_BUILD_PLUGIN=OFF", "-DPACINI_MUTATION=ON",
+                    f"-DPACINI_TEST_ROOMS={';'.join(tested)}"], check=True, stdout=subprocess.DEVNULL)
+
+
+def build(chosen, jobs):
+    """Compiles; a change that the language does not allow is dropped, and it starts again."""
+    while True:
+        write_sources(chosen)
+        done = subprocess.run(["ninja", "-C", WORK / "build", "-j", str(jobs), "-k", "0", "pacini_tests", "pacini"],
+                              capture_output=True, text=True)
+        if done.returncode == 0:
+            return
+        places = set()
+        for path, line in re.findall(r"(?:^|[ (])(?:\S*/)?(?:source|\.\./source)/((?:Core|Source)/\S+?):(\d+)(?=[:,])",
+                                     done.stdout, re.M):
+            places.add((path, int(line)))
+        errors = [(change.path, change.line) for change in chosen
+                  if not change.dropped and (change.path, change.line) in places]
+        if not errors:
+            sys.exit(done.stdout[-6000:] + "\nmutate: this does not compile, and no change is to blame")
+        print(f"  {len(errors)} changes do not compile and are dropped", file=sys.stderr)
+        for change in chosen:
+            change.dropped = change.dropped or (change.path, change.line) in errors
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+class Tests:
+    """The test program and what is known of its cases: how long they take and which changes they reach."""
+
+    def __init__(self):
+        self.program = WORK / "build/bin/pacini_tests"
+        reached = WORK / "reached.txt"
+        # A test may be right for the release build only: such a one tells nothing here.
+        done = self.run(["~[slow]~[.]"], {"PACINI_MUTANTS_REACHED": str(reached)}, 3600)
+        failed = set()
+        if done:
+            failed = set(self.failing())
+            print(f"  {len(failed)} tests fail without any change and are left out", file=sys.stderr)
+        self.cases, self.seconds, self.first = defaultdict(list), {}, set()
+        for line in reached.read_text().splitlines():
+            seconds, numbers, name = line.split("\t", 2)
+            if name.startswith("(before"):
+                self.first = {int(number) for number in numbers.split()}
+            elif name not in failed:
+                self.seconds[name] = float(seconds)
+                for number in numbers.split():
+                    self.cases[int(number)].append(name)
+        self.outputs_told = self.golden(None) is False
+
+    def run(self, arguments, environment, timeout):
+        """Whether something fails: a test, the program, or the time or memory that it may take."""
+        try:
+            done = subprocess.run([self.program, *arguments], env=os.environ | environment, preexec_fn=limited,
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                  timeout=timeout, cwd=WORK)
+        except subprocess.TimeoutExpired:
+            return True
+        return done.returncode not in (0, 77)
+
+    def failing(self):
+        done = subprocess.run([self.program, "~[slow]~[.]", "-r", "xml"], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, errors="replace", cwd=WORK)
+        for name, body in re.findall(r'<TestCase name="(.*?)".*?>(.*?)</TestCase>', done.stdout, re.S):
+            if '<OverallResult success="false"' in body:
+                yield name.replace("&quot;", '"').replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
+
+    def some(self, number, names):
+        """Whether one of these tests catches the change."""
+        if not names:
+            return False
+        listed = WORK / f"tests-{number}.txt"
+        listed.write_text("\n".join(names) + "\n")
+        timeout = 20 + 10 * sum(self.seconds[name] for name in names)
+        caught = self.run(["--input-file", listed, "--abort", "--warn", "NoTests"], {"PACINI_MUTANT": str(number)}, timeout)
+        listed.unlink()
+        return caught
+
+    def golden(self, number):
+        """Whether the golden test of the command fails with this change."""
+        environment = {"PACINI_COMMAND": str(WORK / "build/bin/pacini"), "PACINI_SOURCE_DIR": str(WORK / "source"),
+                       "PACINI_SANITIZE": ""}
+        if number is not None:
+            environment["PACINI_MUTANT"] = str(number)
+        try:
+            done = subprocess.run([sys.executable, "-B", WORK / "source/Tests/support/run_tests.py",
+                                   WORK / "source/Tests/cli/test_outputs.py"], env=os.environ | environment,
+                                  preexec_fn=limited, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL, timeout=300)
+        except subprocess.TimeoutExpired:
+            return True
+        return done.returncode not in (0, 77)
+
+    def catcher(self, number, change):
+        """What catches the change, or None."""
+        names = sorted(self.cases[number], key=self.seconds.get)
+        own = [name for name in names if self.seconds[name] < 2.0][:60]
+        if self.some(number, own):
+            return "its tests"
+        if self.some(number, [name for name in names if name not in set(own)]):
+            return "its tests"
+        if number in self.first and self.some(number, list(self.seconds)):
+            return "its tests"
+        if self.outputs_told and self.golden(number):
+            return "outputs"
+        return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--count", type=int, default=300, help="how many changes (300)")
+    parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
+    parser.add_argument("--rooms", default="", help="folders of Core/pacini or Source, separated by commas (all)")
+    parser.add_argument("--at", action="append", default=[], metavar="FILE:LINE", help="all changes of this line")
+    parser.add_argument("--at-least", type=float, default=90.0, help="percent that must be caught (90)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at once")
+    parser.add_argument("--list", action="store_true", help="only list the changes")
+    arguments = parser.parse_args()
+    rooms = [room for room in arguments.rooms.split(",") if room]
+
+    every = all_changes(rooms, arguments.at)
+    if not every:
+        sys.exit("mutate: nothing to change there")
+    # Some of what is drawn does not compile: a fifth more is drawn, and what is too much left out in the end.
+    drawn = every if arguments.at else random.Random(arguments.seed).sample(every, min(len(every), arguments.count * 6 // 5))
+    if arguments.list:
+        for change in drawn[:arguments.count]:
+            print(change)
+        return 0
+    started = time.monotonic()
+    WORK.mkdir(parents=True, exist_ok=True)
+    write_sources(drawn)
+    configure(rooms)
+    build(drawn, arguments.jobs)
+    built = time.monotonic()
+    kept = [(number, change) for number, change in enumerate(drawn) if not change.dropped]
+    if not arguments.at:
+        kept = kept[:arguments.count]
+    print(f"  {len(every)} places, {len(kept)} changes, built in {built - started:.0f} s", file=sys.stderr)
+    tests = Tests()
+    results = {}
+
+    def judge(item):
+        results[item[0]] = tests.catcher(*item)
+        if sys.stderr.isatty():
+            print(f"\r  {len(results)} of {len(kept)}", end="", file=sys.stderr, flush=True)
+
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        list(pool.map(judge, kept))
+
+    reasons = {(entry["file"], entry["line"], entry["change"]): entry["why"]
+               for entry in (json.loads(REASONS.read_text()) if REASONS.exists() else [])}
+    changed, caught, excused, survivors = Counter(), Counter(), [], []
+    for number, change in kept:
+        room = room_of(change.path)
+        if results[number]:
+            caught[room] += 1
+        elif why := reasons.get((change.path, change.text, change.what)):
+            excused.append((change, why))
+            continue
+        else:
+            survivors.append((number, change))
+        changed[room] += 1
+    print(f"\n{'room':<20}{'changes':>8}{'caught':>8}")
+    for room in sorted(changed):
+        print(f"{room:<20}{changed[room]:>8}{caught[room]:>8}")
+    percent = 100.0 * caught.total() / max(1, changed.total())
+    golden = sum(result == "outputs" for result in results.values())
+    print(f"{'all':<20}{changed.total():>8}{caught.total():>8}   {percent:.1f} %"
+          f" ({golden} by the golden outputs alone), seed {arguments.seed},"
+          f" {(time.monotonic() - started) / 60:.1f} min")
+    if survivors:
+        print("\nSurvived:")
+    for number, change in sorted(survivors, key=lambda item: str(item[1])):
+        count = len(tests.cases[number])
+        print(f"  {change}   {f'{count} tests reach it' if count else 'no test reaches it'}")
+    if excused:
+        print("\nNot counted, for a reason:")
+    for change, why in excused:
+        print(f"  {change}\n      {why}")
+    (WORK / "survivors.json").write_text(json.dumps(
+        [{"file": change.path, "line": change.text, "change": change.what, "why": ""} for _, change in survivors], indent=2))
+    return 0 if percent >= arguments.at_least else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
