@@ -2,7 +2,6 @@
 
 #include "cli/Command.h"
 #include "cli/ConvertJob.h"
-#include "cli/Counted.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
@@ -95,14 +94,7 @@ std::string summary(const std::vector<ConvertTask>& tasks)
         for (const ManifestOutput& output : task.result->entry.outputs)
             bytes += static_cast<double>(output.bytes);
     }
-    std::string text = fmt::format("{} converted", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (const auto skipped = countSkipped(tasks); skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (failed > 0)
-        text += fmt::format(", {} failed", failed);
-    return text + fmt::format(": {}", bytesText(bytes));
+    return fmt::format("{} converted{}: {}", done, restText(fresh, countSkipped(tasks), failed), bytesText(bytes));
 }
 
 ManifestEntry entryOf(const ConvertTask& task)

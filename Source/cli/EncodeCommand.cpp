@@ -51,7 +51,6 @@ nlohmann::ordered_json toJson(const EncodeTask& task)
 std::string summary(const std::vector<EncodeTask>& tasks)
 {
     std::size_t done = 0, fresh = 0, failed = 0;
-    const std::size_t skipped = countSkipped(tasks);
     double bytes = 0.0, duration = 0.0, seconds = 0.0, worked = 0.0;
     for (const EncodeTask& task : tasks)
     {
@@ -64,13 +63,7 @@ std::string summary(const std::vector<EncodeTask>& tasks)
         seconds += task.result->seconds;
         worked += task.result->upToDate ? 0.0 : task.result->duration;
     }
-    std::string text = fmt::format("{} encoded", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (failed > 0)
-        text += fmt::format(", {} failed", failed);
+    std::string text = fmt::format("{} encoded{}", done, restText(fresh, countSkipped(tasks), failed));
     if (duration > 0.0)
         text +=
             fmt::format(": {} of sound in {}, {:.0f} B/s", durationText(duration), bytesText(bytes), bytes / duration);

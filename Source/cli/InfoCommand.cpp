@@ -7,7 +7,7 @@
 #include "cli/SceneReport.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -117,20 +118,19 @@ Result<Json> describeAudio(const std::string& file)
     auto reader = AudioReader::open(file);
     if (!reader)
         return reader.error();
-    std::vector<float> buffer(static_cast<std::size_t>(reader->channels()) * 4096);
-    std::uint64_t frames = 0;
+    std::size_t samples = 0;
     double peak = 0.0;
-    for (;;)
-    {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        frames += *got;
-        for (std::size_t i = 0; i < *got * static_cast<std::size_t>(reader->channels()); ++i)
-            peak = std::max(peak, std::abs(static_cast<double>(buffer[i])));
-    }
+    const auto read = reader->forEachBlock(4096,
+                                           [&](std::span<const float> block)
+                                           {
+                                               samples += block.size();
+                                               for (const float sample : block)
+                                                   peak = std::max(peak, std::abs(static_cast<double>(sample)));
+                                               return true;
+                                           });
+    if (!read)
+        return read.error();
+    const std::size_t frames = samples / static_cast<std::size_t>(reader->channels());
     return Json{{"kind", "audio"},
                 {"duration", static_cast<double>(frames) / reader->sampleRate()},
                 {"sampleRate", reader->sampleRate()},

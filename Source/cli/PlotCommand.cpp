@@ -68,16 +68,10 @@ Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plo
         return reader.error();
     const auto channels = static_cast<std::size_t>(reader->channels());
     plot::Waveform waveform(range, columns, reader->sampleRate(), channels);
-    std::vector<float> buffer(4096 * channels);
-    for (;;)
-    {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        waveform.push(std::span(buffer).first(*got * channels));
-    }
+    const auto read =
+        reader->forEachBlock(4096, [&](std::span<const float> block) { return waveform.push(block), true; });
+    if (!read)
+        return read.error();
     return plot::NamedWaveform{fmt::format("Sound: {}{}", file.filename().string(),
                                            channels > 1 ? fmt::format(" (mean of {} channels)", channels) : ""),
                                waveform.points()};

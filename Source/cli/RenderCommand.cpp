@@ -89,13 +89,8 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
             seconds += task.result->seconds;
             peak = std::max(peak, task.result->peak);
         }
-    std::string text = fmt::format("{} rendered", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (done + fresh + skipped < tasks.size())
-        text += fmt::format(", {} failed", tasks.size() - done - fresh - skipped);
+    std::string text =
+        fmt::format("{} rendered{}", done, restText(fresh, skipped, tasks.size() - done - fresh - skipped));
     if (seconds > 0.0)
         text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
     if (felt && done > 0)
