@@ -1,8 +1,11 @@
-#include "cli/BenchCommand.h"
+// Subcommand that runs the benchmarks.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProgramFolder.h"
+#include "cli/bench/Bench.h"
 #include "cli/bench/BenchReport.h"
 #include "io/AtomicFile.h"
 #include "io/ShippedProfiles.h"
@@ -13,7 +16,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -58,6 +64,23 @@ std::string buildText()
     return "with assertions: times are not those of a release build";
 #endif
 }
+
+/// `pacini bench`: error against run time, measured on the user's machine and sounds.
+class BenchCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::string what = "all";
+    std::vector<std::string> inputs;
+    std::string output = "pacini-bench";
+    std::string markdown;
+    std::string format = "svg";
+    BenchSettings settings;
+    OverwriteOptions overwriting;
+};
 } // namespace
 
 CLI::App* BenchCommand::declare(CLI::App& app)
@@ -70,22 +93,14 @@ CLI::App* BenchCommand::declare(CLI::App& app)
         names += ", " + bench.name;
         allowed.push_back(bench.name);
     }
-    command->add_option("what", what, "What to measure: " + names)
-        ->check(oneOf(allowed))
-        ->capture_default_str()
-        ->type_name("WHAT");
-    command->add_option("inputs", inputs, "Sounds, or folders of them [the demo sounds]")->type_name("IN");
-    command->add_option("-o,--output", output, "Folder for the tables and charts")
-        ->capture_default_str()
-        ->type_name("DIR");
-    command->add_option("--repeat", settings.repeats, "Runs of which the fastest counts; long ones are not repeated")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(1, 1000));
+    addPreset(*command, "what", what, "What to measure: " + names, oneOf(allowed), "WHAT");
+    addOption(*command, "inputs", inputs, "Sounds, or folders of them [the demo sounds]", "IN");
+    addPreset(*command, "-o,--output", output, "Folder for the tables and charts", "DIR");
+    addPreset(*command, "--repeat", settings.repeats, "Runs of which the fastest counts; long ones are not repeated",
+              wholeNumberFrom(1, 1000));
     command->add_flag("--sweep", settings.sweep, "methods: also Pacini's own at many settings");
-    command->add_option("--format", format, "Format of the charts")
-        ->capture_default_str()
-        ->check(oneOf({"svg", "png"}));
-    command->add_option("--markdown", markdown, "Also write all tables into one Markdown page")->type_name("FILE");
+    addPreset(*command, "--format", format, "Format of the charts", oneOf({"svg", "png"}));
+    addOption(*command, "--markdown", markdown, "Also write all tables into one Markdown page", "FILE");
     overwriting.declare(*command);
     command->footer("Errors and times come from the same runs, one at a time on one processor. Times differ between\n"
                     "computers; compare ratios.\n"
@@ -102,10 +117,8 @@ Exit BenchCommand::run(Console& console)
     {
         inputs.push_back(demoFolder());
         if (inputs.front().empty())
-        {
-            console.error("", {ErrorCode::io, "", "finds no demo sounds beside this program; name a folder of sounds"});
-            return Exit::failed;
-        }
+            return console.fail(
+                "", {ErrorCode::io, "", "finds no demo sounds beside this program; name a folder of sounds"});
     }
     bool failed = false;
     InputFiles found = findInputs(inputs, audioExtensions());
@@ -123,12 +136,9 @@ Exit BenchCommand::run(Console& console)
     if (std::any_of(reports.begin(), reports.end(),
                     [](const BenchReport& report) { return report.bench.needsProfiles; }) &&
         shippedProfiles(programFolder()).empty())
-    {
-        console.error(
+        return console.fail(
             programFolder().string(),
             {ErrorCode::io, "", "has no folder 'profiles' in it or above it, which bench actuators measures"});
-        return Exit::failed;
-    }
     for (std::size_t i = 0; i < found.files.size(); ++i)
     {
         const auto& file = found.files[i];
@@ -178,25 +188,24 @@ Exit BenchCommand::run(Console& console)
         }
         auto files = writeReport(report, output, format, overwriting.of(false));
         if (!files)
-        {
-            console.error(files.error().where.empty() ? output : "", files.error());
-            return Exit::failed;
-        }
+            return console.fail(files.error().where.empty() ? output : "", files.error());
         std::move(files->begin(), files->end(), std::back_inserter(written));
     }
     if (!markdown.empty())
     {
         if (const auto bytes = writeFileAtomically(markdown, page); !bytes)
-        {
-            console.error(markdown, bytes.error());
-            return Exit::failed;
-        }
+            return console.fail(markdown, bytes.error());
         written.push_back(markdown);
     }
     console.addToReport(object);
     for (const fs::path& path : written)
         console.wrote(path);
     return failed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> benchCommand()
+{
+    return std::make_unique<BenchCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,13 +1,12 @@
 #pragma once
 
-// Interface of the subcommands of pacini, their list, and the program that runs them.
+// Interface of the subcommands of pacini, what makes each of them, and the program that runs them.
 
 #include "cli/Console.h"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
-#include <vector>
 
 namespace pacini::cli
 {
@@ -25,8 +24,29 @@ public:
     virtual Exit run(Console& console) = 0;
 };
 
-/// All subcommands in the order of the help text.
-[[nodiscard]] std::vector<std::unique_ptr<Command>> allCommands();
+/// The subcommands, each in the source of its name.
+[[nodiscard]] std::unique_ptr<Command> encodeCommand();
+[[nodiscard]] std::unique_ptr<Command> renderCommand();
+[[nodiscard]] std::unique_ptr<Command> infoCommand();
+[[nodiscard]] std::unique_ptr<Command> convertCommand();
+[[nodiscard]] std::unique_ptr<Command> lintCommand();
+[[nodiscard]] std::unique_ptr<Command> profilesCommand();
+[[nodiscard]] std::unique_ptr<Command> devicesCommand();
+[[nodiscard]] std::unique_ptr<Command> playCommand();
+[[nodiscard]] std::unique_ptr<Command> compareCommand();
+[[nodiscard]] std::unique_ptr<Command> measureCommand();
+[[nodiscard]] std::unique_ptr<Command> plotCommand();
+[[nodiscard]] std::unique_ptr<Command> benchCommand();
+[[nodiscard]] std::unique_ptr<Command> helpCommand();
+[[nodiscard]] std::unique_ptr<Command> completionsCommand();
+[[nodiscard]] std::unique_ptr<Command> manCommand();
+
+/// The steps of `pacini measure`, likewise.
+[[nodiscard]] std::unique_ptr<Command> sweepSubcommand();
+[[nodiscard]] std::unique_ptr<Command> analyseSubcommand();
+[[nodiscard]] std::unique_ptr<Command> fitSubcommand();
+[[nodiscard]] std::unique_ptr<Command> verifySubcommand();
+[[nodiscard]] std::unique_ptr<Command> simulateSubcommand();
 
 /// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here.
 [[nodiscard]] int runCommandLine(int argc, const char* const* argv);

@@ -1,52 +1,18 @@
-#include "cli/BenchCommand.h"
 #include "cli/Command.h"
 #include "cli/CommandTree.h"
-#include "cli/CompareCommand.h"
-#include "cli/CompletionsCommand.h"
-#include "cli/ConvertCommand.h"
-#include "cli/DevicesCommand.h"
-#include "cli/EncodeCommand.h"
-#include "cli/HelpCommand.h"
 #include "cli/HelpText.h"
-#include "cli/InfoCommand.h"
-#include "cli/LintCommand.h"
-#include "cli/ManCommand.h"
-#include "cli/PlayCommand.h"
-#include "cli/PlotCommand.h"
-#include "cli/ProfilesCommand.h"
-#include "cli/RenderCommand.h"
 #include "cli/Terminal.h"
 #include "cli/UsageText.h"
-#include "cli/measure/MeasureCommand.h"
 
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pacini::cli
 {
-
-std::vector<std::unique_ptr<Command>> allCommands()
-{
-    std::vector<std::unique_ptr<Command>> commands;
-    commands.push_back(std::make_unique<EncodeCommand>());
-    commands.push_back(std::make_unique<RenderCommand>());
-    commands.push_back(std::make_unique<InfoCommand>());
-    commands.push_back(std::make_unique<ConvertCommand>());
-    commands.push_back(std::make_unique<LintCommand>());
-    commands.push_back(std::make_unique<ProfilesCommand>());
-    commands.push_back(std::make_unique<DevicesCommand>());
-    commands.push_back(std::make_unique<PlayCommand>());
-    commands.push_back(std::make_unique<CompareCommand>());
-    commands.push_back(std::make_unique<MeasureCommand>());
-    commands.push_back(std::make_unique<PlotCommand>());
-    commands.push_back(std::make_unique<BenchCommand>());
-    commands.push_back(std::make_unique<HelpCommand>());
-    commands.push_back(std::make_unique<CompletionsCommand>());
-    commands.push_back(std::make_unique<ManCommand>());
-    return commands;
-}
 
 namespace
 {
@@ -96,7 +62,11 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     app.set_version_flag("--version", "pacini " PACINI_VERSION, "Print the version");
     app.require_subcommand(1);
     app.fallthrough(false);
-    auto commands = allCommands();
+    std::vector<std::unique_ptr<Command>> commands; // in the order of the help text
+    for (const auto make : {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand,
+                            devicesCommand, playCommand, compareCommand, measureCommand, plotCommand, benchCommand,
+                            helpCommand, completionsCommand, manCommand})
+        commands.push_back(make());
     std::vector<CLI::App*> declared;
     bool quiet = false, json = false, strict = false;
     const auto addCommon = [&](CLI::App& where)
@@ -139,8 +109,7 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
             console.beJson(commandPath(app));
         if (argc < 2)
             console.print(shortHelp(commandTree(app)));
-        console.error("", {ErrorCode::invalidArgument, "", usageText(error, app)});
-        return Exit::usage;
+        return console.fail("", {ErrorCode::invalidArgument, "", usageText(error, app)}, Exit::usage);
     }
     if (quiet)
         console.beQuiet();

@@ -1,9 +1,10 @@
-#include "cli/CompareCommand.h"
+// Subcommand that compares haptic signals with the sounds they were made from.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/ComparePairs.h"
 #include "cli/CompareReport.h"
 #include "cli/Counted.h"
+#include "cli/Options.h"
 #include "cli/TaskRunner.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -113,36 +115,45 @@ void report(Console& console, const CompareTask& task)
     if (r.measures.silentReference)
         console.warning(task.pair.reference.string(), "is silent between 30 and 1000 Hz; only HTS says something");
 }
+
+/// `pacini compare`: how much of a sound a haptic signal keeps.
+class CompareCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::string reference;
+    std::string candidate;
+    std::string onsets;
+    std::string events;
+    unsigned jobs = 0;
+    bool allowTruncated = false;
+};
 } // namespace
 
 CLI::App* CompareCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("compare", "Measure how much of a sound a haptic signal keeps");
-    command->add_option("reference", reference, "The sound: an audio file, or a folder of them")
-        ->required()
-        ->type_name("REF");
-    command
-        ->add_option(
-            "candidate", candidate,
-            "The haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names")
-        ->required()
-        ->type_name("CAND");
+    addOption(*command, "reference", reference, "The sound: an audio file, or a folder of them", "REF")->required();
+    addOption(*command, "candidate", candidate,
+              "The haptic signal, such as a rendered clip: an audio file, or a folder of files with the same names",
+              "CAND")
+        ->required();
     auto* onsetOption =
-        command
-            ->add_option("--onsets", onsets,
-                         "Known onsets of the sound: JSON, {\"door.wav\": [0.12, 0.8]} in seconds, or text with one "
-                         "time per line. FILE_ambiguous.json beside FILE.json lists events that count neither way")
-            ->type_name("FILE");
-    command
-        ->add_option("--events", events,
-                     "Clip whose transients are the candidate's events, or folder of clips "
-                     "[found in the candidate]")
-        ->needs(onsetOption)
-        ->type_name("CLIP");
+        addOption(*command, "--onsets", onsets,
+                  "Known onsets of the sound: JSON, {\"door.wav\": [0.12, 0.8]} in seconds, or text with one "
+                  "time per line. FILE_ambiguous.json beside FILE.json lists events that count neither way",
+                  "FILE");
+    addOption(*command, "--events", events,
+              "Clip whose transients are the candidate's events, or folder of clips "
+              "[found in the candidate]",
+              "CLIP")
+        ->needs(onsetOption);
     command->add_flag("--allow-truncated", allowTruncated, "Compare what is there of a file that was cut off");
-    command->add_option("-j,--jobs", jobs, "Pairs to work on at a time [number of processors]")
-        ->check(wholeNumberFrom(1u, 256u))
-        ->type_name("N");
+    addOption(*command, "-j,--jobs", jobs, "Pairs to work on at a time [number of processors]",
+              wholeNumberFrom(1u, 256u), "N");
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
@@ -167,10 +178,7 @@ Exit CompareCommand::run(Console& console)
 {
     const auto paired = pairFiles(reference, candidate, events);
     if (!paired)
-    {
-        console.error("", paired.error());
-        return Exit::usage;
-    }
+        return console.fail("", paired.error(), Exit::usage);
     CompareSettings settings;
     settings.allowTruncated = allowTruncated;
     settings.strict = console.isStrict();
@@ -207,6 +215,11 @@ Exit CompareCommand::run(Console& console)
         console.print(compareTable(tasks));
     console.print(compareSummary(tasks, paired->failures.size()));
     return anyFailed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> compareCommand()
+{
+    return std::make_unique<CompareCommand>();
 }
 
 } // namespace pacini::cli

@@ -52,18 +52,16 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
     MonoSound sound;
     sound.sampleRate = reader->sampleRate();
     const auto channels = static_cast<std::size_t>(reader->channels());
-    std::vector<float> buffer(channels * (65536 / channels));
-    for (;;)
-    {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        work.run([&] { appendMean(std::span(buffer).first(*got * channels), channels, sound.samples); });
-        if (sound.duration() > limits::duration)
-            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
-    }
+    const auto read = reader->forEachBlock(65536 / channels,
+                                           [&](std::span<const float> block)
+                                           {
+                                               work.run([&] { appendMean(block, channels, sound.samples); });
+                                               return sound.duration() <= limits::duration;
+                                           });
+    if (!read)
+        return read.error();
+    if (sound.duration() > limits::duration)
+        return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
     work.run(
         [&]
         {

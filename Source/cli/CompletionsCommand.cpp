@@ -1,7 +1,8 @@
-#include "cli/CompletionsCommand.h"
+// Subcommand that prints shell completions.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/CommandTree.h"
+#include "cli/Options.h"
 #include "cli/ProgramFolder.h"
 #include "io/ShippedProfiles.h"
 
@@ -284,16 +285,25 @@ std::string fishScript(const CommandText& program)
     text.pop_back();
     return text;
 }
+
+/// `pacini completions`: what a shell needs to complete commands, options and their values.
+class CompletionsCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    const CLI::App* program = nullptr;
+    std::string shell;
+};
 } // namespace
 
 CLI::App* CompletionsCommand::declare(CLI::App& app)
 {
     program = &app;
     auto* command = app.add_subcommand("completions", "Print the completion script of a shell");
-    command->add_option("shell", shell, "Which shell")
-        ->required()
-        ->check(oneOf({"bash", "zsh", "fish"}))
-        ->type_name("SHELL");
+    addOption(*command, "shell", shell, "Which shell", oneOf({"bash", "zsh", "fish"}), "SHELL")->required();
     command->footer("Examples:\n"
                     "  pacini completions bash > ~/.local/share/bash-completion/completions/pacini\n"
                     "  pacini completions zsh > ~/.zfunc/_pacini                  a folder of $fpath\n"
@@ -308,6 +318,11 @@ Exit CompletionsCommand::run(Console& console)
     console.addToReport({{"text", text}});
     console.print(text);
     return Exit::ok;
+}
+
+std::unique_ptr<Command> completionsCommand()
+{
+    return std::make_unique<CompletionsCommand>();
 }
 
 } // namespace pacini::cli

@@ -80,6 +80,12 @@ void Console::error(std::string_view file, const Error& error)
     message(file.empty() ? error.text() : fmt::format("{}: {}", file, error.text()));
 }
 
+Exit Console::fail(std::string_view file, const Error& reason, Exit exit)
+{
+    error(file, reason);
+    return exit;
+}
+
 void Console::repeatedError(std::string_view file, const Error& error)
 {
     const std::lock_guard lock(mutex);

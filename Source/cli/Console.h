@@ -65,6 +65,9 @@ public:
     /// `pacini: FILE: where: what` on stderr, always one line; `file` may be empty.
     void error(std::string_view file, const Error& error);
 
+    /// The same as the last thing that a command does: gives `exit`.
+    [[nodiscard]] Exit fail(std::string_view file, const Error& reason, Exit exit = Exit::failed);
+
     /// An error that was told before for another file: only a report names this one too.
     void repeatedError(std::string_view file, const Error& error);
 

@@ -1,7 +1,11 @@
-#include "cli/ConvertCommand.h"
+// Subcommand that converts clips and profiles between formats.
 
-#include "cli/Checks.h"
-#include "cli/Counted.h"
+#include "cli/Command.h"
+#include "cli/ConvertJob.h"
+#include "cli/ExportOptions.h"
+#include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/AcfFile.h"
@@ -16,8 +20,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -87,14 +94,7 @@ std::string summary(const std::vector<ConvertTask>& tasks)
         for (const ManifestOutput& output : task.result->entry.outputs)
             bytes += static_cast<double>(output.bytes);
     }
-    std::string text = fmt::format("{} converted", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (const auto skipped = countSkipped(tasks); skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (failed > 0)
-        text += fmt::format(", {} failed", failed);
-    return text + fmt::format(": {}", bytesText(bytes));
+    return fmt::format("{} converted{}: {}", done, restText(fresh, countSkipped(tasks), failed), bytesText(bytes));
 }
 
 ManifestEntry entryOf(const ConvertTask& task)
@@ -105,43 +105,70 @@ ManifestEntry entryOf(const ConvertTask& task)
     entry.error = task.error->text();
     return entry;
 }
+
+/// `pacini convert`: clips, or profiles, of one format become another.
+class ConvertCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    Exit convertProfile(Console& console);
+    Exit convertClips(Console& console);
+
+    /// What may be replaced at a file that the user named: the last of the files may be there by mistake.
+    [[nodiscard]] Replaceable replaceable() const noexcept { return overwriting.of(byName); }
+
+    /// Whether output would overwrite the only input, which is said.
+    bool overwritesInput(Console& console) const;
+
+    /// What to convert to; nothing when the options do not say, and the console has said why.
+    [[nodiscard]] std::optional<ConvertSettings> settingsFor(Console& console, bool several) const;
+
+    /// The clips to convert, without second files of a clip.
+    [[nodiscard]] InputFiles findClips() const;
+
+    std::vector<std::string> inputs;
+    std::string output;
+    std::string format;
+    ExportOptions options;
+    std::string manifest;
+    int quantise = 0;
+    unsigned jobs = 0;
+    bool force = false;
+    OverwriteOptions overwriting;
+    bool byName = true; ///< the output was named with -o
+    bool dryRun = false;
+};
 } // namespace
 
 CLI::App* ConvertCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("convert", "Convert clips between formats, or a profile between JSON and ACF");
-    command
-        ->add_option(
-            "inputs", inputs,
-            "Clips or folders of them, - for standard input, or a profile; then the output unless -o names it; a "
-            "file there is replaced only if its content stays the same")
-        ->required()
-        ->type_name("IN... OUT");
-    command->add_option("-o,--output", output, "File, folder for several inputs, or - for standard output")
-        ->type_name("OUT|DIR");
+    addOption(*command, "inputs", inputs,
+              "Clips or folders of them, - for standard input, or a profile; then the output unless -o names it; a "
+              "file there is replaced only if its content stays the same",
+              "IN... OUT")
+        ->required();
+    addOption(*command, "-o,--output", output, "File, folder for several inputs, or - for standard output", "OUT|DIR");
     std::vector<std::string> names;
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten())
             names.emplace_back(known.name);
-    command
-        ->add_option("--format", format,
-                     "Format to write; 'pacini lint --targets' explains them [by the extension of OUT]")
-        ->check(oneOf(names));
-    command
-        ->add_option("--quantise", quantise,
-                     "Bits of each value of a packed clip [those the clip was encoded with, else 12]")
-        ->check(wholeNumberFrom(4, 16));
+    addOption(*command, "--format", format,
+              "Format to write; 'pacini lint --targets' explains them [by the extension of OUT]", oneOf(names));
+    addOption(*command, "--quantise", quantise,
+              "Bits of each value of a packed clip [those the clip was encoded with, else 12]", wholeNumberFrom(4, 16));
     options.declare(*command);
-    command
-        ->add_option("--manifest", manifest,
-                     fmt::format("File that records the result of each input [{} in the output folder]", manifestName))
-        ->type_name("FILE");
+    addOption(*command, "--manifest", manifest,
+              fmt::format("File that records the result of each input [{} in the output folder]", manifestName),
+              "FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     overwriting.declare(*command);
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
-    command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(wholeNumberFrom(1u, 256u))
-        ->type_name("N");
+    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+              wholeNumberFrom(1u, 256u), "N");
     command->footer("Examples:\n  pacini convert door.json door.pacb             no loss between the two\n"
                     "  pacini convert door.pacb door.haptic           for Lofelt's and Meta's players\n"
                     "  pacini convert door.haptic door.ahap --split   from one to another, through a clip\n"
@@ -154,11 +181,10 @@ Exit ConvertCommand::run(Console& console)
     if (output.empty())
     {
         if (inputs.size() < 2)
-        {
-            console.error("", {ErrorCode::invalidArgument, "convert",
-                               "a file to work on is missing; try 'pacini convert --help'"});
-            return Exit::usage;
-        }
+            return console.fail(
+                "",
+                {ErrorCode::invalidArgument, "convert", "a file to work on is missing; try 'pacini convert --help'"},
+                Exit::usage);
         byName = false;
         output = std::move(inputs.back());
         inputs.pop_back();
@@ -181,17 +207,13 @@ Exit ConvertCommand::convertProfile(Console& console)
     const std::string& input = inputs.front();
     const bool toAcf = hasAcfExtension(output);
     if (!format.empty() || quantise > 0 || options.given())
-    {
-        console.error(
-            input, {ErrorCode::invalidArgument, "", "is a profile; --format, --quantise and the others are for clips"});
-        return Exit::usage;
-    }
+        return console.fail(
+            input, {ErrorCode::invalidArgument, "", "is a profile; --format, --quantise and the others are for clips"},
+            Exit::usage);
     if (!toAcf && lowerExtension(output) != ".json")
-    {
-        console.error(output,
-                      {ErrorCode::invalidArgument, "", "has neither the extension .json nor .acf, as a profile needs"});
-        return Exit::usage;
-    }
+        return console.fail(
+            output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .acf, as a profile needs"},
+            Exit::usage);
     std::vector<std::string> warnings;
     const auto read = [&]() -> Result<Profile>
     {
@@ -210,10 +232,7 @@ Exit ConvertCommand::convertProfile(Console& console)
     };
     const auto profile = read();
     if (!profile)
-    {
-        console.error(input, profile.error());
-        return Exit::failed;
-    }
+        return console.fail(input, profile.error());
     if (overwritesInput(console))
         return Exit::failed;
     if (dryRun)
@@ -240,16 +259,10 @@ Exit ConvertCommand::convertProfile(Console& console)
     const std::string text = textOf();
     const auto existing = mayReplace(output, text, replaceable());
     if (!existing)
-    {
-        console.error("", existing.error());
-        return Exit::failed;
-    }
+        return console.fail("", existing.error());
     const auto written = writeFileAtomically(output, text, *existing);
     if (!written)
-    {
-        console.error(output, written.error());
-        return Exit::failed;
-    }
+        return console.fail(output, written.error());
     for (const std::string& warning : warnings)
         console.warning(input, warning);
     auto files = nlohmann::ordered_json::array({{{"input", input}, {"output", output}, {"bytes", *written}}});
@@ -315,10 +328,7 @@ Exit ConvertCommand::convertClips(Console& console)
     std::error_code ignored;
     const bool several = found.several || output.ends_with('/') || std::filesystem::is_directory(output, ignored);
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
-    {
-        console.error("", fits.error());
-        return Exit::usage;
-    }
+        return console.fail("", fits.error(), Exit::usage);
     auto settings = settingsFor(console, several);
     if (!settings)
         return Exit::usage;
@@ -343,20 +353,15 @@ Exit ConvertCommand::convertClips(Console& console)
                                                      : std::filesystem::path();
     if (!std::filesystem::is_directory(settings->folder, ignored) && several)
         record.clear(); // nothing could be written
-    const auto fail = [&](const Error& error)
-    {
-        console.error(record.string(), error);
-        return Exit::failed;
-    };
     const auto before = readManifest(record);
     if (!before && !overwriting.replacesAll())
-        return fail(
-            {ErrorCode::invalidData, "", "exists and is no record of conversions; name another with --manifest"});
+        return console.fail(record.string(), {ErrorCode::invalidData, "",
+                                              "exists and is no record of conversions; name another with --manifest"});
     GrowingManifest growing;
     if (const auto started =
             growing.start(dryRun ? std::filesystem::path() : record, before.value_or(ConvertManifest()));
         !started)
-        return fail(started.error());
+        return console.fail(record.string(), started.error());
     const auto entryBefore = [&](const std::string& key) -> const ManifestEntry*
     {
         const auto entry = before ? before->find(key) : ConvertManifest::const_iterator();
@@ -410,6 +415,11 @@ Exit ConvertCommand::convertClips(Console& console)
     else if (tasks.front().skipped)
         console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
     return failed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> convertCommand()
+{
+    return std::make_unique<ConvertCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,5 +1,6 @@
-#include "cli/DevicesCommand.h"
+// Subcommand that lists the connected haptic devices.
 
+#include "cli/Command.h"
 #include "cli/ControllerInput.h"
 #include "devices/HidList.h"
 
@@ -11,6 +12,17 @@
 
 namespace pacini::cli
 {
+
+namespace
+{
+/// `pacini devices`: the connected game controllers that can play haptics.
+class DevicesCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+};
+} // namespace
 
 CLI::App* DevicesCommand::declare(CLI::App& app)
 {
@@ -28,10 +40,7 @@ Exit DevicesCommand::run(Console& console)
     using Json = nlohmann::ordered_json;
     const auto controllers = devices::connectedControllers();
     if (!controllers)
-    {
-        console.error("", controllers.error());
-        return Exit::failed;
-    }
+        return console.fail("", controllers.error());
     Json list = Json::array();
     std::string lines;
     for (const auto& controller : *controllers)
@@ -50,6 +59,11 @@ Exit DevicesCommand::run(Console& console)
     console.addToReport({{"controllers", list}});
     console.print(lines.empty() ? "No known game controller is connected" : lines);
     return Exit::ok;
+}
+
+std::unique_ptr<Command> devicesCommand()
+{
+    return std::make_unique<DevicesCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,12 +1,18 @@
-#include "cli/EncodeCommand.h"
+// Subcommand that encodes sounds.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/Counted.h"
 #include "cli/EncodeJob.h"
+#include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/FileExtension.h"
+
+#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/methods/Method.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,9 +20,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -43,7 +51,6 @@ nlohmann::ordered_json toJson(const EncodeTask& task)
 std::string summary(const std::vector<EncodeTask>& tasks)
 {
     std::size_t done = 0, fresh = 0, failed = 0;
-    const std::size_t skipped = countSkipped(tasks);
     double bytes = 0.0, duration = 0.0, seconds = 0.0, worked = 0.0;
     for (const EncodeTask& task : tasks)
     {
@@ -56,13 +63,7 @@ std::string summary(const std::vector<EncodeTask>& tasks)
         seconds += task.result->seconds;
         worked += task.result->upToDate ? 0.0 : task.result->duration;
     }
-    std::string text = fmt::format("{} encoded", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (failed > 0)
-        text += fmt::format(", {} failed", failed);
+    std::string text = fmt::format("{} encoded{}", done, restText(fresh, countSkipped(tasks), failed));
     if (duration > 0.0)
         text +=
             fmt::format(": {} of sound in {}, {:.0f} B/s", durationText(duration), bytesText(bytes), bytes / duration);
@@ -116,6 +117,40 @@ Error wrongUsage(std::string where, std::string message)
 {
     return {ErrorCode::invalidArgument, std::move(where), std::move(message)};
 }
+
+/// `pacini encode`: recordings become clips, or drive signals by methods that make no clip.
+class EncodeCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    /// Complains of options that the method does not have.
+    [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
+    [[nodiscard]] Result<void> checkFormat() const;
+    [[nodiscard]] MethodChoices choices() const;
+
+    /// The sounds to encode, without drive signals that Pacini made, which may lie beside them.
+    [[nodiscard]] InputFiles findSounds() const;
+
+    CLI::App* command = nullptr;
+    std::vector<std::string> inputs;
+    std::string methodName = "a2vt";
+    bool listMethods = false;
+    std::string output;
+    std::string format;
+    ExportOptions exporting;
+    EncoderParams params;
+    std::string spacing = "log";
+    bool keepLevel = false;
+    bool allowNan = false;
+    bool allowTruncated = false;
+    bool force = false;
+    OverwriteOptions overwriting;
+    bool dryRun = false;
+    unsigned jobs = 0;
+};
 } // namespace
 
 CLI::App* EncodeCommand::declare(CLI::App& app)
@@ -124,56 +159,32 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     std::vector<std::string> names;
     for (const MethodInfo& info : methodTable)
         names.emplace_back(info.name);
-    command
-        ->add_option("inputs", inputs,
-                     "Audio files, folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...), or - for standard input")
-        ->type_name("IN");
-    command
-        ->add_option("-o,--output", output,
-                     "File, folder for several inputs, or - for standard output [beside each input]")
-        ->type_name("OUT|DIR");
-    command
-        ->add_option("--method", methodName,
-                     "How sound is translated, see --list-methods; lowpass and pitch-shift write drive signals as WAV")
-        ->capture_default_str()
-        ->check(oneOf(names))
-        ->type_name("NAME");
+    addOption(*command, "inputs", inputs,
+              "Audio files, folders of them (WAV, AIFF, FLAC, Ogg, MP3 ...), or - for standard input", "IN");
+    addOption(*command, "-o,--output", output,
+              "File, folder for several inputs, or - for standard output [beside each input]", "OUT|DIR");
+    addPreset(*command, "--method", methodName,
+              "How sound is translated, see --list-methods; lowpass and pitch-shift write drive signals as WAV",
+              oneOf(names), "NAME");
     command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
     std::vector<std::string> formats;
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten())
             formats.emplace_back(known.name);
-    command
-        ->add_option("--format", format,
-                     "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
-                     "[by the extension of OUT, else json]")
-        ->check(oneOf(formats));
+    addOption(*command, "--format", format,
+              "json (to read and edit), packed (small), or one of other programs, see 'pacini lint --targets' "
+              "[by the extension of OUT, else json]",
+              oneOf(formats));
     exporting.declare(*command);
-    command->add_option("--bands", params.bands, "Number of frequency bands")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(1, 32));
-    command
-        ->add_option("--breakpoints", params.breakpoints,
-                     "At most this many breakpoints per second and band; simple sounds take fewer")
-        ->capture_default_str()
-        ->check(numberFrom(0.5, 1000.0));
-    command->add_option("--quantise", params.quantise, "Bits of each value")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(4, 16));
-    command->add_option("--low", params.lowFrequency, "Lower end of the bands, Hz")
-        ->capture_default_str()
-        ->check(numberFrom(1.0, 1700.0));
-    command->add_option("--high", params.highFrequency, "Upper end of the bands, Hz")
-        ->capture_default_str()
-        ->check(numberFrom(2.0, 1800.0));
-    command->add_option("--spacing", spacing, "How bands are spaced: log or linear")
-        ->capture_default_str()
-        ->check(oneOf({"log", "linear"}));
-    command
-        ->add_option("--sensitivity", params.onsets.sensitivity,
-                     "Above 1 more and weaker events become transients, below 1 fewer")
-        ->capture_default_str()
-        ->check(numberFrom(0.25, 4.0));
+    addPreset(*command, "--bands", params.bands, "Number of frequency bands", wholeNumberFrom(1, 32));
+    addPreset(*command, "--breakpoints", params.breakpoints,
+              "At most this many breakpoints per second and band; simple sounds take fewer", numberFrom(0.5, 1000.0));
+    addPreset(*command, "--quantise", params.quantise, "Bits of each value", wholeNumberFrom(4, 16));
+    addPreset(*command, "--low", params.lowFrequency, "Lower end of the bands, Hz", numberFrom(1.0, 1700.0));
+    addPreset(*command, "--high", params.highFrequency, "Upper end of the bands, Hz", numberFrom(2.0, 1800.0));
+    addPreset(*command, "--spacing", spacing, "How bands are spaced: log or linear", oneOf({"log", "linear"}));
+    addPreset(*command, "--sensitivity", params.onsets.sensitivity,
+              "Above 1 more and weaker events become transients, below 1 fewer", numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");
     command->add_flag("--allow-nan", allowNan,
                       "Read samples that are not finite, or absurdly large, as 0 instead of refusing the file");
@@ -181,9 +192,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_flag("-f,--force", force, "Encode also what is up to date");
     overwriting.declare(*command);
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
-    command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(wholeNumberFrom(1u, 256u))
-        ->type_name("N");
+    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+              wholeNumberFrom(1u, 256u), "N");
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
@@ -284,10 +294,7 @@ Exit EncodeCommand::run(Console& console)
     params.spacing = spacing == "log" ? BandSpacing::logarithmic : BandSpacing::linear;
     params.normalise = !keepLevel;
     if (auto valid = checkOptions(method); !valid)
-    {
-        console.error("", valid.error());
-        return Exit::usage;
-    }
+        return console.fail("", valid.error(), Exit::usage);
     EncodeSettings settings;
     settings.method = method.method;
     settings.params = params;
@@ -301,11 +308,10 @@ Exit EncodeCommand::run(Console& console)
     if (target != nullptr)
         settings.format = target;
     if (settings.format->isOwn() && exporting.given())
-    {
-        console.error("", wrongUsage("--format", "must be a format of other programs for --points, --split, "
-                                                 "--sample-rate and --profile"));
-        return Exit::usage;
-    }
+        return console.fail("",
+                            wrongUsage("--format", "must be a format of other programs for --points, --split, "
+                                                   "--sample-rate and --profile"),
+                            Exit::usage);
     const auto exportParams = exporting.params(console);
     if (!exportParams)
         return Exit::failed;
@@ -317,10 +323,7 @@ Exit EncodeCommand::run(Console& console)
 
     const InputFiles found = findSounds();
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
-    {
-        console.error("", fits.error());
-        return Exit::usage;
-    }
+        return console.fail("", fits.error(), Exit::usage);
     if (isStandardOutput(output))
         console.keepStdoutFree();
     auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun);
@@ -360,6 +363,11 @@ Exit EncodeCommand::run(Console& console)
         console.note(summary(tasks));
     }
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> encodeCommand()
+{
+    return std::make_unique<EncodeCommand>();
 }
 
 } // namespace pacini::cli

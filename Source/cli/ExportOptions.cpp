@@ -1,6 +1,6 @@
 #include "cli/ExportOptions.h"
 
-#include "cli/Checks.h"
+#include "cli/Options.h"
 #include "cli/ProfileInput.h"
 
 #include <fmt/format.h>
@@ -10,25 +10,22 @@ namespace pacini::cli
 
 void ExportOptions::declare(CLI::App& command)
 {
-    command
-        .add_option("--points", points,
-                    "For other formats: at most this many points of amplitude per second; without it a clip of one "
-                    "voice keeps its points [as usual for the format]")
-        ->check(numberFrom(0.5, 10000.0));
-    command
-        .add_option("--frequency-points", frequencyPoints,
-                    "For other formats: at most this many points of frequency per second [three quarters of --points]")
-        ->check(numberFrom(0.5, 10000.0));
+    addOption(command, "--points", points,
+              "For other formats: at most this many points of amplitude per second; without it a clip of one "
+              "voice keeps its points [as usual for the format]",
+              numberFrom(0.5, 10000.0));
+    addOption(command, "--frequency-points", frequencyPoints,
+              "For other formats: at most this many points of frequency per second [three quarters of --points]",
+              numberFrom(0.5, 10000.0));
     command.add_flag("--split", split, "For formats that can be one file or several: write several");
     command.add_flag(
         "--quick", quick,
         "Write without a search for the best file (hjif): much faster, mostly a little less like the sound");
-    command.add_option("--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]")
-        ->check(wholeNumberFrom(100, 384000));
-    command
-        .add_option("--profile", profile,
-                    "Actuator whose frequency range is used by formats that state none: a file or a shipped profile")
-        ->type_name("PROFILE");
+    addOption(command, "--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]",
+              wholeNumberFrom(100, 384000));
+    addOption(command, "--profile", profile,
+              "Actuator whose frequency range is used by formats that state none: a file or a shipped profile",
+              "PROFILE");
 }
 
 std::optional<ExportParams> ExportOptions::params(Console& console) const

@@ -1,12 +1,16 @@
-#include "cli/HelpCommand.h"
+// Subcommand that prints help.
 
+#include "cli/Command.h"
 #include "cli/HelpText.h"
+#include "cli/Options.h"
 #include "cli/Terminal.h"
 #include "io/NearestName.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -29,14 +33,25 @@ Error unknownCommand(const CommandText& program, const std::vector<std::string>&
             fmt::format("'{}' is no {}{}", word, isStep ? "step" : "command",
                         meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant)};
 }
+
+/// `pacini help`: what the commands and their options do.
+class HelpCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    const CLI::App* program = nullptr;
+    std::vector<std::string> topic;
+};
 } // namespace
 
 CLI::App* HelpCommand::declare(CLI::App& app)
 {
     program = &app;
     auto* command = app.add_subcommand("help", "Explain a command");
-    command->add_option("command", topic, "The command, and a step of it if it has some [all in short]")
-        ->type_name("COMMAND");
+    addOption(*command, "command", topic, "The command, and a step of it if it has some [all in short]", "COMMAND");
     command->footer("Examples:\n  pacini help encode\n  pacini help measure fit");
     return command;
 }
@@ -46,14 +61,16 @@ Exit HelpCommand::run(Console& console)
     const CommandText tree = commandTree(*program);
     const CommandText* command = commandNamed(tree, fmt::format("{}", fmt::join(topic, " ")));
     if (command == nullptr)
-    {
-        console.error("", unknownCommand(tree, topic));
-        return Exit::usage;
-    }
+        return console.fail("", unknownCommand(tree, topic), Exit::usage);
     const std::string text = helpText(*command, terminal::textWidth());
     console.addToReport({{"text", text}});
     console.print(text);
     return Exit::ok;
+}
+
+std::unique_ptr<Command> helpCommand()
+{
+    return std::make_unique<HelpCommand>();
 }
 
 } // namespace pacini::cli

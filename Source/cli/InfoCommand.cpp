@@ -1,11 +1,13 @@
-#include "cli/InfoCommand.h"
+// Subcommand that describes files.
 
+#include "cli/Command.h"
+#include "cli/Options.h"
 #include "cli/ProfileInput.h"
 #include "cli/ProfileReport.h"
 #include "cli/SceneReport.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
@@ -16,8 +18,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -33,7 +38,7 @@ std::size_t thesisBits(const Clip& clip, int bits) noexcept
     return (breakpointCount(clip) + clip.transients.size()) * 2 * static_cast<std::size_t>(bits);
 }
 
-Json describe(const Clip& clip, const ClipFormat& format)
+Json describeClip(const Clip& clip, const ClipFormat& format)
 {
     Json encoder = Json::object();
     for (const EncoderParameter& parameter : clip.encoder)
@@ -90,7 +95,7 @@ std::string soundText(const ClipSource& source)
 
 std::string text(const std::string& file, const Clip& clip, const ClipFormat& format)
 {
-    const Json j = describe(clip, format);
+    const Json j = describeClip(clip, format);
     std::string lines = fmt::format("{}: haptic clip \"{}\"{}, {}\n", printable(file), printable(clip.name),
                                     titleOf(format), durationText(clip.duration));
     if (!clip.source.file.empty())
@@ -113,20 +118,19 @@ Result<Json> describeAudio(const std::string& file)
     auto reader = AudioReader::open(file);
     if (!reader)
         return reader.error();
-    std::vector<float> buffer(static_cast<std::size_t>(reader->channels()) * 4096);
-    std::uint64_t frames = 0;
+    std::size_t samples = 0;
     double peak = 0.0;
-    for (;;)
-    {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        frames += *got;
-        for (std::size_t i = 0; i < *got * static_cast<std::size_t>(reader->channels()); ++i)
-            peak = std::max(peak, std::abs(static_cast<double>(buffer[i])));
-    }
+    const auto read = reader->forEachBlock(4096,
+                                           [&](std::span<const float> block)
+                                           {
+                                               samples += block.size();
+                                               for (const float sample : block)
+                                                   peak = std::max(peak, std::abs(static_cast<double>(sample)));
+                                               return true;
+                                           });
+    if (!read)
+        return read.error();
+    const std::size_t frames = samples / static_cast<std::size_t>(reader->channels());
     return Json{{"kind", "audio"},
                 {"duration", static_cast<double>(frames) / reader->sampleRate()},
                 {"sampleRate", reader->sampleRate()},
@@ -134,17 +138,28 @@ Result<Json> describeAudio(const std::string& file)
                 {"frames", frames},
                 {"peak", peak}};
 }
+
+/// `pacini info`: what a clip, a scene, a sound file or a profile holds.
+class InfoCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::vector<std::string> inputs;
+    std::string clipFolder;
+};
 } // namespace
 
 CLI::App* InfoCommand::declare(CLI::App& app)
 {
     auto* command =
         app.add_subcommand("info", "Show what is in a clip of any format, a scene, a sound or an actuator profile");
-    command->add_option("inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles")
-        ->required()
-        ->type_name("FILE|PROFILE");
-    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
-        ->type_name("DIR");
+    addOption(*command, "inputs", inputs, "Clips, scenes, audio files, profiles or names of shipped profiles",
+              "FILE|PROFILE")
+        ->required();
+    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
     command->footer("Examples:\n  pacini info door.json door.haptic door.wav\n"
                     "  pacini info l5-wristband                       a profile that comes with Pacini");
     return command;
@@ -183,7 +198,7 @@ Exit InfoCommand::run(Console& console)
             console.warnings(file, read->warnings);
             if (const auto* clip = std::get_if<Clip>(&read->content))
             {
-                add(file, describe(*clip, *read->format));
+                add(file, describeClip(*clip, *read->format));
                 console.print(text(file, *clip, *read->format));
             }
             else
@@ -210,6 +225,11 @@ Exit InfoCommand::run(Console& console)
     }
     console.addToReport(fileList(std::move(files), inputs.size() == 1));
     return failed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> infoCommand()
+{
+    return std::make_unique<InfoCommand>();
 }
 
 } // namespace pacini::cli

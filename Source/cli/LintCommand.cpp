@@ -1,19 +1,27 @@
-#include "cli/LintCommand.h"
+// Subcommand that checks clips and scenes.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/ConvertManifest.h"
 #include "cli/Counted.h"
+#include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
 #include "cli/SceneCheck.h"
 #include "cli/SceneTimeline.h"
 #include "io/ClipFile.h"
+
+#include <pacini/synthesis/Scene.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -73,34 +81,65 @@ std::string errorText(const FormatLoss& loss)
         return fmt::format("{:.2g} ms", 1000.0 * loss.error);
     return fmt::format("{:.3f}", loss.error);
 }
+
+/// `pacini lint`: what a format will lose of clips, before anything is written, and what in a scene does nothing.
+class LintCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    /// Whether the user does not allow anything of this kind.
+    [[nodiscard]] bool failsOn(std::string_view kind) const;
+
+    /// Whether a loss is more than the user allows.
+    [[nodiscard]] bool isTooMuch(const FormatLoss& loss) const;
+
+    /// What is in the report of a file; each also prints it, and counts what is too much.
+    using Json = nlohmann::ordered_json;
+    [[nodiscard]] Result<Json> lint(Console& console, const InputFile& file, const ExportParams& params,
+                                    std::size_t& tooMuch) const;
+    [[nodiscard]] Json lintScene(Console& console, const std::string& name, const Scene& scene,
+                                 std::size_t& tooMuch) const;
+    [[nodiscard]] Result<Json> lintClip(Console& console, const std::string& name, const Clip& clip,
+                                        const ExportParams& params, std::size_t& tooMuch) const;
+
+    std::vector<std::string> inputs;
+    std::string target;
+    std::string clipFolder;
+    ExportOptions options;
+    double maxError = -1.0; ///< negative: any
+    double maxOctaves = -1.0;
+    double maxTime = -1.0;
+    std::vector<std::string> forbidden;
+    bool listTargets = false;
+};
 } // namespace
 
 CLI::App* LintCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand(
         "lint", "Show what clips lose in another format, where and how much, and what a scene never plays");
-    command->add_option("inputs", inputs, "Clips of any format, scenes, or folders of them")->type_name("CLIP");
+    addOption(*command, "inputs", inputs, "Clips of any format, scenes, or folders of them", "CLIP");
     std::vector<std::string> names;
     for (const ClipFormat& known : clipFormats())
         if (known.isWritten() && !known.isOwn())
             names.emplace_back(known.name);
-    command->add_option("--target", target, "Format to check, see --targets; scenes are checked without one too")
-        ->check(oneOf(names));
+    addOption(*command, "--target", target, "Format to check, see --targets; scenes are checked without one too",
+              oneOf(names));
     command->add_flag("--targets", listTargets, "List the formats and do nothing else");
     options.declare(*command);
-    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
-        ->type_name("DIR");
-    command
-        ->add_option("--max-error", maxError,
-                     "Fail when an amplitude is off by more (1 = full drive): bands, points, events, noise")
-        ->check(numberFrom(0.0, 1000.0));
-    command->add_option("--max-octaves", maxOctaves, "Fail when a frequency is off by more octaves")
-        ->check(numberFrom(0.0, 100.0));
-    command->add_option("--max-time", maxTime, "Fail when a time is off by more seconds")
-        ->check(numberFrom(0.0, limits::duration, "24 h"));
-    command
-        ->add_option("--fail-on", forbidden, "Fail on any loss of these kinds, or on what is found in a scene (scene)")
-        ->check(oneOf(kindNames()))
+    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
+    addOption(*command, "--max-error", maxError,
+              "Fail when an amplitude is off by more (1 = full drive): bands, points, events, noise",
+              numberFrom(0.0, 1000.0));
+    addOption(*command, "--max-octaves", maxOctaves, "Fail when a frequency is off by more octaves",
+              numberFrom(0.0, 100.0));
+    addOption(*command, "--max-time", maxTime, "Fail when a time is off by more seconds",
+              numberFrom(0.0, limits::duration, "24 h"));
+    addOption(*command, "--fail-on", forbidden,
+              "Fail on any loss of these kinds, or on what is found in a scene (scene)", oneOf(kindNames()))
         ->delimiter(',');
     command->footer(
         "Examples:\n  pacini lint door.json --target ahap\n"
@@ -218,11 +257,9 @@ Exit LintCommand::run(Console& console)
         return Exit::ok;
     }
     if (inputs.empty())
-    {
-        console.error("",
-                      {ErrorCode::invalidArgument, "lint", "a file to work on is missing; try 'pacini lint --help'"});
-        return Exit::usage;
-    }
+        return console.fail(
+            "", {ErrorCode::invalidArgument, "lint", "a file to work on is missing; try 'pacini lint --help'"},
+            Exit::usage);
     const auto params = options.params(console);
     if (!params)
         return Exit::failed;
@@ -254,6 +291,11 @@ Exit LintCommand::run(Console& console)
     if (wrongUsage && target.empty())
         return Exit::usage;
     return tooMuch > 0 || failed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> lintCommand()
+{
+    return std::make_unique<LintCommand>();
 }
 
 } // namespace pacini::cli

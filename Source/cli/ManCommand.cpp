@@ -1,5 +1,6 @@
-#include "cli/ManCommand.h"
+// Subcommand that prints the manual page.
 
+#include "cli/Command.h"
 #include "cli/CommandTree.h"
 
 #include <fmt/format.h>
@@ -106,6 +107,17 @@ std::string manualPage(const CommandText& program)
             "Files are written under temporary names and renamed when they are whole.\n";
     return text;
 }
+
+/// `pacini man`: the manual page, made of what the commands declare.
+class ManCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    const CLI::App* program = nullptr;
+};
 } // namespace
 
 CLI::App* ManCommand::declare(CLI::App& app)
@@ -124,6 +136,11 @@ Exit ManCommand::run(Console& console)
     console.addToReport({{"text", text}});
     console.print(text);
     return Exit::ok;
+}
+
+std::unique_ptr<Command> manCommand()
+{
+    return std::make_unique<ManCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,7 +1,13 @@
-#include "cli/PlayCommand.h"
+// Subcommand that plays clips on haptic devices.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/ControllerInput.h"
+#include "cli/Interruption.h"
+#include "cli/Options.h"
+#include "devices/ClipRumble.h"
+#include "devices/HidList.h"
+#include "devices/OpenController.h"
+#include "devices/RumblePlayer.h"
 #include "io/ClipFile.h"
 
 #include <fmt/format.h>
@@ -10,6 +16,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,32 +76,69 @@ void warnOfSilence(Console& console, const std::string& clip, const devices::Con
     if (model.haptics == devices::ControllerHaptics::waveforms && !model.trigger.lasts())
         console.warning(clip, "only the events are played, as the device has no lasting waveform");
 }
+
+/// `pacini play`: a clip on a game controller or another haptic device.
+class PlayCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    struct Opened
+    {
+        devices::Controller controller;
+        std::unique_ptr<devices::OpenController> device;
+        devices::ControllerModel model;
+    };
+
+    /// Errors: those of OpenController::open() and modelOf(), with the device's name. [worker]
+    [[nodiscard]] static Result<Opened> openOne(const devices::Controller& controller);
+
+    /// What --dry-run is for.
+    [[nodiscard]] Result<devices::ControllerModel> listedModel() const;
+
+    /// What is wrong with the options.
+    [[nodiscard]] std::optional<Error> usageError() const;
+
+    /// The part of the clip that is played.
+    [[nodiscard]] Result<devices::PlayRange> rangeIn(const Clip& clip) const;
+
+    /// The controller that is meant, waited for if wanted; nothing when the user ended that.
+    [[nodiscard]] Result<std::optional<Opened>> openDevice(Console& console, Interruption& interruption) const;
+
+    Exit list(Console& console, const Clip& clip, const devices::PlayRange& range) const;
+    Exit play(Console& console, const Clip& clip, const devices::PlayRange& range) const;
+
+    std::string input;
+    std::string device;
+    std::string like;
+    double intensity = 0.0; ///< dB
+    double from = 0.0;      ///< s
+    double to = -1.0;       ///< s; negative: the end
+    bool loop = false;
+    bool wait = false;
+    bool dryRun = false;
+};
 } // namespace
 
 CLI::App* PlayCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("play", "Play a clip on a game controller or another haptic device");
-    command->add_option("input", input, "A clip of any format")->type_name("CLIP");
-    command
-        ->add_option("--device", device,
-                     "Its number in 'pacini devices', its path, or a part of its name [the only "
-                     "game controller]")
-        ->type_name("N|NAME");
-    command->add_option("--intensity", intensity, "Gain of the playback, dB")
-        ->capture_default_str()
-        ->check(numberFrom(-60.0, 40.0));
-    command->add_option("--from", from, "Start of the part to play, s")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
-    command->add_option("--to", to, "End of the part to play, s [the end]")
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
+    addOption(*command, "input", input, "A clip of any format", "CLIP");
+    addOption(*command, "--device", device,
+              "Its number in 'pacini devices', its path, or a part of its name [the only "
+              "game controller]",
+              "N|NAME");
+    addPreset(*command, "--intensity", intensity, "Gain of the playback, dB", numberFrom(-60.0, 40.0));
+    addPreset(*command, "--from", from, "Start of the part to play, s", numberFrom(0.0, limits::duration, "24 h"), "S");
+    addOption(*command, "--to", to, "End of the part to play, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
+              "S");
     command->add_flag("--loop", loop, "Play over and over until it is ended by Ctrl-C");
     command->add_flag("--wait", wait, "Wait until the controller is connected");
     command->add_flag("--dry-run", dryRun, "Only print what would be sent: seconds and bytes");
-    command->add_option("--like", like, "With --dry-run: for this kind of controller, whatever is connected")
-        ->check(oneOf(modelNames()));
+    addOption(*command, "--like", like, "With --dry-run: for this kind of controller, whatever is connected",
+              oneOf(modelNames()));
     command->footer("The motors stop when the clip ends, on Ctrl-C, and when the program fails.\n"
                     "Examples:\n  pacini play door.json --device 1\n"
                     "  pacini play door.haptic --device pro --loop --intensity -6\n"
@@ -178,23 +224,14 @@ Result<std::optional<PlayCommand::Opened>> PlayCommand::openDevice(Console& cons
 Exit PlayCommand::run(Console& console)
 {
     if (const auto wrong = usageError())
-    {
-        console.error("", *wrong);
-        return Exit::usage;
-    }
+        return console.fail("", *wrong, Exit::usage);
     const auto read = readClip(input, console.isStrict());
     if (!read)
-    {
-        console.error(input, read.error());
-        return Exit::failed;
-    }
+        return console.fail(input, read.error());
     console.warnings(input, read->warnings);
     const auto range = rangeIn(read->clip);
     if (!range)
-    {
-        console.error(input, range.error());
-        return Exit::failed;
-    }
+        return console.fail(input, range.error());
     return dryRun ? list(console, read->clip, *range) : play(console, read->clip, *range);
 }
 
@@ -222,10 +259,7 @@ Exit PlayCommand::list(Console& console, const Clip& clip, const devices::PlayRa
 {
     const auto model = listedModel();
     if (!model)
-    {
-        console.error("", model.error());
-        return Exit::failed;
-    }
+        return console.fail("", model.error());
     warnOfSilence(console, input, *model);
     devices::InstantClock clock;
     PacketList sink(clock);
@@ -272,8 +306,7 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
     {
         Error error = result.error();
         error.where = shownName(controller);
-        console.error(input, error);
-        return Exit::failed;
+        return console.fail(input, error);
     }
     if (ended)
         return Exit::failed; // the signal ends the program
@@ -288,6 +321,11 @@ Exit PlayCommand::play(Console& console, const Clip& clip, const devices::PlayRa
                              shownName(controller), durationText(length), result->sent, 1e3 * result->latest.value,
                              result->leftOut > 0 ? fmt::format(", {} left out", result->leftOut) : ""));
     return Exit::ok;
+}
+
+std::unique_ptr<Command> playCommand()
+{
+    return std::make_unique<PlayCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,17 +1,22 @@
-#include "cli/PlotCommand.h"
+// Subcommand that draws charts.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/EncodeJob.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/RenderJob.h"
 #include "cli/SceneTimeline.h"
 #include "cli/plot/ClipFigure.h"
+#include "cli/plot/Figure.h"
 #include "cli/plot/ProfileFigure.h"
 #include "cli/plot/SceneFigure.h"
+#include "cli/plot/Waveform.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
 
+#include <pacini/synthesis/Scene.h>
 #include <pacini/synthesis/ScenePlayer.h>
 
 #include <fmt/format.h>
@@ -21,6 +26,8 @@
 #include <charconv>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -61,16 +68,10 @@ Result<plot::NamedWaveform> soundWaveform(const std::filesystem::path& file, plo
         return reader.error();
     const auto channels = static_cast<std::size_t>(reader->channels());
     plot::Waveform waveform(range, columns, reader->sampleRate(), channels);
-    std::vector<float> buffer(4096 * channels);
-    for (;;)
-    {
-        const auto got = reader->read(buffer);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        waveform.push(std::span(buffer).first(*got * channels));
-    }
+    const auto read =
+        reader->forEachBlock(4096, [&](std::span<const float> block) { return waveform.push(block), true; });
+    if (!read)
+        return read.error();
     return plot::NamedWaveform{fmt::format("Sound: {}{}", file.filename().string(),
                                            channels > 1 ? fmt::format(" (mean of {} channels)", channels) : ""),
                                waveform.points()};
@@ -108,43 +109,65 @@ Result<plot::NamedWaveform> driveWaveform(const Clip& clip, const std::optional<
                                        : "Drive signal rendered from the clip (1 = full drive)",
                                waveform.points()};
 }
+
+/// `pacini plot`: a clip, a scene, a sound and the clip it becomes, or an actuator, as a picture.
+class PlotCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    /// What is shown of something that lasts `duration` s. Errors: invalidArgument.
+    [[nodiscard]] Result<plot::TimeRange> rangeWithin(double duration) const;
+
+    Exit plotScene(Console& console, const std::filesystem::path& target, const Scene& scene,
+                   const plot::FigureStyle& style) const;
+    Exit write(Console& console, const std::filesystem::path& target, const plot::Figure& figure,
+               const plot::FigureStyle& style) const;
+
+    std::string input;
+    std::string output;
+    std::string sound;
+    std::string profile;
+    std::string clipFolder;
+    std::string size = "1600x1000";
+    std::optional<double> from;
+    std::optional<double> to;
+    bool dark = false;
+    OverwriteOptions overwriting;
+    Replaceable replaceable = Replaceable::named; ///< at the target
+};
 } // namespace
 
 CLI::App* PlotCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("plot", "Draw a clip, a scene, a sound and the clip it becomes, or an actuator");
-    command
-        ->add_option("input", input,
-                     "Clip of any format, scene, sound, which is encoded first, or actuator profile: a file or the "
-                     "name of a shipped one")
-        ->required()
-        ->type_name("IN|PROFILE");
-    command->add_option("-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]")
-        ->type_name("OUT");
-    command->add_option("--sound", sound, "Sound to show above the clip instead of its drive signal")
-        ->type_name("FILE");
-    command
-        ->add_option("--profile", profile,
-                     "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it")
-        ->type_name("PROFILE");
-    command->add_option("--clips", clipFolder, "Where the clip files of a scene are [beside the scene]")
-        ->type_name("DIR");
-    command->add_option("--size", size, "Size of the picture in pixels")
-        ->capture_default_str()
-        ->check(CLI::Validator(
-            [](const std::string& text)
-            {
-                return parseSize(text) ? std::string()
-                                       : fmt::format("must be WIDTHxHEIGHT, each {} to {}", smallestSide, largestSide);
-            },
-            "", "size"))
-        ->type_name("WxH");
-    command->add_option("--from", from, "Start of the part to show, s [0]")
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
-    command->add_option("--to", to, "End of the part to show, s [the end]")
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
+    addOption(*command, "input", input,
+              "Clip of any format, scene, sound, which is encoded first, or actuator profile: a file or the "
+              "name of a shipped one",
+              "IN|PROFILE")
+        ->required();
+    addOption(*command, "-o,--output", output, "Picture (.png, .svg or .pdf), or folder [IN's name with .png]", "OUT");
+    addOption(*command, "--sound", sound, "Sound to show above the clip instead of its drive signal", "FILE");
+    addOption(*command, "--profile", profile,
+              "Actuator profile: a file, or a shipped one such as l5-wristband; shows the drive signal for it",
+              "PROFILE");
+    addOption(*command, "--clips", clipFolder, "Where the clip files of a scene are [beside the scene]", "DIR");
+    addPreset(*command, "--size", size, "Size of the picture in pixels",
+              CLI::Validator(
+                  [](const std::string& text)
+                  {
+                      return parseSize(text)
+                                 ? std::string()
+                                 : fmt::format("must be WIDTHxHEIGHT, each {} to {}", smallestSide, largestSide);
+                  },
+                  "", "size"),
+              "WxH");
+    addOption(*command, "--from", from, "Start of the part to show, s [0]", numberFrom(0.0, limits::duration, "24 h"),
+              "S");
+    addOption(*command, "--to", to, "End of the part to show, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
+              "S");
     command->add_flag("--dark", dark, "Dark background");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini plot door.pacb -o door.png --sound door.wav\n"
@@ -157,12 +180,6 @@ CLI::App* PlotCommand::declare(CLI::App& app)
 
 Exit PlotCommand::run(Console& console)
 {
-    const auto fail = [&console](const std::string& file, const Error& error, Exit exit = Exit::failed)
-    {
-        console.endProgress();
-        console.error(file, error);
-        return exit;
-    };
     const Progress progress = [&](double share)
     {
         console.progress(share, input);
@@ -171,16 +188,17 @@ Exit PlotCommand::run(Console& console)
     const std::filesystem::path path(input);
     const auto place = outputFor({path, path.filename()}, {output, ".png", ".png"}, false);
     if (!place)
-        return fail(output, place.error());
+        return console.fail(output, place.error());
     const std::filesystem::path* target = &place->path;
     replaceable = overwriting.of(place->named);
     if (!plot::pictureFormatOf(*target))
-        return fail(target->string(),
-                    {ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"}, Exit::usage);
+        return console.fail(target->string(),
+                            {ErrorCode::invalidArgument, "", "has none of the extensions .png, .svg and .pdf"},
+                            Exit::usage);
     if (from && to && *from >= *to)
-        return fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
+        return console.fail("", {ErrorCode::invalidArgument, "--from", "must be before --to"}, Exit::usage);
     if (std::error_code ignored; std::filesystem::equivalent(*target, path, ignored))
-        return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
+        return console.fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own picture"});
     if (overwriting.keepsAll() && isOccupied(*target))
     {
         console.note(fmt::format("{} exists and was left", printable(target->string())));
@@ -193,12 +211,12 @@ Exit PlotCommand::run(Console& console)
     {
         console.warnings(input, keys.texts());
         if (!*shown)
-            return fail(input, shown->error());
+            return console.fail(input, shown->error());
         if (from || to || !sound.empty() || !profile.empty())
-            return fail(input,
-                        {ErrorCode::invalidArgument, "",
-                         "is a profile; --from, --to, --sound and --profile are for clips and sounds"},
-                        Exit::usage);
+            return console.fail(input,
+                                {ErrorCode::invalidArgument, "",
+                                 "is a profile; --from, --to, --sound and --profile are for clips and sounds"},
+                                Exit::usage);
         return write(console, *target, makeProfileFigure(**shown, style), style);
     }
 
@@ -216,7 +234,7 @@ Exit PlotCommand::run(Console& console)
     {
         auto read = readClipOrScene(path, {clipFolder, console.isStrict()});
         if (!read)
-            return fail(input, read.error());
+            return console.fail(input, read.error());
         console.warnings(input, read->warnings);
         if (const auto* scene = std::get_if<Scene>(&read->content))
             return plotScene(console, *target, *scene, style);
@@ -226,12 +244,12 @@ Exit PlotCommand::run(Console& console)
     {
         auto encoded = EncodeJob(EncodeSettings{}).encode(path, progress);
         if (!encoded)
-            return fail(input, encoded.error());
+            return console.fail(input, encoded.error());
         clip = std::move(*encoded);
     }
     const auto shownRange = rangeWithin(clip->duration);
     if (!shownRange)
-        return fail(input, shownRange.error());
+        return console.fail(input, shownRange.error());
     const plot::TimeRange range = *shownRange;
 
     const auto columns = static_cast<std::size_t>(style.size.width);
@@ -241,14 +259,14 @@ Exit PlotCommand::run(Console& console)
     {
         auto waveform = soundWaveform(heard, range, columns);
         if (!waveform)
-            return fail(heard, waveform.error());
+            return console.fail(heard, waveform.error());
         waveforms.push_back(std::move(waveform.value()));
     }
     if (heard.empty() || actuator)
     {
         auto waveform = driveWaveform(*clip, actuator, range, columns, progress);
         if (!waveform)
-            return fail(input, waveform.error());
+            return console.fail(input, waveform.error());
         waveforms.push_back(std::move(waveform.value()));
     }
     console.endProgress();
@@ -272,16 +290,11 @@ Exit PlotCommand::plotScene(Console& console, const std::filesystem::path& targe
                             const plot::FigureStyle& style) const
 {
     if (!sound.empty() || !profile.empty())
-    {
-        console.error(input, {ErrorCode::invalidArgument, "", "is a scene; --sound and --profile are for clips"});
-        return Exit::usage;
-    }
+        return console.fail(input, {ErrorCode::invalidArgument, "", "is a scene; --sound and --profile are for clips"},
+                            Exit::usage);
     const auto range = rangeWithin(timelineOf(scene).duration);
     if (!range)
-    {
-        console.error(input, range.error());
-        return Exit::failed;
-    }
+        return console.fail(input, range.error());
     const std::string title = scene.name.empty() ? std::filesystem::path(input).filename().string() : scene.name;
     return write(console, target, plot::makeSceneFigure(scene, title, *range, style), style);
 }
@@ -291,10 +304,7 @@ Exit PlotCommand::write(Console& console, const std::filesystem::path& target, c
 {
     const auto written = plot::writeFigure(target, figure, style, replaceable);
     if (!written)
-    {
-        console.error(written.error().where.empty() ? target.string() : "", written.error());
-        return Exit::failed;
-    }
+        return console.fail(written.error().where.empty() ? target.string() : "", written.error());
     console.addToReport({{"input", input},
                          {"output", target.string()},
                          {"width", style.size.width},
@@ -303,6 +313,11 @@ Exit PlotCommand::write(Console& console, const std::filesystem::path& target, c
     console.wrote(target, fmt::format("{} x {} pixels, {}", style.size.width, style.size.height,
                                       bytesText(static_cast<double>(*written))));
     return Exit::ok;
+}
+
+std::unique_ptr<Command> plotCommand()
+{
+    return std::make_unique<PlotCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,5 +1,6 @@
-#include "cli/ProfilesCommand.h"
+// Subcommand that lists the shipped actuator profiles.
 
+#include "cli/Command.h"
 #include "cli/ProfileReport.h"
 #include "cli/ProgramFolder.h"
 #include "io/ProfileFields.h"
@@ -14,6 +15,17 @@
 namespace pacini::cli
 {
 
+namespace
+{
+/// `pacini profiles`: the actuators that come with Pacini.
+class ProfilesCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+};
+} // namespace
+
 CLI::App* ProfilesCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("profiles", "List the actuator profiles that come with Pacini");
@@ -27,10 +39,8 @@ Exit ProfilesCommand::run(Console& console)
     using Json = nlohmann::ordered_json;
     const auto shipped = shippedProfiles(programFolder());
     if (shipped.empty())
-    {
-        console.error(programFolder().string(), {ErrorCode::io, "", "has no folder 'profiles' in it or above it"});
-        return Exit::failed;
-    }
+        return console.fail(programFolder().string(),
+                            {ErrorCode::io, "", "has no folder 'profiles' in it or above it"});
     std::size_t width = 0;
     for (const ShippedProfile& entry : shipped)
         width = std::max(width, entry.name.size());
@@ -64,6 +74,11 @@ Exit ProfilesCommand::run(Console& console)
     console.addToReport({{"folder", folder.string()}, {"profiles", list}});
     console.print(lines + "They are in " + printable(folder.string()));
     return failed ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> profilesCommand()
+{
+    return std::make_unique<ProfilesCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,8 +1,10 @@
-#include "cli/RenderCommand.h"
+// Subcommand that renders clips and scenes.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/Counted.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/ProgramFolder.h"
 #include "cli/RenderJob.h"
@@ -15,15 +17,19 @@
 
 #include <pacini/actuator/Wearer.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/synthesis/ClipAdaptation.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -83,13 +89,8 @@ std::string summary(const std::vector<RenderTask>& tasks, const std::optional<Fe
             seconds += task.result->seconds;
             peak = std::max(peak, task.result->peak);
         }
-    std::string text = fmt::format("{} rendered", done);
-    if (fresh > 0)
-        text += fmt::format(", {} up to date", fresh);
-    if (skipped > 0)
-        text += ", " + counted(skipped, "exists and was left", "exist and were left");
-    if (done + fresh + skipped < tasks.size())
-        text += fmt::format(", {} failed", tasks.size() - done - fresh - skipped);
+    std::string text =
+        fmt::format("{} rendered{}", done, restText(fresh, skipped, tasks.size() - done - fresh - skipped));
     if (seconds > 0.0)
         text += fmt::format(": {}, {:.0f} times real time", durationText(duration), duration / seconds);
     if (felt && done > 0)
@@ -112,106 +113,118 @@ std::optional<T> chosen(const std::string& name, const std::map<std::string, T>&
     const auto found = values.find(name);
     return found == values.end() ? std::nullopt : std::optional<T>(found->second);
 }
+
+/// `pacini render`: clips and scenes become drive signals, or what is felt of them.
+class RenderCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    /// The clips and scenes to render. Of a folder those of other programs only where no clip of Pacini's has the same
+    /// name, which they are then an export of.
+    [[nodiscard]] InputFiles findClips() const;
+
+    /// All options that change what is written.
+    [[nodiscard]] std::string record() const;
+
+    CLI::App* command = nullptr;
+    std::vector<std::string> inputs;
+    std::string output;
+    std::string profile;
+    double rate = 48000.0;
+    std::string encoding = "float32";
+    std::string carriers = "auto";
+    std::string envelope = "auto";
+    std::string pulse = "auto";
+    double pulseFrequency = 0.0;
+    double pulseCycles = 1.0;
+    std::uint64_t seed = 0;
+    double variation = 0.0;
+    std::string variationPer = "breakpoint";
+    double transpose = 0.0;
+    double stretch = 1.0;
+    double gain = 0.0;
+    double delay = 0.0;
+    double from = 0.0;
+    std::optional<double> to;
+    bool dryRun = false;
+    double tolerance = -60.0;
+    std::string clipFolder;
+    double feltFullScale = 100.0;
+    unsigned wearer = 0;
+    unsigned jobs = 0;
+    bool felt = false;
+    bool everything = false;
+    bool noAdaptation = false;
+    std::string mapping = "profile";
+    double maxBoost = AdaptationParams{}.maxBoost.value; // dB
+    bool noProtection = false;
+    bool force = false;
+    OverwriteOptions overwriting;
+    bool explain = false;
+    bool measured = false;
+};
 } // namespace
 
 CLI::App* RenderCommand::declare(CLI::App& app)
 {
     command = app.add_subcommand(
         "render", "Turn clips and scenes into drive signals, or into the acceleration of the skin (WAV)");
-    command
-        ->add_option("inputs", inputs,
-                     "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input")
-        ->required()
-        ->type_name("CLIP|SCENE");
-    command
-        ->add_option(
-            "-o,--output", output,
-            "Sound file (.wav or .flac) with a channel for each actuator, folder for several, or - for WAV on standard "
-            "output [beside each input, as .haptic.wav]")
-        ->type_name("OUT|DIR");
-    command
-        ->add_option("--profile", profile,
-                     "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it")
-        ->type_name("PROFILE");
-    command->add_option("--rate", rate, "Sample rate of the output, Hz")
-        ->capture_default_str()
-        ->check(numberFrom(limits::lowestRate, limits::highestRate));
-    command->add_option("--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16")
-        ->capture_default_str()
-        ->check(oneOf({"float32", "pcm24", "pcm16"}));
-    command
-        ->add_option("--gain", gain,
-                     "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
-                     "it does")
-        ->capture_default_str()
-        ->check(numberFrom(-120.0, 60.0));
-    command->add_option("--transpose", transpose, "Semitones up or down; time stays")
-        ->capture_default_str()
-        ->check(numberFrom(-96.0, 96.0))
-        ->type_name("ST");
-    command->add_option("--stretch", stretch, "Length factor; pitch stays")
-        ->capture_default_str()
-        ->check(numberFrom(0.01, 100.0))
-        ->type_name("R");
-    command->add_option("--delay", delay, "Silence before the start, s")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 3600.0));
-    command->add_option("--from", from, "Start of the part to render, s; what came before is played unheard")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
-    command->add_option("--to", to, "End of the part to render, s [the end]")
-        ->check(numberFrom(0.0, limits::duration, "24 h"))
-        ->type_name("S");
-    command
-        ->add_option("--variation", variation, "Random variation of the bands; in a scene, of the plays that have none")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 1.0))
-        ->type_name("V");
-    command->add_option("--variation-per", variationPer, "One random factor per breakpoint or per band")
-        ->capture_default_str()
-        ->check(oneOf({"breakpoint", "band"}));
-    command->add_option("--seed", seed, "Seed of the variation")->capture_default_str()->check(countingNumber());
-    command
-        ->add_option("--carriers", carriers,
-                     "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid")
-        ->capture_default_str()
-        ->check(oneOf({"auto", "fixed", "pitch", "centroid"}));
-    command->add_option("--envelope", envelope, "Level the sum of the bands to the total envelope")
-        ->capture_default_str()
-        ->check(oneOf({"auto", "on", "off"}));
-    command->add_option("--pulse", pulse, "Waveform of events")
-        ->capture_default_str()
-        ->check(oneOf({"auto", "adaptive", "square", "sine"}));
-    command
-        ->add_option("--pulse-frequency", pulseFrequency,
-                     "Frequency of square and sine pulses, Hz [the actuator's resonance]")
-        ->check(numberFrom(1.0, 2000.0));
-    command->add_option("--pulse-cycles", pulseCycles, "Periods of square and sine pulses")
-        ->capture_default_str()
-        ->check(numberFrom(0.1, 100.0));
-    command->add_option("--clips", clipFolder, "Where the clip files of scenes are [beside the scene]")
-        ->type_name("DIR");
-    command
-        ->add_option("--tolerance", tolerance,
-                     "Largest error that everything left out may cause together, dB relative to the whole")
-        ->capture_default_str()
-        ->check(numberFrom(-300.0, 0.0))
-        ->type_name("DB");
+    addOption(*command, "inputs", inputs,
+              "Clips (JSON or packed) and scenes (JSON), folders of them, or - for standard input", "CLIP|SCENE")
+        ->required();
+    addOption(
+        *command, "-o,--output", output,
+        "Sound file (.wav or .flac) with a channel for each actuator, folder for several, or - for WAV on standard "
+        "output [beside each input, as .haptic.wav]",
+        "OUT|DIR");
+    addOption(*command, "--profile", profile,
+              "Actuator profile: a file, or a shipped one such as l5-wristband; clips are fitted to it", "PROFILE");
+    addPreset(*command, "--rate", rate, "Sample rate of the output, Hz",
+              numberFrom(limits::lowestRate, limits::highestRate));
+    addPreset(*command, "--encoding", encoding, "Samples of the output: float32, pcm24 or pcm16",
+              oneOf({"float32", "pcm24", "pcm16"}));
+    addPreset(*command, "--gain", gain,
+              "Gain, dB; what would then exceed full drive (1), or a limit of the profile, is turned down while "
+              "it does",
+              numberFrom(-120.0, 60.0));
+    addPreset(*command, "--transpose", transpose, "Semitones up or down; time stays", numberFrom(-96.0, 96.0), "ST");
+    addPreset(*command, "--stretch", stretch, "Length factor; pitch stays", numberFrom(0.01, 100.0), "R");
+    addPreset(*command, "--delay", delay, "Silence before the start, s", numberFrom(0.0, 3600.0));
+    addPreset(*command, "--from", from, "Start of the part to render, s; what came before is played unheard",
+              numberFrom(0.0, limits::duration, "24 h"), "S");
+    addOption(*command, "--to", to, "End of the part to render, s [the end]", numberFrom(0.0, limits::duration, "24 h"),
+              "S");
+    addPreset(*command, "--variation", variation,
+              "Random variation of the bands; in a scene, of the plays that have none", numberFrom(0.0, 1.0), "V");
+    addPreset(*command, "--variation-per", variationPer, "One random factor per breakpoint or per band",
+              oneOf({"breakpoint", "band"}));
+    addPreset(*command, "--seed", seed, "Seed of the variation", countingNumber());
+    addPreset(*command, "--carriers", carriers,
+              "Sinusoids at fixed centres, on the pitch curves, or moving with the centroid",
+              oneOf({"auto", "fixed", "pitch", "centroid"}));
+    addPreset(*command, "--envelope", envelope, "Level the sum of the bands to the total envelope",
+              oneOf({"auto", "on", "off"}));
+    addPreset(*command, "--pulse", pulse, "Waveform of events", oneOf({"auto", "adaptive", "square", "sine"}));
+    addOption(*command, "--pulse-frequency", pulseFrequency,
+              "Frequency of square and sine pulses, Hz [the actuator's resonance]", numberFrom(1.0, 2000.0));
+    addPreset(*command, "--pulse-cycles", pulseCycles, "Periods of square and sine pulses", numberFrom(0.1, 100.0));
+    addOption(*command, "--clips", clipFolder, "Where the clip files of scenes are [beside the scene]", "DIR");
+    addPreset(*command, "--tolerance", tolerance,
+              "Largest error that everything left out may cause together, dB relative to the whole",
+              numberFrom(-300.0, 0.0), "DB");
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
     command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
-    command
-        ->add_option("--mapping", mapping,
-                     "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
-                     "it, or by octaves into it")
-        ->capture_default_str()
-        ->check(oneOf({"profile", "clamp", "rescale", "fold"}));
-    command
-        ->add_option("--max-boost", maxBoost,
-                     "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 40.0));
+    addPreset(*command, "--mapping", mapping,
+              "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
+              "it, or by octaves into it",
+              oneOf({"profile", "clamp", "rescale", "fold"}));
+    addPreset(*command, "--max-boost", maxBoost,
+              "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance",
+              numberFrom(0.0, 40.0));
     command->add_flag("--no-protection", noProtection,
                       "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
                       "as they are, or clipped as PCM");
@@ -220,28 +233,22 @@ CLI::App* RenderCommand::declare(CLI::App& app)
                           "Write the acceleration of the skin that the profile's body model predicts instead "
                           "of the drive signal");
     asFelt->needs(command->get_option("--profile"));
-    command->add_option("--felt-full-scale", feltFullScale, "With --felt: acceleration at a sample of 1, m/s^2")
-        ->capture_default_str()
-        ->check(numberFrom(1e-3, 1e6))
-        ->needs(asFelt)
-        ->type_name("M_S2");
-    command
-        ->add_option("--wearer", wearer,
-                     "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people whose skin has half to "
-                     "twice its mass, stiffness and damping (assumed)")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(0u, simulatedWearers))
-        ->needs(asFelt)
-        ->type_name("N");
+    addPreset(*command, "--felt-full-scale", feltFullScale, "With --felt: acceleration at a sample of 1, m/s^2",
+              numberFrom(1e-3, 1e6), "M_S2")
+        ->needs(asFelt);
+    addPreset(*command, "--wearer", wearer,
+              "With --felt: whose skin; 0 as in the profile, 1 to 14 simulated people whose skin has half to "
+              "twice its mass, stiffness and damping (assumed)",
+              wholeNumberFrom(0u, simulatedWearers), "N")
+        ->needs(asFelt);
     command->add_flag("--explain", explain, "Show what is played, and what is left out, why, and with what error");
     command->add_flag("--measured", measured,
                       "Like --explain, and also render everything, to measure the error of what is left out");
     command->add_flag("-f,--force", force, "Render also what is up to date");
     overwriting.declare(*command);
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
-    command->add_option("-j,--jobs", jobs, "Files to work on at a time [number of processors]")
-        ->check(wholeNumberFrom(1u, 256u))
-        ->type_name("N");
+    addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
+              wholeNumberFrom(1u, 256u), "N");
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
                     "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
@@ -289,10 +296,7 @@ std::string RenderCommand::record() const
 Exit RenderCommand::run(Console& console)
 {
     if (to && *to <= from)
-    {
-        console.error("", {ErrorCode::invalidArgument, "render", "--from must be before --to"});
-        return Exit::usage;
-    }
+        return console.fail("", {ErrorCode::invalidArgument, "render", "--from must be before --to"}, Exit::usage);
     RenderSettings settings;
     settings.compile.sampleRate = std::round(rate);
     settings.compile.tolerance = tolerance;
@@ -337,10 +341,7 @@ Exit RenderCommand::run(Console& console)
     {
         const auto chosenFelt = feltSettings(*settings.profile, wearer, feltFullScale, programFolder());
         if (!chosenFelt)
-        {
-            console.error(profile, chosenFelt.error());
-            return Exit::failed;
-        }
+            return console.fail(profile, chosenFelt.error());
         settings.felt = *chosenFelt;
     }
 
@@ -351,10 +352,7 @@ Exit RenderCommand::run(Console& console)
 
     const InputFiles found = findClips();
     if (const auto fits = checkOutput(found, output, console.isJson()); !fits)
-    {
-        console.error("", fits.error());
-        return Exit::usage;
-    }
+        return console.fail("", fits.error(), Exit::usage);
     if (isStandardOutput(output))
         console.keepStdoutFree();
     auto tasks =
@@ -404,6 +402,11 @@ Exit RenderCommand::run(Console& console)
                 fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
     console.note(summary(tasks, settings.felt));
     return anyFailed(tasks) ? Exit::failed : Exit::ok;
+}
+
+std::unique_ptr<Command> renderCommand()
+{
+    return std::make_unique<RenderCommand>();
 }
 
 } // namespace pacini::cli

@@ -4,8 +4,8 @@
 #include "cli/Stopwatch.h"
 #include "cli/Task.h"
 #include "io/AudioReader.h"
-#include "io/ClipJson.h"
 #include "io/Fingerprint.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <fmt/format.h>
 

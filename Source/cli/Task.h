@@ -3,6 +3,7 @@
 // Batch tasks: files to turn into other files, with the result or the error of each.
 
 #include "cli/Console.h"
+#include "cli/Counted.h"
 #include "cli/InputFiles.h"
 #include "cli/Overwrite.h"
 
@@ -160,6 +161,17 @@ template <typename ResultType>
 {
     return static_cast<std::size_t>(
         std::count_if(tasks.begin(), tasks.end(), [](const auto& task) { return task.skipped; }));
+}
+
+/// ", 2 up to date, 1 exists and was left, 3 failed": how many were not worked on, as far as there are any.
+[[nodiscard]] inline std::string restText(std::size_t upToDate, std::size_t skipped, std::size_t failed)
+{
+    std::string text = upToDate > 0 ? fmt::format(", {} up to date", upToDate) : "";
+    if (skipped > 0)
+        text += ", " + counted(skipped, "exists and was left", "exist and were left");
+    if (failed > 0)
+        text += fmt::format(", {} failed", failed);
+    return text;
 }
 
 /// Says what would be done with each file that `work` only looked at: a result that is up to date is skipped.

@@ -97,19 +97,4 @@ RumbleBytes encodeRumble(const RumbleTones& tones) noexcept
             static_cast<std::byte>((low & 1) << 7 | lowFrequency), static_cast<std::byte>(0x40 + (low >> 1))};
 }
 
-std::optional<RumbleTones> decodeRumble(const RumbleBytes& bytes) noexcept
-{
-    const auto at = [&](std::size_t i)
-    {
-        return std::to_integer<int>(bytes[i]);
-    };
-    const int highFrequency = (at(1) & 1) << 8 | at(0);
-    const int lowFrequency = at(2) & 0x7F;
-    if (highFrequency == 0 || highFrequency % 4 != 0 || lowFrequency == 0 || (at(3) & 0xC0) != 0x40)
-        return std::nullopt;
-    const int low = (at(3) & 0x3F) << 1 | at(2) >> 7;
-    return RumbleTones{{rumbleFrequency(highFrequency / 4 + 0x60), rumbleAmplitude(at(1) >> 1)},
-                       {rumbleFrequency(lowFrequency + 0x40), rumbleAmplitude(low)}};
-}
-
 } // namespace pacini::devices

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 namespace pacini::devices
 {
@@ -65,9 +64,5 @@ inline constexpr int safeAmplitudeCode = 100;    ///< 1.003
 /// Source: dekuNukem, Nintendo_Switch_Reverse_Engineering, rumble_data_table.md; the same numbers are in Linux'
 /// hid-nintendo and in SDL. [any]
 [[nodiscard]] RumbleBytes encodeRumble(const RumbleTones& tones) noexcept;
-
-/// What the bytes play, unsafe amplitudes included; nothing when a frequency or an amplitude has no entry in the
-/// tables. [any]
-[[nodiscard]] std::optional<RumbleTones> decodeRumble(const RumbleBytes& bytes) noexcept;
 
 } // namespace pacini::devices

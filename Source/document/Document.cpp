@@ -169,12 +169,6 @@ bool Document::redo()
     return true;
 }
 
-Result<std::size_t> Document::exportClip(int id, const fs::path& path, const ClipFormat& format) const
-{
-    const auto item = clip(id);
-    return item ? writeClip(path, *item->clip, format) : Result<std::size_t>(noSuchClip(id));
-}
-
 // Clips.
 
 int Document::nextClipId() const
@@ -251,19 +245,6 @@ Result<void> Document::removeClip(int id, std::string name)
         return noSuchClip(id);
     Project next = content;
     std::erase_if(next.clips, [&](const auto& item) { return item->id == id; });
-    commit(std::move(name), std::move(next));
-    return {};
-}
-
-Result<void> Document::moveClip(int id, std::size_t index, std::string name)
-{
-    const auto moved = clip(id);
-    if (!moved)
-        return noSuchClip(id);
-    Project next = content;
-    std::erase(next.clips, moved);
-    const std::size_t place = std::min(index, next.clips.size());
-    next.clips.insert(next.clips.begin() + static_cast<std::ptrdiff_t>(place), moved);
     commit(std::move(name), std::move(next));
     return {};
 }

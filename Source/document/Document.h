@@ -95,12 +95,12 @@ public:
 
     Result<int> duplicateClip(int id, std::string name);
     Result<void> removeClip(int id, std::string name);
-    Result<void> moveClip(int id, std::size_t index, std::string name);
 
     /// Splits a clip in two; the right part is a new clip behind it, whose id is returned.
     Result<int> splitClipAt(int id, double time, std::string name);
 
-    /// Moves a clip as moveClip() does, and into a group (empty: out of its group), which is added when it is new.
+    /// Moves a clip to a place in the list (larger ones mean the end), and into a group (empty: out of its group),
+    /// which is added when it is new.
     Result<void> placeClip(int id, std::size_t index, std::string group, std::string name);
 
     /// Puts another clip of the project behind a clip, as joinClips(), and takes it out of the project.
@@ -133,10 +133,6 @@ public:
 
     /// Goes to any state of steps(); larger indices mean the newest.
     void goTo(std::size_t state);
-
-    /// Writes a clip for use elsewhere and returns its size in bytes. Errors: those of writeClip().
-    [[nodiscard]] Result<std::size_t> exportClip(int id, const std::filesystem::path& path,
-                                                 const ClipFormat& format) const;
 
 private:
     Document(Project project, std::filesystem::path path, bool saved);

@@ -2,11 +2,11 @@
 
 // Preview engine: plays a clip while it is edited.
 
-#include "document/Playback.h"
 #include "document/PreviewSource.h"
 
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/Protection.h>
+#include <pacini/clip/edits/Audition.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/realtime/HandOver.h>
 #include <pacini/synthesis/ScenePlayer.h>
@@ -23,6 +23,26 @@
 
 namespace pacini
 {
+
+/// One of two takes that are compared: the clip before and after a change, two encodings, two clips.
+enum class Take
+{
+    a,
+    b
+};
+
+struct Playback
+{
+    bool source = false;           ///< the sound itself
+    bool haptic = true;            ///< the drive signal
+    std::optional<TimeRange> loop; ///< s of the clip; at least 5 ms, else it is no loop
+    Take take = Take::a;
+    std::shared_ptr<const Clip> a; ///< the clip that is edited
+    std::shared_ptr<const Clip> b; ///< what it is compared with; null: the same
+    Audition audition;             ///< bands that are soloed and muted
+
+    [[nodiscard]] const std::shared_ptr<const Clip>& heard() const noexcept { return take == Take::b && b ? b : a; }
+};
 
 /// The plan of what is heard is built off the audio thread and handed over without locks; the audio thread fades from
 /// the old to the new within 10 ms, beginning in the block in which it finds it (when the last fade is over). Up to

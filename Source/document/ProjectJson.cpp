@@ -2,13 +2,13 @@
 
 #include "document/Base64.h"
 #include "document/ProjectFields.h"
-#include "io/ClipFields.h"
-#include "io/ClipJson.h"
 #include "io/FieldsHandler.h"
 #include "io/FieldsReader.h"
 #include "io/FieldsWriter.h"
 #include "io/InputFile.h"
 #include "io/JsonTree.h"
+#include "io/formats/json/ClipFields.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <fmt/format.h>
 

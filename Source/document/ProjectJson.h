@@ -14,7 +14,6 @@ namespace pacini
 
 inline constexpr std::string_view projectFormatName = "pacini.project";
 inline constexpr int projectFormatVersion = 1;
-inline constexpr std::string_view projectExtension = ".pacini";
 
 /// Longer texts are refused: embedded sounds are in them.
 inline constexpr std::size_t largestProjectText = std::size_t(2) << 30;

@@ -1,6 +1,5 @@
 #include "io/AcfFile.h"
 
-#include "io/AtomicFile.h"
 #include "io/FileExtension.h"
 #include "io/InputFile.h"
 
@@ -191,11 +190,6 @@ Result<ProfileOfAcf> readAcfFile(const std::filesystem::path& path)
     if (!acf)
         return acf.error();
     return profileOfAcf(*acf);
-}
-
-Result<std::size_t> writeAcfFile(const std::filesystem::path& path, const Acf& acf)
-{
-    return writeFileAtomically(path, acfText(acf));
 }
 
 } // namespace pacini

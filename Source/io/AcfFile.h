@@ -43,7 +43,4 @@ struct AcfOfProfile
 /// The same from a file. Errors: io as in readWholeFile, and those of readAcf().
 [[nodiscard]] Result<ProfileOfAcf> readAcfFile(const std::filesystem::path& path);
 
-/// The same to a file; returns its size in bytes. Errors: io as in AtomicFile.
-[[nodiscard]] Result<std::size_t> writeAcfFile(const std::filesystem::path& path, const Acf& acf);
-
 } // namespace pacini

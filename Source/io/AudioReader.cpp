@@ -286,20 +286,20 @@ Result<AudioData> readAudio(const fs::path& path, AudioReadOptions options, std:
     AudioData audio{reader.sampleRate(), reader.channels(), {}, 0};
     const auto channels = static_cast<std::size_t>(audio.channels);
     // Memory follows the frames that really come; the header's count is not believed.
-    std::vector<float> block(65536 / channels * channels);
-    for (;;)
-    {
-        const auto got = reader.read(block);
-        if (!got)
-            return got.error();
-        if (*got == 0)
-            break;
-        if (audio.samples.size() / channels + *got > maximumFrames)
-            return Error{ErrorCode::tooLarge, "",
-                         fmt::format("is longer than {} frames; cut it into parts", maximumFrames)};
-        audio.samples.insert(audio.samples.end(), block.begin(),
-                             block.begin() + static_cast<std::ptrdiff_t>(*got * channels));
-    }
+    bool fits = true;
+    const auto done = reader.forEachBlock(65536 / channels,
+                                          [&](std::span<const float> block)
+                                          {
+                                              fits = (audio.samples.size() + block.size()) / channels <= maximumFrames;
+                                              if (fits)
+                                                  audio.samples.insert(audio.samples.end(), block.begin(), block.end());
+                                              return fits;
+                                          });
+    if (!done)
+        return done.error();
+    if (!fits)
+        return Error{ErrorCode::tooLarge, "",
+                     fmt::format("is longer than {} frames; cut it into parts", maximumFrames)};
     audio.replacedSamples = reader.replacedSamples();
     return audio;
 }

@@ -63,6 +63,23 @@ public:
     /// is not possible.
     [[nodiscard]] Result<std::size_t> read(std::span<float> interleaved);
 
+    /// Hands visit(interleaved) all frames that are left, in blocks of at most `frames`, until it says false. Errors:
+    /// those of read().
+    template <typename Visit>
+    [[nodiscard]] Result<void> forEachBlock(std::size_t frames, Visit visit)
+    {
+        const auto perFrame = static_cast<std::size_t>(channels());
+        std::vector<float> block(frames * perFrame);
+        for (;;)
+        {
+            const auto got = read(block);
+            if (!got)
+                return got.error();
+            if (*got == 0 || !visit(std::span<const float>(block).first(*got * perFrame)))
+                return {};
+        }
+    }
+
     /// Samples that allowNan has replaced so far.
     [[nodiscard]] std::uint64_t replacedSamples() const noexcept;
 

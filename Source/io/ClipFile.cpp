@@ -1,11 +1,11 @@
 #include "io/ClipFile.h"
 
-#include "io/ClipJson.h"
 #include "io/FileExtension.h"
 #include "io/InputFile.h"
 #include "io/ReadWarnings.h"
 #include "io/SceneFile.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
+#include "io/formats/json/ClipJson.h"
 #include "io/formats/json/JsonFormat.h"
 #include "io/formats/packed/PackedFormat.h"
 

@@ -1,7 +1,7 @@
 #include "io/ClipSeal.h"
 
-#include "io/ClipFields.h"
 #include "io/Fingerprint.h"
+#include "io/formats/json/ClipFields.h"
 
 #include <algorithm>
 #include <concepts>

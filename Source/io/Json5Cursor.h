@@ -52,7 +52,7 @@ inline constexpr char32_t endOfText = 0xFFFFFFFF;
 class Cursor
 {
 public:
-    Cursor(std::string_view json5, std::size_t maximumBytes) : text(json5), source(json5, maximumBytes) {}
+    explicit Cursor(std::string_view json5) : text(json5), source(json5) {}
 
     Error error;
 

@@ -208,7 +208,7 @@ Result<std::string> jsonFromJson5(std::string_view text, std::size_t maximumByte
 {
     if (text.size() > maximumBytes)
         return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
-    Converter converter(text, maximumBytes);
+    Converter converter(text);
     if (!converter.document())
         return converter.error;
     return std::move(converter.json);

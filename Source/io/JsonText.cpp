@@ -60,9 +60,7 @@ public:
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception)
     {
         constexpr int numberOverflow = 406;
-        if (source.tooLong())
-            error = tooLong();
-        else if (exception.id == numberOverflow)
+        if (exception.id == numberOverflow)
         {
             countPlace();
             error = {ErrorCode::notFinite, path(), "is beyond the range of numbers"};
@@ -73,8 +71,6 @@ public:
             error = {ErrorCode::invalidData, source.place(position), "is not valid JSON: " + cause(exception.what())};
         return false;
     }
-
-    static Error tooLong() { return {ErrorCode::tooLarge, "", "is a longer text than is accepted"}; }
 
 private:
     struct Step
@@ -201,12 +197,15 @@ private:
     std::size_t depth = 0;
 };
 
-Result<void> parse(JsonSource& source, JsonHandler& handler, ReadWarnings* warnings)
+} // namespace
+
+Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
 {
     try
     {
-        if (source.tooLong())
-            return Events::tooLong();
+        if (text.size() > maximumBytes)
+            return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
+        JsonSource source(text);
         if (source.atEnd())
             return Error{ErrorCode::invalidData, "", "is empty"};
         if (source.startsWith("\xEF\xBB\xBF"))
@@ -219,8 +218,6 @@ Result<void> parse(JsonSource& source, JsonHandler& handler, ReadWarnings* warni
             return events.error;
         if (source.endedByNul())
             return Error{ErrorCode::invalidData, source.place(source.passed()), "has a NUL byte after its end"};
-        if (source.tooLong())
-            return Events::tooLong();
         return {};
     }
     catch (const std::bad_alloc&)
@@ -232,22 +229,6 @@ Result<void> parse(JsonSource& source, JsonHandler& handler, ReadWarnings* warni
         return Error{ErrorCode::io, "", std::string("cannot be read: ") + exception.what()};
     }
 }
-} // namespace
-
-Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
-{
-    JsonSource source(text, maximumBytes);
-    return parse(source, handler, warnings);
-}
-
-Result<void> parseJson(std::istream& text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
-{
-    if (!text)
-        return Error{ErrorCode::io, "", "cannot be read"};
-    JsonSource source(text, maximumBytes);
-    return parse(source, handler, warnings);
-}
-
 void appendJsonString(std::string& text, std::string_view value)
 {
     const auto isPlain = [](char c)

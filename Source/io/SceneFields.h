@@ -2,10 +2,10 @@
 
 // Field lists of a scene in JSON, which its reader and its writer follow.
 
-#include "io/ClipFields.h"
 #include "io/Fields.h"
 #include "io/FieldsHandler.h"
 #include "io/SceneJson.h"
+#include "io/formats/json/ClipFields.h"
 
 #include <pacini/synthesis/Scene.h>
 

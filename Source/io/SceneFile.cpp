@@ -2,10 +2,10 @@
 
 #include "io/AtomicFile.h"
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
 #include "io/InputFile.h"
 #include "io/JsonText.h"
 #include "io/SceneJson.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <system_error>
 

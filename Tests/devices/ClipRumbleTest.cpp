@@ -1,5 +1,6 @@
 #include "devices/ClipRumble.h"
 
+#include "devices/DecodeRumble.h"
 #include "devices/WaveformDevice.h"
 #include "support/Catch.h"
 

@@ -1,5 +1,6 @@
 #include "devices/HdRumble.h"
 
+#include "devices/DecodeRumble.h"
 #include "support/Catch.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "document/Document.h"
 
-#include "io/ClipJson.h"
+#include "io/ClipFile.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomEdits.h"
 #include "support/TempFolder.h"
@@ -176,8 +177,8 @@ TEST_CASE("Edit, save, close, open, export: identical clips and edits")
         REQUIRE(opened);
         CHECK(opened->project() == document.project());
         CHECK_FALSE(opened->isDirty());
-        REQUIRE(document.exportClip(id, folder / "a.json", jsonFormat()));
-        REQUIRE(opened->exportClip(id, folder / "b.json", jsonFormat()));
+        REQUIRE(writeClip(folder / "a.json", *document.clip(id)->clip, jsonFormat()));
+        REQUIRE(writeClip(folder / "b.json", *opened->clip(id)->clip, jsonFormat()));
         CHECK(test::bytesOf(folder / "a.json") == test::bytesOf(folder / "b.json"));
         REQUIRE(opened->saveAs(folder / "again.pacini"));
         CHECK(test::bytesOf(folder / "again.pacini") == test::bytesOf(path));
@@ -262,7 +263,7 @@ TEST_CASE("Clips are added, copied, moved, split and removed, and each of these 
     const int right = document.splitClipAt(id, 0.4 * clip.duration, "Split").value();
     CHECK(document.clip(id)->clip->duration + document.clip(right)->clip->duration == Approx(clip.duration));
     CHECK(document.project().clips[1]->id == right);
-    REQUIRE(document.moveClip(right, 9, "Move"));
+    REQUIRE(document.placeClip(right, 9, "", "Move"));
     CHECK(document.project().clips.back()->id == right);
     REQUIRE(document.removeClip(copy, "Remove"));
     CHECK_FALSE(document.clip(copy));

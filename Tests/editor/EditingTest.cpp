@@ -1,6 +1,6 @@
 // What a designer does with mouse and keys, without a screen.
 
-#include "document/ExportBatch.h"
+#include "document/ClipExport.h"
 #include "editor/Bench.h"
 #include "io/ClipFile.h"
 #include "support/TempFolder.h"

@@ -1,4 +1,5 @@
 #include "io/AcfFile.h"
+#include "io/AtomicFile.h"
 #include "support/Catch.h"
 #include "support/RandomProfile.h"
 #include "support/TempFolder.h"
@@ -171,6 +172,6 @@ TEST_CASE("ACF files are told by their extension", "[io]")
     CHECK_FALSE(hasAcfExtension("acf"));
     CHECK_FALSE(hasAcfExtension("a.json"));
     const test::TempFolder folder;
-    CHECK(writeAcfFile(folder.path() / "x.acf", Acf{}).ok());
+    CHECK(writeFileAtomically(folder.path() / "x.acf", acfText(Acf{})).ok());
     CHECK(readAcfFile(folder.path() / "x.acf").ok());
 }

@@ -1,6 +1,6 @@
 #include "io/ClipFile.h"
 
-#include "io/ClipJson.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
 #include "support/TempFolder.h"

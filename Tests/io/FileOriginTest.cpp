@@ -1,8 +1,8 @@
 #include "io/FileOrigin.h"
 
 #include "io/AudioFile.h"
-#include "io/ClipJson.h"
 #include "io/ClipSeal.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
 #include "support/TempFolder.h"

@@ -3,11 +3,11 @@
 #include "io/ReadWarnings.h"
 
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
 #include "io/ProfileFile.h"
 #include "io/SceneFields.h"
 #include "io/SceneFile.h"
 #include "io/SceneJson.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
 #include "support/RandomScene.h"

@@ -1,8 +1,8 @@
 #include "io/SceneFile.h"
 
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
 #include "io/SceneJson.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomScene.h"
 #include "support/TempFolder.h"

@@ -5,6 +5,8 @@
 #include "cli/bench/BenchSound.h"
 #include "cli/bench/BenchTable.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
@@ -30,6 +32,21 @@ struct BenchFigure
     std::string value = {};  ///< only rows with this text in that column
     bool joined = true;      ///< points of a line are joined
 };
+
+/// The chart of the rows at one sample rate: error against time, points not joined.
+[[nodiscard]] inline BenchFigure figureAtRate(const char* title, const char* series, const char* label, int kilohertz)
+{
+    const std::string rate = fmt::format("{} kHz", kilohertz);
+    return {fmt::format("{}", kilohertz),
+            fmt::format("{} at {}", title, rate),
+            series,
+            "time",
+            "error",
+            label,
+            "rate",
+            rate,
+            false};
+}
 
 struct Bench
 {

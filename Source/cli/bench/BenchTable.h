@@ -42,6 +42,17 @@ struct BenchColumn
     return {std::move(name), std::move(unit), Reduction::sum, {}, {}, 1.0, false};
 }
 
+/// The columns of a bench: the sound's name, `keys` without units, then `measured`.
+[[nodiscard]] inline std::vector<BenchColumn> columnsOf(const std::vector<std::string>& keys,
+                                                        const std::vector<BenchColumn>& measured)
+{
+    std::vector<BenchColumn> columns{{"clip", "", Reduction::sound}};
+    for (const std::string& key : keys)
+        columns.push_back({key, "", Reduction::key});
+    columns.insert(columns.end(), measured.begin(), measured.end());
+    return columns;
+}
+
 /// Empty (not measured, or not computed yet), a text or a number.
 using BenchCell = std::variant<std::monostate, std::string, double>;
 

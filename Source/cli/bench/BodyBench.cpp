@@ -215,15 +215,7 @@ Bench bodyBench()
 {
     const auto figure = [](int kilohertz)
     {
-        return BenchFigure{fmt::format("{}", kilohertz),
-                           fmt::format("Integrators of the body at {} kHz", kilohertz),
-                           "integrator",
-                           "time",
-                           "error",
-                           "stiffness",
-                           "rate",
-                           fmt::format("{} kHz", kilohertz),
-                           false};
+        return figureAtRate("Integrators of the body", "integrator", "stiffness", kilohertz);
     };
     return {
         "body",
@@ -235,18 +227,15 @@ Bench bodyBench()
         "or its relative error exceeds 1 at some frequency of that range, with a damping ratio of 0.001. The body "
         "model is the modes and taps "
         "with the joint merged where that costs less than -60 dB.",
-        {{"clip", "", Reduction::sound},
-         {"rate", "", Reduction::key},
-         {"stiffness", "", Reduction::key},
-         {"integrator", "", Reduction::key},
-         summed("frames"),
-         summed("duration", "s"),
-         summed("seconds", "s"),
-         {"error", "%"},
-         {"breaksAt", "N/m"},
-         {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
-         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
-         {"relativeTime", "", Reduction::relative, "time", "rate"}},
+        columnsOf({"rate", "stiffness", "integrator"},
+                  {summed("frames"),
+                   summed("duration", "s"),
+                   summed("seconds", "s"),
+                   {"error", "%"},
+                   {"breaksAt", "N/m"},
+                   {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
+                   {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+                   {"relativeTime", "", Reduction::relative, "time", "rate"}}),
         {figure(8), figure(16), figure(48)},
         {},
         measureBody};

@@ -232,37 +232,25 @@ Bench filtersBench()
 {
     const auto figure = [](int kilohertz)
     {
-        return BenchFigure{fmt::format("{}", kilohertz),
-                           fmt::format("Second-order filters at {} kHz", kilohertz),
-                           "form",
-                           "time",
-                           "error",
-                           "frequency",
-                           "rate",
-                           fmt::format("{} kHz", kilohertz),
-                           false};
+        return figureAtRate("Second-order filters", "form", "frequency", kilohertz);
     };
-    return {"filters",
-            "Forms of second-order filters",
-            "Low-passes on 262144 frames of white noise and a tone at the filter's own frequency. The error is the RMS "
-            "difference from the sum of the filter's two exact modes in long double, over the RMS of that; level is "
-            "the same in dB. Samples in and out are as precise as the form. Streams run the state variable by "
-            "increments in double.",
-            {{"clip", "", Reduction::sound},
-             {"rate", "", Reduction::key},
-             {"frequency", "", Reduction::key},
-             {"q", "", Reduction::key},
-             {"form", "", Reduction::key},
-             summed("frames"),
-             summed("seconds", "s"),
-             {"error", "%"},
-             {"level", "dB"},
-             {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
-             {"relativeTime", "", Reduction::relative, "time", "rate"}},
-            {figure(48), figure(768)},
-            {},
-            measureFilters,
-            false};
+    return {
+        "filters",
+        "Forms of second-order filters",
+        "Low-passes on 262144 frames of white noise and a tone at the filter's own frequency. The error is the RMS "
+        "difference from the sum of the filter's two exact modes in long double, over the RMS of that; level is "
+        "the same in dB. Samples in and out are as precise as the form. Streams run the state variable by "
+        "increments in double.",
+        columnsOf({"rate", "frequency", "q", "form"}, {summed("frames"),
+                                                       summed("seconds", "s"),
+                                                       {"error", "%"},
+                                                       {"level", "dB"},
+                                                       {"time", "ns/frame", Reduction::ratio, "seconds", "frames", 1e9},
+                                                       {"relativeTime", "", Reduction::relative, "time", "rate"}}),
+        {figure(48), figure(768)},
+        {},
+        measureFilters,
+        false};
 }
 
 } // namespace pacini::cli

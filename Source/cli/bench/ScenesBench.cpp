@@ -137,32 +137,30 @@ void measureScenes(const BenchSound& sound, const BenchSettings& settings, Bench
 
 Bench scenesBench()
 {
-    return {"scenes",
-            "Scenes: what leaving out saves and costs",
-            "64 plays of the clip that the encoder makes of each sound (first 5 s), each transposed and varied by "
-            "itself, begin within a second; some are audible, of the others one in eight comes after the end of the "
-            "scene and the rest are 70 to 100 dB down. The tolerance is what leaving out may cost all together; time "
-            "is that of the plan and of 48 kHz output. Errors are energies below the scene's with everything; bounds "
-            "hold where the measured error is at most the predicted one and that at most the tolerance. Most of these "
-            "scenes "
-            "exceed full drive, so the errors are those behind the limiter.",
-            {{"clip", "", Reduction::sound},
-             {"audible", "", Reduction::key},
-             {"tolerance", "", Reduction::key},
-             summed("duration", "s"),
-             summed("seconds", "s"),
-             summed("everythingSeconds", "s"),
-             {"plays", ""},
-             {"predicted", "dB"},
-             {"measured", "dB"},
-             {"error", "%"},
-             {"boundsHold", "%"},
-             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
-             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
-             {"timesFaster", "", Reduction::ratio, "everythingSeconds", "seconds"}},
-            {{"", "Error of leaving out against time", "audible", "time", "error", "tolerance"}},
-            {},
-            measureScenes};
+    return {
+        "scenes",
+        "Scenes: what leaving out saves and costs",
+        "64 plays of the clip that the encoder makes of each sound (first 5 s), each transposed and varied by "
+        "itself, begin within a second; some are audible, of the others one in eight comes after the end of the "
+        "scene and the rest are 70 to 100 dB down. The tolerance is what leaving out may cost all together; time "
+        "is that of the plan and of 48 kHz output. Errors are energies below the scene's with everything; bounds "
+        "hold where the measured error is at most the predicted one and that at most the tolerance. Most of these "
+        "scenes "
+        "exceed full drive, so the errors are those behind the limiter.",
+        columnsOf({"audible", "tolerance"}, {summed("duration", "s"),
+                                             summed("seconds", "s"),
+                                             summed("everythingSeconds", "s"),
+                                             {"plays", ""},
+                                             {"predicted", "dB"},
+                                             {"measured", "dB"},
+                                             {"error", "%"},
+                                             {"boundsHold", "%"},
+                                             {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+                                             {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+                                             {"timesFaster", "", Reduction::ratio, "everythingSeconds", "seconds"}}),
+        {{"", "Error of leaving out against time", "audible", "time", "error", "tolerance"}},
+        {},
+        measureScenes};
 }
 
 } // namespace pacini::cli

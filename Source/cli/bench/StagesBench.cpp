@@ -118,14 +118,12 @@ Bench stagesBench()
         "on the same data; the fit of all curves with their normalisation and pitches is what the whole encoder "
         "takes beyond them; setting up is what the first sound takes beyond a later one. Shares are of the total over "
         "all sounds.",
-        {{"clip", "", Reduction::sound},
-         {"stage", "", Reduction::key},
-         summed("duration", "s"),
-         summed("totalSeconds", "s"),
-         summed("seconds", "s"),
-         {"share", "%", Reduction::ratio, "seconds", "totalSeconds", 100.0},
-         {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
-         {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}},
+        columnsOf({"stage"}, {summed("duration", "s"),
+                              summed("totalSeconds", "s"),
+                              summed("seconds", "s"),
+                              {"share", "%", Reduction::ratio, "seconds", "totalSeconds", 100.0},
+                              {"time", "ms/s", Reduction::ratio, "seconds", "duration", 1000.0},
+                              {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}}),
         {},
         {},
         measureStages};

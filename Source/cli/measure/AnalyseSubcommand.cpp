@@ -1,8 +1,10 @@
-#include "cli/measure/AnalyseSubcommand.h"
+// Subcommand that analyses recordings of sweeps.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
 #include "cli/ProfileInput.h"
+#include "cli/measure/Recording.h"
 #include "cli/plot/ResponseFigure.h"
 #include "io/AtomicFile.h"
 #include "io/FileExtension.h"
@@ -11,6 +13,7 @@
 
 #include <pacini/linearize/MeasuredProfile.h>
 #include <pacini/linearize/MeasurementFindings.h>
+#include <pacini/linearize/ResponseFeatures.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +23,7 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace pacini::cli
@@ -125,22 +129,37 @@ std::string text(const AnalysedRecordings& analysed, const MeasurementFindings& 
                                  : "");
     return lines;
 }
+
+/// `pacini measure analyse`: what recordings of a sweep tell of an actuator.
+class AnalyseSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    Result<std::size_t> drawPicture(const AnalysedRecordings& analysed, const ResponseFeatures& features) const;
+
+    RecordingOptions options;
+    std::string output;
+    std::string base;
+    std::string name;
+    std::string picture;
+    double distortionLimit = 10.0;
+};
 } // namespace
 
 CLI::App* AnalyseSubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("analyse", "Find the response of an actuator from recordings of a sweep");
     options.declare(*command);
-    command->add_option("-o,--output", output, "Profile (.json) or table (.csv) to write")->type_name("OUT");
-    command->add_option("--profile", base, "Profile for what was not measured, such as drive limits")
-        ->type_name("PROFILE");
-    command->add_option("--name", name, "Name of the profile to write")->type_name("NAME");
-    command->add_option("--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)")
-        ->type_name("PICTURE");
-    command->add_option("--distortion-limit", distortionLimit, "Distortion for which the drive level is reported, %")
-        ->capture_default_str()
-        ->check(numberFrom(0.01, 100.0))
-        ->type_name("%");
+    addOption(*command, "-o,--output", output, "Profile (.json) or table (.csv) to write", "OUT");
+    addOption(*command, "--profile", base, "Profile for what was not measured, such as drive limits", "PROFILE");
+    addOption(*command, "--name", name, "Name of the profile to write", "NAME");
+    addOption(*command, "--plot", picture, "Picture of all responses and the distortion (.png, .svg or .pdf)",
+              "PICTURE");
+    addPreset(*command, "--distortion-limit", distortionLimit, "Distortion for which the drive level is reported, %",
+              numberFrom(0.01, 100.0), "%");
     command->footer(
         "Examples:\n  pacini measure analyse rec.wav --sweep sweep.json --full-scale 5g -o mine.json\n"
         "  pacini measure analyse rec-*.wav --sweep sweep.json --channels 1,2,3 -o response.csv --plot r.png");
@@ -149,22 +168,19 @@ CLI::App* AnalyseSubcommand::declare(CLI::App& app)
 
 Exit AnalyseSubcommand::run(Console& console)
 {
-    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
-    {
-        console.error(file, error);
-        return exit;
-    };
     const std::string extension = lowerExtension(output);
     if (!output.empty() && extension != ".json" && extension != ".csv")
-        return fail(output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .csv"}, Exit::usage);
+        return console.fail(output, {ErrorCode::invalidArgument, "", "has neither the extension .json nor .csv"},
+                            Exit::usage);
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                    Exit::usage);
+        return console.fail(picture,
+                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                            Exit::usage);
     for (const std::string& result : {output, picture})
         if (!result.empty() && sameFileKey(result) == sameFileKey(options.sweep))
-            return fail(result,
-                        {ErrorCode::invalidArgument, "", "is the description of the sweep; name another output"},
-                        Exit::usage);
+            return console.fail(
+                result, {ErrorCode::invalidArgument, "", "is the description of the sweep; name another output"},
+                Exit::usage);
     Profile profile;
     profile.technology = Technology::vca;
     profile.name = output.empty() ? "" : std::filesystem::path(output).stem().string();
@@ -187,7 +203,7 @@ Exit AnalyseSubcommand::run(Console& console)
                                                    analysed->sweep.equalizedFor));
     const auto findings = findingsOf(*analysed, options.smoothingOctaves(), distortionLimit);
     if (!findings)
-        return fail("", findings.error());
+        return console.fail("", findings.error());
 
     if (extension == ".json")
     {
@@ -195,14 +211,14 @@ Exit AnalyseSubcommand::run(Console& console)
         setMeasurement(profile, analysed->average.response, *findings, analysed->recordings.size(),
                        *std::max_element(levels.begin(), levels.end()));
         if (const auto written = writeProfile(output, profile); !written)
-            return fail(output, written.error());
+            return console.fail(output, written.error());
     }
     else if (extension == ".csv")
         if (const auto written = writeFileAtomically(output, table(*analysed)); !written)
-            return fail(output, written.error());
+            return console.fail(output, written.error());
     if (!picture.empty())
         if (const auto drawn = drawPicture(*analysed, findings->features); !drawn)
-            return fail(picture, drawn.error());
+            return console.fail(picture, drawn.error());
 
     console.addToReport(report(*analysed, *findings, output));
     console.print(text(*analysed, *findings, distortionLimit));
@@ -239,6 +255,11 @@ Result<std::size_t> AnalyseSubcommand::drawPicture(const AnalysedRecordings& ana
     content.distortion = plot::NamedResponse{"all harmonics", {level.response.frequency, level.distortion}};
     const plot::FigureStyle style;
     return plot::writeFigure(picture, makeResponseFigure(content, style), style);
+}
+
+std::unique_ptr<Command> analyseSubcommand()
+{
+    return std::make_unique<AnalyseSubcommand>();
 }
 
 } // namespace pacini::cli

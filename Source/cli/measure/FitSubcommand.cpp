@@ -1,6 +1,7 @@
-#include "cli/measure/FitSubcommand.h"
+// Subcommand that fits an equaliser to a measured response.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
+#include "cli/Options.h"
 #include "cli/ProfileInput.h"
 #include "cli/Stopwatch.h"
 #include "cli/plot/ResponseFigure.h"
@@ -11,6 +12,7 @@
 #include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/EqualizerCost.h>
 #include <pacini/linearize/EqualizerFit.h>
+#include <pacini/linearize/EqualizerFitParams.h>
 #include <pacini/linearize/MeasuredProfile.h>
 
 #include <fmt/format.h>
@@ -20,6 +22,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace pacini::cli
@@ -118,58 +122,66 @@ std::string costText(const EqualizerCost& cost)
         cost.excursion ? fmt::format(" ({:.0f} % of its limit at full drive)", 100.0 * *cost.excursion) : "");
 }
 
-Exit fail(Console& console, const std::string& file, const Error& error, Exit exit = Exit::failed)
+/// `pacini measure fit`: the equaliser that flattens a measured response.
+class FitSubcommand : public Command
 {
-    console.error(file, error);
-    return exit;
-}
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    Result<std::size_t> drawPicture(const FrequencyResponse& response, const EqualizerFit& fit,
+                                    const EqualizerFitParams& params) const;
+
+    std::string input;
+    std::string output;
+    std::string base;
+    std::string picture;
+    std::string sections = "auto";
+    double rate = 48000.0;
+    double maxBoost = 12.0;
+    double goal = 2.0;
+    std::optional<double> low;
+    std::optional<double> high;
+    std::optional<double> highpass;
+    bool boostOutside = false;
+    bool peaksOnly = false;
+};
 } // namespace
 
 CLI::App* FitSubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("fit", "Find the equaliser that makes a measured response flat");
-    command->add_option("response", input, "CSV of frequency (Hz) and level (dB), or a profile with a measurement")
-        ->required()
-        ->type_name("RESPONSE");
-    command->add_option("-o,--output", output, "Profile to write with the equaliser in it")->type_name("PROFILE.json");
-    command->add_option("--profile", base, "Profile that -o starts from when RESPONSE is a CSV")->type_name("PROFILE");
-    command->add_option("--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)")
-        ->type_name("PICTURE");
-    command->add_option("--sections", sections, "Number of sections, 1 to 16, or auto: as few as will do")
-        ->capture_default_str()
-        ->check(CLI::Validator(
-            [](const std::string& text)
-            {
-                const auto count = parseNumber<int>(text);
-                return (count && *count >= 1 && *count <= 16) || text == "auto"
-                           ? std::string()
-                           : text + " is neither auto nor a number from 1 to 16";
-            },
-            "", "sections"))
-        ->type_name("K|auto");
-    command->add_option("--rate", rate, "Sample rate at which the equaliser will run, Hz")
-        ->capture_default_str()
-        ->check(numberFrom(1000.0, 1e7))
-        ->type_name("HZ");
-    command->add_option("--max-boost", maxBoost, "Most that any frequency may be raised, dB")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 40.0))
-        ->type_name("DB");
-    command
-        ->add_option("--goal", goal,
-                     "Largest deviation that an automatic number of sections must reach, dB; RMS a quarter of it")
-        ->capture_default_str()
-        ->check(numberFrom(0.01, 100.0))
-        ->type_name("DB");
-    command->add_option("--low", low, "Start of the range to flatten, Hz [of the profile; else the first point]")
-        ->check(numberFrom(0.1, 200000.0))
-        ->type_name("HZ");
-    command->add_option("--high", high, "End of the range to flatten, Hz [of the profile; else the last point]")
-        ->check(numberFrom(0.1, 200000.0))
-        ->type_name("HZ");
-    command->add_option("--highpass", highpass, "Protect the actuator by a high-pass of order 5 at this frequency, Hz")
-        ->check(numberFrom(1.0, 20000.0))
-        ->type_name("HZ");
+    addOption(*command, "response", input, "CSV of frequency (Hz) and level (dB), or a profile with a measurement",
+              "RESPONSE")
+        ->required();
+    addOption(*command, "-o,--output", output, "Profile to write with the equaliser in it", "PROFILE.json");
+    addOption(*command, "--profile", base, "Profile that -o starts from when RESPONSE is a CSV", "PROFILE");
+    addOption(*command, "--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)", "PICTURE");
+    addPreset(*command, "--sections", sections, "Number of sections, 1 to 16, or auto: as few as will do",
+              CLI::Validator(
+                  [](const std::string& text)
+                  {
+                      const auto count = parseNumber<int>(text);
+                      return (count && *count >= 1 && *count <= 16) || text == "auto"
+                                 ? std::string()
+                                 : text + " is neither auto nor a number from 1 to 16";
+                  },
+                  "", "sections"),
+              "K|auto");
+    addPreset(*command, "--rate", rate, "Sample rate at which the equaliser will run, Hz", numberFrom(1000.0, 1e7),
+              "HZ");
+    addPreset(*command, "--max-boost", maxBoost, "Most that any frequency may be raised, dB", numberFrom(0.0, 40.0),
+              "DB");
+    addPreset(*command, "--goal", goal,
+              "Largest deviation that an automatic number of sections must reach, dB; RMS a quarter of it",
+              numberFrom(0.01, 100.0), "DB");
+    addOption(*command, "--low", low, "Start of the range to flatten, Hz [of the profile; else the first point]",
+              numberFrom(0.1, 200000.0), "HZ");
+    addOption(*command, "--high", high, "End of the range to flatten, Hz [of the profile; else the last point]",
+              numberFrom(0.1, 200000.0), "HZ");
+    addOption(*command, "--highpass", highpass, "Protect the actuator by a high-pass of order 5 at this frequency, Hz",
+              numberFrom(1.0, 20000.0), "HZ");
     command->add_flag("--boost-outside", boostOutside,
                       "Allow boost outside of the range; below it that costs much power and excursion");
     command->add_flag("--peaks-only", peaksOnly, "Use no shelves");
@@ -182,22 +194,22 @@ Exit FitSubcommand::run(Console& console)
 {
     auto opened = openInput(console, input);
     if (!opened)
-        return fail(console, input, opened.error());
+        return console.fail(input, opened.error());
     auto& [response, profile, measured] = *opened;
     if (measured && !base.empty())
-        return fail(console, input, {ErrorCode::invalidArgument, "--profile", "is for responses from a CSV"},
-                    Exit::usage);
+        return console.fail(input, {ErrorCode::invalidArgument, "--profile", "is for responses from a CSV"},
+                            Exit::usage);
     if (!base.empty() && !(profile = openProfile(console, base)))
         return Exit::failed;
     if (!output.empty() && !profile)
-        return fail(console, output,
-                    {ErrorCode::invalidArgument, "--profile",
-                     "must name the profile that the equaliser goes into, since RESPONSE is none"},
-                    Exit::usage);
+        return console.fail(output,
+                            {ErrorCode::invalidArgument, "--profile",
+                             "must name the profile that the equaliser goes into, since RESPONSE is none"},
+                            Exit::usage);
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return fail(console, picture,
-                    {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                    Exit::usage);
+        return console.fail(picture,
+                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                            Exit::usage);
 
     EqualizerFitParams params;
     params.sampleRate = rate;
@@ -220,7 +232,7 @@ Exit FitSubcommand::run(Console& console)
     }
     const auto fit = fitEqualizer(response, params);
     if (!fit)
-        return fail(console, input, fit.error());
+        return console.fail(input, fit.error());
     const double milliseconds = medianMilliseconds(response, params);
 
     if (profile)
@@ -228,10 +240,10 @@ Exit FitSubcommand::run(Console& console)
                      rate);
     if (!output.empty())
         if (const auto written = writeProfile(output, *profile); !written)
-            return fail(console, output, written.error());
+            return console.fail(output, written.error());
     if (!picture.empty())
         if (const auto written = drawPicture(response, *fit, params); !written)
-            return fail(console, picture, written.error());
+            return console.fail(picture, written.error());
 
     std::optional<EqualizerCost> cost;
     if (profile)
@@ -280,6 +292,11 @@ Result<std::size_t> FitSubcommand::drawPicture(const FrequencyResponse& response
                          {"with the equaliser", std::move(after), plot::ResponseRole::flattened}};
     const plot::FigureStyle style;
     return plot::writeFigure(picture, makeResponseFigure(content, style), style);
+}
+
+std::unique_ptr<Command> fitSubcommand()
+{
+    return std::make_unique<FitSubcommand>();
 }
 
 } // namespace pacini::cli

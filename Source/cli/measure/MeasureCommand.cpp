@@ -1,29 +1,34 @@
-#include "cli/measure/MeasureCommand.h"
+// Command group for the measurement of actuators.
 
-#include "cli/measure/AnalyseSubcommand.h"
-#include "cli/measure/FitSubcommand.h"
-#include "cli/measure/SimulateSubcommand.h"
-#include "cli/measure/SweepSubcommand.h"
-#include "cli/measure/VerifySubcommand.h"
+#include "cli/Command.h"
+
+#include <memory>
+#include <vector>
 
 namespace pacini::cli
 {
 
-MeasureCommand::MeasureCommand()
+namespace
 {
-    steps.push_back(std::make_unique<SweepSubcommand>());
-    steps.push_back(std::make_unique<AnalyseSubcommand>());
-    steps.push_back(std::make_unique<FitSubcommand>());
-    steps.push_back(std::make_unique<VerifySubcommand>());
-    steps.push_back(std::make_unique<SimulateSubcommand>());
-}
+/// `pacini measure`: from a sweep to an actuator that is flat, step by step.
+class MeasureCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::vector<std::unique_ptr<Command>> steps;
+    std::vector<CLI::App*> declared;
+};
+} // namespace
 
 CLI::App* MeasureCommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("measure", "Measure an actuator and make it flat");
     command->require_subcommand(1);
-    for (auto& step : steps)
-        declared.push_back(step->declare(*command));
+    for (const auto make : {sweepSubcommand, analyseSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand})
+        declared.push_back(steps.emplace_back(make())->declare(*command));
     command->footer(
         "From a bare actuator to a profile, with an accelerometer on it:\n"
         "  pacini measure sweep -o sweep.wav              play this, record the accelerometer\n"
@@ -42,6 +47,11 @@ Exit MeasureCommand::run(Console& console)
         if (declared[i]->parsed())
             return steps[i]->run(console);
     return Exit::usage;
+}
+
+std::unique_ptr<Command> measureCommand()
+{
+    return std::make_unique<MeasureCommand>();
 }
 
 } // namespace pacini::cli

@@ -1,7 +1,7 @@
 #include "cli/measure/Recording.h"
 
-#include "cli/Checks.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
 #include "cli/measure/SweepNames.h"
 #include "io/AudioReader.h"
 #include "io/FileExtension.h"
@@ -163,34 +163,23 @@ void RecordingOptions::declare(CLI::App& command)
                               { return parse(text) ? std::string() : fmt::format("{} {}", text, message); },
                               "", "value");
     };
-    command
-        .add_option("recordings", recordings,
-                    "Recordings of the sweep: of one actuator, attached anew or on other people")
-        ->required()
-        ->type_name("RECORDING");
-    command
-        .add_option("--sweep", sweep,
-                    "Description of the sweep: the .json that 'pacini measure sweep' wrote, or the sound beside it")
-        ->required()
-        ->type_name("SWEEP");
-    command.add_option("--channels", channels, "Channels of the recording to use, one to three, counted from 1 [all]")
-        ->delimiter(',')
-        ->type_name("N,...");
-    command
-        .add_option("--full-scale", fullScale,
-                    "Acceleration of a full-scale sample, m/s^2 or with a g behind, such as 5g; one for all channels "
-                    "or one for each. Without it levels are relative")
-        ->delimiter(',')
-        ->check(check(acceleration, "is not an acceleration such as 49.03 or 5g"))
-        ->type_name("A,...");
-    command.add_option("--smoothing", smoothing, "Octaves over which power is averaged")
-        ->capture_default_str()
-        ->check(check(fraction, "is not a number of octaves such as 1/12"))
-        ->type_name("OCT");
-    command.add_option("--points", points, "Points of the response, evenly in octaves")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(8, 4096))
-        ->type_name("N");
+    addOption(command, "recordings", recordings,
+              "Recordings of the sweep: of one actuator, attached anew or on other people", "RECORDING")
+        ->required();
+    addOption(command, "--sweep", sweep,
+              "Description of the sweep: the .json that 'pacini measure sweep' wrote, or the sound beside it", "SWEEP")
+        ->required();
+    addOption(command, "--channels", channels, "Channels of the recording to use, one to three, counted from 1 [all]",
+              "N,...")
+        ->delimiter(',');
+    addOption(command, "--full-scale", fullScale,
+              "Acceleration of a full-scale sample, m/s^2 or with a g behind, such as 5g; one for all channels "
+              "or one for each. Without it levels are relative",
+              check(acceleration, "is not an acceleration such as 49.03 or 5g"), "A,...")
+        ->delimiter(',');
+    addPreset(command, "--smoothing", smoothing, "Octaves over which power is averaged",
+              check(fraction, "is not a number of octaves such as 1/12"), "OCT");
+    addPreset(command, "--points", points, "Points of the response, evenly in octaves", wholeNumberFrom(8, 4096), "N");
 }
 
 double RecordingOptions::smoothingOctaves() const

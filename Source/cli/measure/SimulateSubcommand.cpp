@@ -1,7 +1,9 @@
-#include "cli/measure/SimulateSubcommand.h"
+// Subcommand that simulates the recording of a sweep.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "io/AudioFile.h"
 #include "io/Fingerprint.h"
@@ -14,7 +16,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,62 +41,62 @@ bool clips(const std::vector<float>& channel)
 {
     return std::any_of(channel.begin(), channel.end(), [](float v) { return std::abs(v) >= 1.0f; });
 }
+
+/// `pacini measure simulate`: what an accelerometer on a worn actuator would record, to learn and to test by.
+class SimulateSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    std::string input;
+    std::string output;
+    std::string profile = "l5-wristband";
+    unsigned wearer = 0;
+    unsigned wearers = 0;
+    double contact = 0.0;
+    double latency = 12.0;
+    double drift = 50.0;
+    double noise = 250.0;
+    double distortion = 0.0;
+    double range = 5.0; ///< g, of the ADXL325
+    int axes = 3;
+    int bits = 12;
+    std::uint64_t seed = 1;
+    OverwriteOptions overwriting;
+};
 } // namespace
 
 CLI::App* SimulateSubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("simulate", "Record a sweep without hardware, on a simulated wearer");
-    command->add_option("sweep", input, "Sound of the sweep")->required()->type_name("SWEEP.wav");
-    command->add_option("-o,--output", output, "Recording to write: a channel for each axis of the accelerometer")
-        ->required()
-        ->type_name("OUT.wav");
-    command->add_option("--profile", profile, "Actuator, a profile with a body; its equaliser is not applied")
-        ->capture_default_str()
-        ->type_name("PROFILE");
-    command->add_option("--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's")
-        ->check(wholeNumberFrom(0u, simulatedWearers))
-        ->type_name("N");
-    command
-        ->add_option("--wearers", wearers,
-                     "Record wearers 1 to N into files of their own: OUT-01.wav, OUT-02.wav and so on")
-        ->check(wholeNumberFrom(1u, simulatedWearers))
-        ->type_name("N");
-    command->add_option("--contact", contact, "Level of a loose or a tight fit, dB")
-        ->check(numberFrom(-60.0, 20.0))
-        ->type_name("DB");
-    command->add_option("--latency", latency, "Latency of player and recorder, ms")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 1000.0))
-        ->type_name("MS");
-    command->add_option("--drift", drift, "How much faster the recorder's clock is, ppm")
-        ->capture_default_str()
-        ->check(numberFrom(-5000.0, 5000.0))
-        ->type_name("PPM");
-    command->add_option("--noise", noise, "Noise of the sensor, \u00b5g per root of Hz (ADXL325: 250)")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 1e6))
-        ->type_name("D");
-    command->add_option("--range", range, "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)")
-        ->capture_default_str()
-        ->check(numberFrom(0.1, 10000.0))
-        ->type_name("G");
-    command
-        ->add_option("--axes", axes,
-                     "Axes of the sensor: 3, turned at random on every wearer, or 1, along the movement")
-        ->capture_default_str()
-        ->check(oneOf({"1", "3"}))
-        ->type_name("N");
-    command->add_option("--bits", bits, "Resolution of the converter")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(4, 24))
-        ->type_name("N");
-    command->add_option("--distortion", distortion, "Third-order distortion of the actuator: part of the drive's cube")
-        ->check(numberFrom(-1.0, 1.0))
-        ->type_name("A");
-    command->add_option("--seed", seed, "Seed of the noise and of the sensor's orientation")
-        ->capture_default_str()
-        ->check(countingNumber())
-        ->type_name("N");
+    addOption(*command, "sweep", input, "Sound of the sweep", "SWEEP.wav")->required();
+    addOption(*command, "-o,--output", output, "Recording to write: a channel for each axis of the accelerometer",
+              "OUT.wav")
+        ->required();
+    addPreset(*command, "--profile", profile, "Actuator, a profile with a body; its equaliser is not applied",
+              "PROFILE");
+    addOption(*command, "--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's",
+              wholeNumberFrom(0u, simulatedWearers), "N");
+    addOption(*command, "--wearers", wearers,
+              "Record wearers 1 to N into files of their own: OUT-01.wav, OUT-02.wav and so on",
+              wholeNumberFrom(1u, simulatedWearers), "N");
+    addOption(*command, "--contact", contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0), "DB");
+    addPreset(*command, "--latency", latency, "Latency of player and recorder, ms", numberFrom(0.0, 1000.0), "MS");
+    addPreset(*command, "--drift", drift, "How much faster the recorder's clock is, ppm", numberFrom(-5000.0, 5000.0),
+              "PPM");
+    addPreset(*command, "--noise", noise, "Noise of the sensor, \u00b5g per root of Hz (ADXL325: 250)",
+              numberFrom(0.0, 1e6), "D");
+    addPreset(*command, "--range", range, "Acceleration at which the sensor clips, gravity included, g (ADXL325: 5)",
+              numberFrom(0.1, 10000.0), "G");
+    addPreset(*command, "--axes", axes,
+              "Axes of the sensor: 3, turned at random on every wearer, or 1, along the movement", oneOf({"1", "3"}),
+              "N");
+    addPreset(*command, "--bits", bits, "Resolution of the converter", wholeNumberFrom(4, 24), "N");
+    addOption(*command, "--distortion", distortion, "Third-order distortion of the actuator: part of the drive's cube",
+              numberFrom(-1.0, 1.0), "A");
+    addPreset(*command, "--seed", seed, "Seed of the noise and of the sensor's orientation", countingNumber(), "N");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure simulate sweep.wav -o rec.wav\n"
                     "  pacini measure simulate sweep.wav -o rec.wav --wearers 14      fourteen recordings");
@@ -101,25 +105,20 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
 
 Exit SimulateSubcommand::run(Console& console)
 {
-    const auto fail = [&](const std::string& file, const Error& error)
-    {
-        console.endProgress();
-        console.error(file, error);
-        return Exit::failed;
-    };
     const auto actuator = openProfile(console, profile);
     if (!actuator)
         return Exit::failed;
     if (!actuator->body || actuator->technology == Technology::erm)
-        return fail(profile, {ErrorCode::invalidData, actuator->body ? "technology" : "body",
-                              actuator->body ? "is a motor, which plays no sweep" : "is missing, so nothing can move"});
+        return console.fail(profile,
+                            {ErrorCode::invalidData, actuator->body ? "technology" : "body",
+                             actuator->body ? "is a motor, which plays no sweep" : "is missing, so nothing can move"});
     AudioReadOptions options;
     options.lowestSampleRate = limits::lowestWrittenRate;
     const auto sound = readAudio(input, options);
     if (!sound)
-        return fail(input, sound.error());
+        return console.fail(input, sound.error());
     if (sound->channels != 1)
-        return fail(input, {ErrorCode::invalidData, "", "must have one channel"});
+        return console.fail(input, {ErrorCode::invalidData, "", "must have one channel"});
 
     std::vector<std::string> clipped;
     const unsigned first = wearers > 0 ? 1 : wearer;
@@ -129,13 +128,13 @@ Exit SimulateSubcommand::run(Console& console)
     {
         const std::string target = wearers > 0 ? numbered(output, who) : output;
         if (sameFileKey(target) == sameFileKey(input))
-            return fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own recording"});
+            return console.fail(input, {ErrorCode::invalidArgument, "", "would be overwritten by its own recording"});
         if (overwriting.keepsAll() && isOccupied(target))
             continue;
         const FileOrigin origin = originOf(input, target, Fingerprint().text());
         const auto existing = mayReplace(target, origin, overwriting.of(wearers == 0));
         if (!existing)
-            return fail(input, existing.error());
+            return console.fail(input, existing.error());
         RigParams rig;
         rig.body = bodyOn(who, *actuator->body);
         rig.resonance = actuator->resonance;
@@ -165,7 +164,7 @@ Exit SimulateSubcommand::run(Console& console)
             writing.origin = origin;
         writing.existing = *existing;
         if (const auto written = writeAudio(target, interleaved, writing); !written)
-            return fail(target, written.error());
+            return console.fail(target, written.error());
         console.wrote(target);
         files.push_back({{"input", input}, {"output", target}, {"wearer", who}});
     }
@@ -179,6 +178,11 @@ Exit SimulateSubcommand::run(Console& console)
                         range));
     console.note(fmt::format("analyse with --full-scale {:g}g", range));
     return Exit::ok;
+}
+
+std::unique_ptr<Command> simulateSubcommand()
+{
+    return std::make_unique<SimulateSubcommand>();
 }
 
 } // namespace pacini::cli

@@ -1,7 +1,9 @@
-#include "cli/measure/SweepSubcommand.h"
+// Subcommand that writes a measurement sweep.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
 #include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/measure/SweepNames.h"
 #include "io/AudioWriter.h"
@@ -9,56 +11,65 @@
 #include "io/SweepFile.h"
 
 #include <pacini/linearize/EqualizedSweep.h>
+#include <pacini/linearize/Sweep.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace pacini::cli
 {
 
+namespace
+{
+/// `pacini measure sweep`: the sound to play on an actuator, and beside it what it was.
+class SweepSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    CLI::Option* outputOption = nullptr;
+    std::string output = "sweep.wav";
+    std::string profile;
+    std::optional<double> low;
+    double high = 1500.0;
+    double duration = 20.0;
+    double pause = 1.0;
+    int repeats = 1;
+    std::vector<double> levels = SweepParams().levels;
+    int rate = 48000;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
 CLI::App* SweepSubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("sweep", "Make the sound that an actuator is measured with");
     outputOption =
-        command
-            ->add_option("-o,--output", output,
-                         "Sound to play (.wav or .flac); its description goes beside it, as .json of the same name")
-            ->capture_default_str()
-            ->type_name("OUT");
-    command
-        ->add_option(
-            "--low", low,
-            "Frequency at which sweeps start, Hz [10; through an equaliser a little below the profile's range]")
-        ->type_name("HZ");
-    command->add_option("--high", high, "Frequency at which sweeps end, Hz")->capture_default_str()->type_name("HZ");
-    command
-        ->add_option("--duration", duration, "Length of a sweep, s; twice as long gives 3 dB more distance from noise")
-        ->capture_default_str()
-        ->type_name("S");
-    command->add_option("--pause", pause, "Silence between sweeps, s; longer than the actuator rings")
-        ->capture_default_str()
-        ->type_name("S");
-    command->add_option("--repeats", repeats, "How often each level is played")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(1, 100))
-        ->type_name("N");
-    command
-        ->add_option("--levels", levels,
-                     "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show where "
-                     "distortion begins; a sweep that an equaliser raises beyond full scale is lowered")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->type_name("DB,...");
-    command->add_option("--rate", rate, "Sample rate, Hz")
-        ->capture_default_str()
-        ->check(wholeNumberFrom(2000, 384000))
-        ->type_name("HZ");
-    command->add_option("--profile", profile, "Play through the equaliser of this profile, to verify it")
-        ->type_name("PROFILE");
+        addPreset(*command, "-o,--output", output,
+                  "Sound to play (.wav or .flac); its description goes beside it, as .json of the same name", "OUT");
+    addOption(*command, "--low", low,
+              "Frequency at which sweeps start, Hz [10; through an equaliser a little below the profile's range]",
+              "HZ");
+    addPreset(*command, "--high", high, "Frequency at which sweeps end, Hz", "HZ");
+    addPreset(*command, "--duration", duration,
+              "Length of a sweep, s; twice as long gives 3 dB more distance from noise", "S");
+    addPreset(*command, "--pause", pause, "Silence between sweeps, s; longer than the actuator rings", "S");
+    addPreset(*command, "--repeats", repeats, "How often each level is played", wholeNumberFrom(1, 100), "N");
+    addPreset(*command, "--levels", levels,
+              "Peaks of the sweeps, dB re full scale, such as -24,-12,-6: several show where "
+              "distortion begins; a sweep that an equaliser raises beyond full scale is lowered",
+              "DB,...")
+        ->delimiter(',');
+    addPreset(*command, "--rate", rate, "Sample rate, Hz", wholeNumberFrom(2000, 384000), "HZ");
+    addOption(*command, "--profile", profile, "Play through the equaliser of this profile, to verify it", "PROFILE");
     overwriting.declare(*command);
     command->footer("Examples:\n  pacini measure sweep -o sweep.wav\n"
                     "  pacini measure sweep -o sweep.wav --levels -24,-12,-6      shows where distortion begins\n"
@@ -68,11 +79,6 @@ CLI::App* SweepSubcommand::declare(CLI::App& app)
 
 Exit SweepSubcommand::run(Console& console)
 {
-    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
-    {
-        console.error(file, error);
-        return exit;
-    };
     SweepFile file;
     SweepParams& params = file.sweep;
     params.lowFrequency = low.value_or(params.lowFrequency);
@@ -87,11 +93,11 @@ Exit SweepSubcommand::run(Console& console)
     {
         Error error = valid.error();
         error.where = optionFor(error.where);
-        return fail("", error, Exit::usage);
+        return console.fail("", error, Exit::usage);
     }
     const std::string description = sweepFileBeside(output).string();
     if (sameFileKey(description) == sameFileKey(output))
-        return fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
+        return console.fail(output, {ErrorCode::invalidArgument, "", "must be .wav or .flac"}, Exit::usage);
     if (overwriting.keepsAll() && (isOccupied(output) || isOccupied(description)))
     {
         console.note(fmt::format("{} or {} exists and was left", printable(output), printable(description)));
@@ -101,9 +107,9 @@ Exit SweepSubcommand::run(Console& console)
     const bool named = outputOption->count() > 0;
     const auto existing = mayReplace(output, origin, overwriting.of(named));
     if (!existing)
-        return fail("", existing.error());
+        return console.fail("", existing.error());
     if (isOccupied(description) && !overwriting.replacesAll() && !readSweepFile(description))
-        return fail("", notReplaced(description, "exists and does not describe a sweep"));
+        return console.fail("", notReplaced(description, "exists and does not describe a sweep"));
     EqualizerSections sections;
     if (!profile.empty())
     {
@@ -111,8 +117,8 @@ Exit SweepSubcommand::run(Console& console)
         if (!actuator)
             return Exit::failed;
         if (actuator->equalizer.empty())
-            return fail(profile, {ErrorCode::invalidData, "equalizer",
-                                  "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+            return console.fail(profile, {ErrorCode::invalidData, "equalizer",
+                                          "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
         sections = actuator->equalizer;
         if (!low)
             params.lowFrequency =
@@ -124,7 +130,7 @@ Exit SweepSubcommand::run(Console& console)
     {
         Error error = played.error();
         error.where = optionFor(error.where);
-        return fail(profile, error);
+        return console.fail(profile, error);
     }
     const std::vector<float>& signal = played->signal;
     params = played->sweep;
@@ -139,9 +145,9 @@ Exit SweepSubcommand::run(Console& console)
     writing.existing = *existing;
     const auto written = writeAudio(output, signal, writing);
     if (!written)
-        return fail(output, written.error());
+        return console.fail(output, written.error());
     if (const auto described = writeSweepFile(description, file); !described)
-        return fail(description, described.error());
+        return console.fail(description, described.error());
 
     const double seconds = static_cast<double>(signal.size()) / params.sampleRate;
     const std::size_t sweeps = levels.size() * static_cast<std::size_t>(repeats);
@@ -167,6 +173,11 @@ Exit SweepSubcommand::run(Console& console)
                                       params.lowFrequency, params.highFrequency, through, durationText(seconds)));
     console.wrote(description, "keep it for the analysis");
     return Exit::ok;
+}
+
+std::unique_ptr<Command> sweepSubcommand()
+{
+    return std::make_unique<SweepSubcommand>();
 }
 
 } // namespace pacini::cli

@@ -1,6 +1,8 @@
-#include "cli/measure/VerifySubcommand.h"
+// Subcommand that verifies an equaliser by a sweep through it.
 
-#include "cli/Checks.h"
+#include "cli/Command.h"
+#include "cli/Options.h"
+#include "cli/measure/Recording.h"
 #include "cli/plot/ResponseFigure.h"
 #include "io/ProfileFile.h"
 
@@ -10,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace pacini::cli
@@ -65,30 +69,41 @@ FrequencyResponse responseBefore(const ProfileMeasurement& measurement)
     }
     return response;
 }
+
+/// `pacini measure verify`: whether an actuator is flat through its equaliser.
+class VerifySubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    RecordingOptions options;
+    std::string profile;
+    std::string output;
+    std::string picture;
+    std::optional<double> low;
+    std::optional<double> high;
+    double tolerance = 4.0;
+};
 } // namespace
 
 CLI::App* VerifySubcommand::declare(CLI::App& app)
 {
     auto* command = app.add_subcommand("verify", "Prove that an actuator is flat through its equaliser");
     options.declare(*command);
-    command
-        ->add_option("--profile", profile,
-                     "Profile with the equaliser through which the sweep was played; the proof is written into it")
-        ->required()
-        ->type_name("PROFILE.json");
-    command->add_option("-o,--output", output, "Profile to write instead")->type_name("PROFILE.json");
-    command->add_option("--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)")
-        ->type_name("PICTURE");
-    command->add_option("--tolerance", tolerance, "Deviation from the mean that passes, dB to both sides")
-        ->capture_default_str()
-        ->check(numberFrom(0.0, 100.0))
-        ->type_name("DB");
-    command->add_option("--low", low, "Start of the range to judge, Hz [of the profile]")
-        ->check(numberFrom(0.1, 200000.0))
-        ->type_name("HZ");
-    command->add_option("--high", high, "End of the range to judge, Hz [of the profile]")
-        ->check(numberFrom(0.1, 200000.0))
-        ->type_name("HZ");
+    addOption(*command, "--profile", profile,
+              "Profile with the equaliser through which the sweep was played; the proof is written into it",
+              "PROFILE.json")
+        ->required();
+    addOption(*command, "-o,--output", output, "Profile to write instead", "PROFILE.json");
+    addOption(*command, "--plot", picture, "Picture of the response before and after (.png, .svg or .pdf)", "PICTURE");
+    addPreset(*command, "--tolerance", tolerance, "Deviation from the mean that passes, dB to both sides",
+              numberFrom(0.0, 100.0), "DB");
+    addOption(*command, "--low", low, "Start of the range to judge, Hz [of the profile]", numberFrom(0.1, 200000.0),
+              "HZ");
+    addOption(*command, "--high", high, "End of the range to judge, Hz [of the profile]", numberFrom(0.1, 200000.0),
+              "HZ");
     command->footer("Exits with 1 when the actuator is not flat.\nExamples:\n"
                     "  pacini measure verify after.wav --sweep flat.json --full-scale 5g --profile mine.json");
     return command;
@@ -96,29 +111,26 @@ CLI::App* VerifySubcommand::declare(CLI::App& app)
 
 Exit VerifySubcommand::run(Console& console)
 {
-    const auto fail = [&](const std::string& file, const Error& error, Exit exit = Exit::failed)
-    {
-        console.error(file, error);
-        return exit;
-    };
     if (!picture.empty() && !plot::pictureFormatOf(picture))
-        return fail(picture, {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
-                    Exit::usage);
+        return console.fail(picture,
+                            {ErrorCode::invalidArgument, "--plot", "has none of the extensions .png, .svg and .pdf"},
+                            Exit::usage);
     ReadWarnings warnings(console.isStrict());
     auto actuator = readProfile(profile, &warnings);
     if (!actuator)
-        return fail(profile, actuator.error());
+        return console.fail(profile, actuator.error());
     console.warnings(profile, warnings.texts());
     if (actuator->equalizer.empty())
-        return fail(profile, {ErrorCode::invalidData, "equalizer",
-                              "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
+        return console.fail(profile, {ErrorCode::invalidData, "equalizer",
+                                      "is empty, so there is nothing to verify; 'pacini measure fit' finds one"});
     const auto analysed = analyseRecordings(console, options);
     if (!analysed)
         return Exit::failed;
     if (analysed->sweep.equalizedFor.empty())
-        return fail(options.sweep, {ErrorCode::invalidData, "equalizedFor",
-                                    "is missing: this sweep did not go through an equaliser; make one with 'pacini "
-                                    "measure sweep --profile'"});
+        return console.fail(options.sweep,
+                            {ErrorCode::invalidData, "equalizedFor",
+                             "is missing: this sweep did not go through an equaliser; make one with 'pacini "
+                             "measure sweep --profile'"});
     if (analysed->sweep.equalizedFor != actuator->name)
         console.warning(options.sweep, fmt::format("went through the equaliser of '{}', not of '{}'",
                                                    analysed->sweep.equalizedFor, actuator->name));
@@ -128,11 +140,11 @@ Exit VerifySubcommand::run(Console& console)
                                  high.value_or(actuator->range.highFrequency), tolerance};
     const auto linearity = judgeLinearity(after, params);
     if (!linearity)
-        return fail(profile, linearity.error());
+        return console.fail(profile, linearity.error());
     setVerification(*actuator, after, *linearity);
     const std::string target = output.empty() ? profile : output;
     if (const auto written = writeProfile(target, *actuator); !written)
-        return fail(target, written.error());
+        return console.fail(target, written.error());
     console.wrote(target);
 
     if (!picture.empty())
@@ -157,7 +169,7 @@ Exit VerifySubcommand::run(Console& console)
         content.responses.push_back({"with the equaliser", after, plot::ResponseRole::flattened});
         const plot::FigureStyle style;
         if (const auto drawn = plot::writeFigure(picture, makeResponseFigure(content, style), style); !drawn)
-            return fail(picture, drawn.error());
+            return console.fail(picture, drawn.error());
         console.wrote(picture);
     }
 
@@ -176,7 +188,13 @@ Exit VerifySubcommand::run(Console& console)
                               linearity->passed() ? "PASS" : "FAIL", tolerance, linearityText(*linearity)));
     if (linearity->passed())
         return Exit::ok;
-    return fail(target, {ErrorCode::invalidData, "", fmt::format("is not flat within \u00b1{:.3g} dB", tolerance)});
+    return console.fail(target,
+                        {ErrorCode::invalidData, "", fmt::format("is not flat within \u00b1{:.3g} dB", tolerance)});
+}
+
+std::unique_ptr<Command> verifySubcommand()
+{
+    return std::make_unique<VerifySubcommand>();
 }
 
 } // namespace pacini::cli

@@ -3,6 +3,7 @@
 // Text helpers that readers and writers of other programs' formats share.
 
 #include "io/JsonText.h"
+#include "io/formats/ClipFormat.h"
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,22 @@ inline constexpr std::size_t largestForeignText = std::size_t(64) << 20;
 
 /// The tree of a JSON file. Errors: as in foreignText() and readJsonTree().
 [[nodiscard]] Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::string>& warnings);
+
+/// What `read(tree, clip)` makes of a JSON file: it fills the clip and its warnings, and returns an error or nothing.
+/// Errors: those of readForeignTree(), `read` and validate().
+template <typename Read>
+[[nodiscard]] Result<ImportedClip> importForeign(std::string_view bytes, Read read)
+{
+    ImportedClip imported;
+    const auto tree = readForeignTree(bytes, imported.warnings);
+    if (!tree)
+        return tree.error();
+    if (std::optional<Error> error = read(*tree, imported))
+        return *std::move(error);
+    if (auto valid = validate(imported.clip); !valid)
+        return valid.error();
+    return imported;
+}
 
 /// `value` in decimal, rounded to `decimals` digits after the point, without needless zeros; never `-0`.
 [[nodiscard]] std::string decimal(double value, int decimals);

@@ -90,4 +90,10 @@ private:
     std::vector<FormatLoss> losses;
 };
 
+/// An export of one file.
+[[nodiscard]] inline ExportedClip oneFile(std::string bytes, LossList losses)
+{
+    return {{{"", std::move(bytes)}}, std::move(losses).sorted()};
+}
+
 } // namespace pacini

@@ -1,7 +1,7 @@
 // What ends an imported clip is felt too.
 
 #include "io/formats/ClipFormat.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/samples/DriveSamples.h"
 #include "support/Catch.h"
 

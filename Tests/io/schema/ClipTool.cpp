@@ -1,5 +1,5 @@
 #include "io/ClipFile.h"
-#include "io/ClipJson.h"
+#include "io/formats/json/ClipJson.h"
 #include "io/schema/DocumentTool.h"
 #include "support/RandomClip.h"
 

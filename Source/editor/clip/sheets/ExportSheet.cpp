@@ -52,8 +52,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     label(lossLabel, "What is kept");
     format.setTitle("Format");
     format.setTooltip("The format of the files");
-    for (std::size_t i = 0; i < exportFormats().size(); ++i)
-        format.addItem(toText(exportFormats()[i].title + "  " + exportFormats()[i].extension), 1 + static_cast<int>(i));
+    for (const ClipFormat& one : exportFormats())
+        format.addItem(toText(one.title) + "  " + toText(one.extension), format.getNumItems() + 1);
     format.setSelectedId(1, juce::dontSendNotification);
     format.onChange = [this]
     {
@@ -116,7 +116,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     formatChanged();
 }
 
-const ExportFormat& ExportSheet::chosenFormat() const
+const ClipFormat& ExportSheet::chosenFormat() const
 {
     return exportFormats()[static_cast<std::size_t>(std::max(0, format.getSelectedId() - 1))];
 }
@@ -125,9 +125,10 @@ ExportChoice ExportSheet::choice() const
 {
     ExportChoice result;
     result.format = chosenFormat().name;
-    if (chosenFormat().rendered && rate.getSelectedId() != sourceRate)
-        result.sampleRate = rate.getSelectedId();
-    result.profile = actuators.profile();
+    if (chosenFormat().isSamples && rate.getSelectedId() != sourceRate)
+        result.params.sampleRate = rate.getSelectedId();
+    if (const auto profile = actuators.profile())
+        result.params.profile = *profile;
     return result;
 }
 
@@ -142,14 +143,14 @@ void ExportSheet::formatChanged()
                        ? folder.getFullPathName()
                        : folder.getChildFile(toText(exportName(*clip, chosenFormat()))).getFullPathName(),
                    false);
-    rate.setEnabled(chosenFormat().rendered);
-    rateLabel.setEnabled(chosenFormat().rendered);
+    rate.setEnabled(chosenFormat().isSamples);
+    rateLabel.setEnabled(chosenFormat().isSamples);
     showLosses();
 }
 
 void ExportSheet::showLosses()
 {
-    const juce::String kept = toText(whatIsKept(chosenFormat().name));
+    const juce::String kept = toText(chosenFormat().keeps);
     losses.setText(kept + "\n", false);
     const int number = ++asked;
     jobs.run([clip = model.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },

@@ -3,7 +3,7 @@
 
 // Export dialog: which clips, in what format, with what losses, and where to.
 
-#include "document/ExportBatch.h"
+#include "document/ClipExport.h"
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/sheets/Sheet.h"
@@ -27,7 +27,7 @@ private:
     void showLosses();
     void browse();
     void run();
-    [[nodiscard]] const ExportFormat& chosenFormat() const;
+    [[nodiscard]] const ClipFormat& chosenFormat() const;
     [[nodiscard]] ExportChoice choice() const;
 
     const EditorModel& model;

@@ -1,6 +1,6 @@
 #include "io/JsonTree.h"
-#include "io/formats/FormatJson.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
+#include "io/formats/JsonEntry.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/RootCurve.h"
 #include "io/formats/ahap/AhapFormat.h"

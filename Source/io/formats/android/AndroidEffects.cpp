@@ -1,7 +1,6 @@
 #include "io/formats/android/AndroidEffects.h"
 
 #include "io/formats/ForeignText.h"
-#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/VoiceReduction.h"
 #include "io/formats/android/AndroidWaveform.h"
@@ -195,7 +194,7 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
                        "envelopes: segments of less than 20 ms, which some devices do not play");
         at += point.duration;
     }
-    result.losses = std::move(losses).sorted();
+    result.losses = std::move(losses);
     return result;
 }
 

@@ -2,7 +2,7 @@
 
 // Conversion of clips to the vibration effects of Android, and back.
 
-#include "io/formats/ClipFormat.h"
+#include "io/formats/LossList.h"
 
 #include <cmath>
 #include <cstdint>
@@ -61,7 +61,7 @@ inline constexpr double androidMotorFrequency = 150.0;
 struct AndroidExport
 {
     AndroidEffects effects;
-    std::vector<FormatLoss> losses;
+    LossList losses;
 };
 
 /// The effects of a valid clip:

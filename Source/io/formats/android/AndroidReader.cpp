@@ -117,31 +117,28 @@ private:
             point.duration = std::llround(duration);
     }
 };
+
+std::optional<Error> readEffect(const nlohmann::json& tree, ImportedClip& imported)
+{
+    AndroidReader reader{FieldsReader(tree), imported.warnings};
+    reader.reader.optionalText("name", imported.clip.name);
+    std::string name = imported.clip.name.substr(0, limits::text / 2);
+    if (tree.contains("waveformEnvelope"))
+        imported.clip = reader.envelope(false);
+    else if (tree.contains("basicEnvelope"))
+        imported.clip = reader.envelope(true);
+    else if (tree.contains("waveform"))
+        imported.clip = reader.waveform();
+    else
+        reader.reader.fail("waveformEnvelope", "is missing, and so are basicEnvelope and waveform");
+    imported.clip.name = std::move(name);
+    return reader.reader.error;
+}
 } // namespace
 
 Result<ImportedClip> readAndroidJson(std::string_view bytes)
 {
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    AndroidReader reader{FieldsReader(*tree), result.warnings};
-    reader.reader.optionalText("name", result.clip.name);
-    std::string name = result.clip.name.substr(0, limits::text / 2);
-    if (tree->contains("waveformEnvelope"))
-        result.clip = reader.envelope(false);
-    else if (tree->contains("basicEnvelope"))
-        result.clip = reader.envelope(true);
-    else if (tree->contains("waveform"))
-        result.clip = reader.waveform();
-    else
-        reader.reader.fail("waveformEnvelope", "is missing, and so are basicEnvelope and waveform");
-    if (reader.reader.error)
-        return *reader.reader.error;
-    result.clip.name = std::move(name);
-    if (auto valid = validate(result.clip); !valid)
-        return valid.error();
-    return result;
+    return importForeign(bytes, readEffect);
 }
 
 } // namespace pacini

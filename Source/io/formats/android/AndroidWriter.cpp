@@ -1,15 +1,24 @@
 #include "io/formats/ForeignText.h"
 #include "io/formats/android/AndroidEffects.h"
 #include "io/formats/android/AndroidFormat.h"
-#include "io/formats/android/AndroidText.h"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace pacini
 {
 
 namespace
 {
+/// A number of each step, twelve to a line after `indent`.
+std::string numbersOf(const std::vector<AndroidStep>& steps, const char* indent, auto AndroidStep::*number)
+{
+    constexpr std::size_t perLine = 12;
+    return numbersInLines(
+        steps, perLine, [&](const AndroidStep& step) { return fmt::format("{}", step.*number); }, indent);
+}
+
 std::string jsonPoints(const std::vector<AndroidPoint>& points, const char* level, const char* frequency)
 {
     std::string text;
@@ -34,6 +43,33 @@ std::string xmlEnvelope(const AndroidEnvelope& envelope, const char* tag, const 
                             decimal(point.amplitude, 4), frequency, decimal(point.frequency, 4), point.duration);
     return text + fmt::format("  </{}>\n", tag);
 }
+
+/// A name in camel case, as functions of Kotlin and Java have it.
+std::string functionName(const Clip& clip, const ExportParams& params)
+{
+    std::string name;
+    bool upper = true;
+    for (const char c : identifierOf(nameOfClip(clip, params.name)))
+    {
+        if (c == '_')
+            upper = true;
+        else
+        {
+            name += upper && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+            upper = false;
+        }
+    }
+    return "vibrationOf" + name;
+}
+
+std::string builderCalls(const std::vector<AndroidPoint>& points)
+{
+    std::string text;
+    for (const AndroidPoint& point : points)
+        text += fmt::format("            .addControlPoint({}f, {}f, {})\n", decimal(point.amplitude, 4),
+                            decimal(point.frequency, 4), point.duration);
+    return text;
+}
 } // namespace
 
 bool isAndroidJson(std::string_view bytes)
@@ -52,7 +88,9 @@ Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& para
 {
     AndroidExport made = androidEffectsOf(clip, params);
     const AndroidEffects& effects = made.effects;
-    return oneFile(fmt::format(R"({{
+    return oneFile(
+        fmt::format(
+            R"({{
   "name": {},
   "waveform": {{
     "timings": [{}
@@ -73,12 +111,11 @@ Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& para
   }}
 }}
 )",
-                               inQuotes(nameOfClip(clip, params.name)), timingsOf(effects.waveform, "      "),
-                               amplitudesOf(effects.waveform, "      "), decimal(effects.basic.initialFrequency, 4),
-                               jsonPoints(effects.basic.points, "intensity", "sharpness"),
-                               decimal(effects.envelope.initialFrequency, 4),
-                               jsonPoints(effects.envelope.points, "amplitude", "frequencyHz")),
-                   std::move(made.losses));
+            inQuotes(nameOfClip(clip, params.name)), numbersOf(effects.waveform, "      ", &AndroidStep::duration),
+            numbersOf(effects.waveform, "      ", &AndroidStep::amplitude), decimal(effects.basic.initialFrequency, 4),
+            jsonPoints(effects.basic.points, "intensity", "sharpness"), decimal(effects.envelope.initialFrequency, 4),
+            jsonPoints(effects.envelope.points, "amplitude", "frequencyHz")),
+        std::move(made.losses));
 }
 
 Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params)
@@ -100,6 +137,80 @@ Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& param
                                                            "initialFrequencyHz", "amplitude", "frequencyHz"))});
     }
     return result;
+}
+
+bool isAndroidKotlin(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
+}
+
+bool isAndroidJava(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
+}
+
+Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params)
+{
+    AndroidExport made = androidEffectsOf(clip, params);
+    return oneFile(fmt::format(R"(import android.os.Build
+import android.os.VibrationEffect
+import android.os.Vibrator
+
+fun {}(vibrator: Vibrator): VibrationEffect {{
+    if (Build.VERSION.SDK_INT >= 36 && vibrator.areEnvelopeEffectsSupported()) {{
+        return VibrationEffect.WaveformEnvelopeBuilder()
+            .setInitialFrequencyHz({}f)
+{}            .build()
+    }}
+    return VibrationEffect.createWaveform(
+        longArrayOf({}
+        ),
+        intArrayOf({}
+        ),
+        -1
+    )
+}}
+)",
+                               functionName(clip, params), decimal(made.effects.envelope.initialFrequency, 4),
+                               builderCalls(made.effects.envelope.points),
+                               numbersOf(made.effects.waveform, "            ", &AndroidStep::duration),
+                               numbersOf(made.effects.waveform, "            ", &AndroidStep::amplitude)),
+                   std::move(made.losses));
+}
+
+Result<ExportedClip> writeAndroidJava(const Clip& clip, const ExportParams& params)
+{
+    AndroidExport made = androidEffectsOf(clip, params);
+    const std::string function = functionName(clip, params);
+    std::string type = function;
+    type[0] = 'V';
+    return oneFile(fmt::format(R"(import android.os.Build;
+import android.os.VibrationEffect;
+import android.os.Vibrator;
+
+public final class {} {{
+    private {}() {{}}
+
+    public static VibrationEffect {}(Vibrator vibrator) {{
+        if (Build.VERSION.SDK_INT >= 36 && vibrator.areEnvelopeEffectsSupported()) {{
+            return new VibrationEffect.WaveformEnvelopeBuilder()
+            .setInitialFrequencyHz({}f)
+{}            .build();
+        }}
+        return VibrationEffect.createWaveform(
+            new long[] {{{}
+            }},
+            new int[] {{{}
+            }},
+            -1);
+    }}
+}}
+)",
+                               type, type, function, decimal(made.effects.envelope.initialFrequency, 4),
+                               builderCalls(made.effects.envelope.points),
+                               numbersOf(made.effects.waveform, "                ", &AndroidStep::duration),
+                               numbersOf(made.effects.waveform, "                ", &AndroidStep::amplitude)),
+                   std::move(made.losses));
 }
 
 } // namespace pacini

@@ -1,6 +1,6 @@
 #include "io/JsonText.h"
 #include "io/formats/ForeignText.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/csv/CsvFormat.h"
 
 #include <pacini/foundation/ParseNumber.h>

@@ -113,10 +113,7 @@ Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams&)
     }
     table.addTime(0.0);
     table.addTime(clip.duration);
-    ExportedClip result;
-    result.files.push_back({"", table.text()});
-    result.losses = std::move(losses).sorted();
-    return result;
+    return oneFile(table.text(), std::move(losses));
 }
 
 } // namespace pacini

@@ -1,6 +1,6 @@
 #include "io/FieldsReader.h"
 #include "io/formats/ForeignText.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/haps/HapsFormat.h"
 
 #include <fmt/format.h>
@@ -227,17 +227,12 @@ private:
         clip.bands.push_back(std::move(band));
     }
 };
-} // namespace
 
-Result<ImportedClip> readHaps(std::string_view bytes)
+std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& imported)
 {
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    FieldsReader reader(*tree);
-    const auto version = tree->find("m_version");
-    const std::string stated = version == tree->end() ? ""
+    FieldsReader reader(tree);
+    const auto version = tree.find("m_version");
+    const std::string stated = version == tree.end() ? ""
                                : version->is_string()
                                    ? version->get<std::string>()
                                    : version->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -253,27 +248,31 @@ Result<ImportedClip> readHaps(std::string_view bytes)
     reader.number("m_gain", gain, Need::optional);
     reader.object("m_vibration", vibration, Need::required, [&](Vibration& inner) { readVibration(reader, inner); });
     if (reader.error)
-        return *reader.error;
+        return reader.error;
     for (const char* name : {"m_texture", "m_stiffness"})
     {
-        const auto other = tree->find(name);
-        if (other == tree->end() || !other->is_object())
+        const auto other = tree.find(name);
+        if (other == tree.end() || !other->is_object())
             continue;
         const auto melodies = other->find("m_melodies");
         if (melodies != other->end() && melodies->is_array() && !melodies->empty())
-            result.warnings.push_back(fmt::format("{}: is not read", name));
+            imported.warnings.push_back(fmt::format("{}: is not read", name));
     }
-    HapsImporter importer(result.warnings);
+    HapsImporter importer(imported.warnings);
     importer.add(vibration, gain);
     if (importer.report.error)
-        return *importer.report.error;
-    result.clip = std::move(importer.clip);
-    result.clip.name = description.substr(0, limits::text / 2);
-    if (result.clip.bands.empty() && result.clip.transients.empty())
-        result.warnings.emplace_back("m_vibration: nothing sounds");
-    if (auto valid = validate(result.clip); !valid)
-        return valid.error();
-    return result;
+        return importer.report.error;
+    imported.clip = std::move(importer.clip);
+    imported.clip.name = description.substr(0, limits::text / 2);
+    if (imported.clip.bands.empty() && imported.clip.transients.empty())
+        imported.warnings.emplace_back("m_vibration: nothing sounds");
+    return {};
+}
+} // namespace
+
+Result<ImportedClip> readHaps(std::string_view bytes)
+{
+    return importForeign(bytes, readHapsEffect);
 }
 
 } // namespace pacini

@@ -89,9 +89,7 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
                                          decimal(voice.duration, timeDigits), keyframes(voice.amplitude, levelDigits),
                                          keyframes(voice.frequency, frequencyDigits));
     const std::string melodies = melody(transients) + "," + melody(note) + "\n    ";
-    ExportedClip result;
-    result.files.push_back(
-        {"", fmt::format(R"({{
+    return oneFile(fmt::format(R"({{
   "m_version": "5",
   "m_description": {},
   "m_HDFlag": 0,
@@ -103,10 +101,9 @@ Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
 {}
 }}
 )",
-                         inQuotes(nameOfClip(clip, params.name)), perception("m_vibration", melodies),
-                         perception("m_texture", ""), perception("m_stiffness", ""))});
-    result.losses = std::move(losses).sorted();
-    return result;
+                               inQuotes(nameOfClip(clip, params.name)), perception("m_vibration", melodies),
+                               perception("m_texture", ""), perception("m_stiffness", "")),
+                   std::move(losses));
 }
 
 } // namespace pacini

@@ -146,10 +146,7 @@ Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
     voice.losses.addCrowding(voice.events, questPlayer.crispLength);
     std::vector<Point> amplitude = rounded(voice.level);
     attach(amplitude, voice.events, voice.losses);
-    ExportedClip result;
-    result.files.push_back({"", textOf(voice, clip.source.file, amplitude, rounded(voice.frequency))});
-    result.losses = std::move(voice.losses).sorted();
-    return result;
+    return oneFile(textOf(voice, clip.source.file, amplitude, rounded(voice.frequency)), std::move(voice.losses));
 }
 
 } // namespace pacini

@@ -48,24 +48,14 @@ std::string namesOf(const std::vector<ProjectClip>& clips)
         names += fmt::format("{}'{}'", i > 0 ? ", " : "", shownText(clips[i].name));
     return names + (clips.size() > maxNamed ? ", ..." : "");
 }
-} // namespace
 
-bool isHasp(std::string_view bytes)
+std::optional<Error> readProject(const nlohmann::json& project, ImportedClip& imported)
 {
-    return bytes.find("\"clips\"") != std::string_view::npos && bytes.find("\"clipId\"") != std::string_view::npos;
-}
-
-Result<ImportedClip> readHasp(std::string_view bytes)
-{
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    const auto list = tree->find("clips");
-    if (list == tree->end() || !list->is_array())
+    const auto list = project.find("clips");
+    if (list == project.end() || !list->is_array())
         return Error{ErrorCode::invalidData, "clips",
-                     list == tree->end() ? "is missing, which a project of Haptics Studio has"
-                                         : "must be a list in brackets"};
+                     list == project.end() ? "is missing, which a project of Haptics Studio has"
+                                           : "must be a list in brackets"};
     const auto clips = clipsOf(*list);
     constexpr const char* advice = "export them from Haptics Studio as .haptic files";
     if (clips.empty())
@@ -83,12 +73,23 @@ Result<ImportedClip> readHasp(std::string_view bytes)
         error.where = error.where.empty() ? where : where + "." + error.where;
         return error;
     }
-    result.clip = std::move(haptic->clip);
+    imported.clip = std::move(haptic->clip);
     if (!clips[0].name.empty())
-        result.clip.name = clips[0].name.substr(0, limits::text / 2);
+        imported.clip.name = clips[0].name.substr(0, limits::text / 2);
     for (const std::string& warning : haptic->warnings)
-        result.warnings.push_back(where + "." + warning);
-    return result;
+        imported.warnings.push_back(where + "." + warning);
+    return {};
+}
+} // namespace
+
+bool isHasp(std::string_view bytes)
+{
+    return bytes.find("\"clips\"") != std::string_view::npos && bytes.find("\"clipId\"") != std::string_view::npos;
+}
+
+Result<ImportedClip> readHasp(std::string_view bytes)
+{
+    return importForeign(bytes, readProject);
 }
 
 } // namespace pacini

@@ -19,6 +19,15 @@ double hjifLevelAt(const Clip& clip, double time)
     return std::sqrt(power);
 }
 
+double hjifHighestLevel(const Clip& clip)
+{
+    double highest = 0.0;
+    for (const Band& band : clip.bands)
+        for (const Breakpoint& point : band.amplitude)
+            highest = std::max(highest, point.value);
+    return highest;
+}
+
 namespace
 {
 /// Correlation of the pulse of an event that stands alone with the Transient of the reference player that begins with

@@ -33,4 +33,7 @@ struct HjifEvent
 /// The amplitude of all bands together at `time` s.
 [[nodiscard]] double hjifLevelAt(const Clip& clip, double time);
 
+/// The highest amplitude that a band has anywhere.
+[[nodiscard]] double hjifHighestLevel(const Clip& clip);
+
 } // namespace pacini

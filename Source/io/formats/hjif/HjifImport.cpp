@@ -1,7 +1,7 @@
 #include "io/formats/hjif/HjifImport.h"
 
 #include "io/JsonText.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/hjif/HjifEvents.h"
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifVoices.h"

@@ -8,27 +8,19 @@
 namespace pacini
 {
 
-bool isHjif(std::string_view bytes)
+namespace
 {
-    constexpr auto none = std::string_view::npos;
-    return bytes.find("\"perceptions\"") != none && bytes.find("\"avatars\"") != none;
-}
-
-Result<ImportedClip> readHjif(std::string_view bytes)
+std::optional<Error> readHjifClip(const nlohmann::json& tree, ImportedClip& imported)
 {
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    const auto file = readHjifFile(*tree, result.warnings);
+    const auto file = readHjifFile(tree, imported.warnings);
     if (!file)
         return file.error();
-    auto clip = clipOfHjif(*file, result.warnings);
+    auto clip = clipOfHjif(*file, imported.warnings);
     if (!clip)
         return clip.error();
-    result.clip = std::move(clip).value();
-    result.clip.name = file->description.substr(0, limits::text / 2);
-    if (result.clip.bands.empty() && result.clip.transients.empty())
+    imported.clip = std::move(clip).value();
+    imported.clip.name = file->description.substr(0, limits::text / 2);
+    if (imported.clip.bands.empty() && imported.clip.transients.empty())
     {
         const bool hadMore = std::any_of(file->perceptions.begin(), file->perceptions.end(),
                                          [](const HjifPerception& p) {
@@ -37,11 +29,21 @@ Result<ImportedClip> readHjif(std::string_view bytes)
                                          });
         if (hadMore)
             return Error{ErrorCode::invalidData, "perceptions", "hold nothing that can be read as vibration in time"};
-        result.warnings.push_back("perceptions: nothing sounds");
+        imported.warnings.push_back("perceptions: nothing sounds");
     }
-    if (auto valid = validate(result.clip); !valid)
-        return valid.error();
-    return result;
+    return {};
+}
+} // namespace
+
+bool isHjif(std::string_view bytes)
+{
+    constexpr auto none = std::string_view::npos;
+    return bytes.find("\"perceptions\"") != none && bytes.find("\"avatars\"") != none;
+}
+
+Result<ImportedClip> readHjif(std::string_view bytes)
+{
+    return importForeign(bytes, readHjifClip);
 }
 
 } // namespace pacini

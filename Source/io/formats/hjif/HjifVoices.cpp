@@ -5,7 +5,6 @@
 #include "io/formats/hjif/HjifFit.h"
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifLikeness.h"
-#include "io/formats/hjif/WithinShare.h"
 
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -39,6 +38,47 @@ struct Reduction
     std::size_t voices = 5;
     double semitones = 2.0; ///< within which pitch stays
 };
+
+/// As few points as a walk along the curve finds that keep every point within `share` of its value, or within
+/// `floor`: a limit that follows the level keeps the rise of an event out of silence. The cone of slopes from the last
+/// kept point to all points since is that of J. O'Rourke, "An on-line algorithm for fitting straight lines between data
+/// ranges" (1981), with the line starting at a point.
+Curve withinShare(const Curve& curve, double share, double floor)
+{
+    if (curve.size() < 3)
+        return curve;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    Curve kept{curve.front()};
+    // The last kept point is asked for anew each time: keeping one moves it.
+    const auto slopeTo = [&kept](double value, const Breakpoint& point)
+    {
+        const Breakpoint& from = kept.back();
+        return point.time > from.time ? (value - from.value) / (point.time - from.time) : any;
+    };
+    double least = -any, most = any;
+    for (std::size_t i = 1; i < curve.size(); ++i)
+    {
+        const double slope = slopeTo(curve[i].value, curve[i]);
+        if (curve[i].time <= kept.back().time || slope < least || slope > most)
+        {
+            if (!(kept.back() == curve[i - 1]))
+                kept.push_back(curve[i - 1]);
+            least = -any;
+            most = any;
+            if (curve[i].time <= kept.back().time)
+            {
+                kept.push_back(curve[i]);
+                continue;
+            }
+        }
+        const double tolerance = std::max(floor, share * curve[i].value);
+        least = std::max(least, slopeTo(curve[i].value - tolerance, curve[i]));
+        most = std::min(most, slopeTo(curve[i].value + tolerance, curve[i]));
+    }
+    if (!(kept.back() == curve.back()))
+        kept.push_back(curve.back());
+    return kept;
+}
 
 /// Few points that stay within some semitones. It comes before the levelling, which undoes the beats of the waves that
 /// are really played.
@@ -81,11 +121,7 @@ Clip reduced(const Clip& clip, CarrierMode carriers, const Reduction& how)
 
 double leastFelt(const Clip& clip)
 {
-    double loudest = 0.0;
-    for (const Band& band : clip.bands)
-        for (const Breakpoint& point : band.amplitude)
-            loudest = std::max(loudest, point.value);
-    return floorBelowLoudest * loudest;
+    return floorBelowLoudest * hjifHighestLevel(clip);
 }
 
 Clip withCurves(Clip clip, std::vector<Curve> curves)

@@ -2,7 +2,7 @@
 
 // Waveform channels of an HJIF file: drawn as samples and translated to a clip.
 
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/hjif/HjifFile.h"
 #include "io/formats/hjif/HjifWaves.h"
 

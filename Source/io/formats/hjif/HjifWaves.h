@@ -2,7 +2,7 @@
 
 // Conversion of an HJIF file's effects to bands and events of a clip.
 
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 #include "io/formats/hjif/HjifFile.h"
 
 #include <pacini/clip/Clip.h>

@@ -66,15 +66,6 @@ double putOnTicks(const Curve& curve, Put put)
     return moved;
 }
 
-double highestAmplitude(const Clip& clip)
-{
-    double highest = 0.0;
-    for (const Band& band : clip.bands)
-        for (const Breakpoint& point : band.amplitude)
-            highest = std::max(highest, point.value);
-    return highest;
-}
-
 double highestSum(const Clip& clip)
 {
     std::vector<double> times;
@@ -94,7 +85,7 @@ double highestSum(const Clip& clip)
             sum += reader.at(time);
         highest = std::max(highest, sum);
     }
-    highest = std::max(highest, highestAmplitude(clip)); // on a step the earlier value may be the larger one
+    highest = std::max(highest, hjifHighestLevel(clip)); // on a step the earlier value may be the larger one
     for (const Transient& event : clip.transients)
         highest = std::max(highest, event.amplitude);
     return highest;
@@ -352,10 +343,8 @@ Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
     }
     Writer writer(played, params);
     writer.losses = std::move(losses);
-    ExportedClip result;
-    result.files.push_back({"", writer.write(nameOfClip(clip, params.name))});
-    result.losses = std::move(writer.losses).sorted();
-    return result;
+    std::string text = writer.write(nameOfClip(clip, params.name)); // finds losses
+    return oneFile(std::move(text), std::move(writer.losses));
 }
 
 } // namespace pacini

@@ -1,7 +1,7 @@
 #include "io/formats/json/JsonFormat.h"
 
-#include "io/ClipJson.h"
 #include "io/ReadWarnings.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <utility>
 

@@ -99,11 +99,9 @@ Result<ExportedClip> writeOpenXrHeader(const Clip& clip, const ExportParams& par
     const std::string name = identifierOf(made->name);
     const std::vector<float> silence{0.0f};
     const std::vector<float>& samples = made->drive.samples.empty() ? silence : made->drive.samples;
-    ExportedClip result;
-    result.files.push_back(
-        {"",
-         fmt::format(
-             R"(/* XR_FB_haptic_pcm: submit at most {0} samples at a time with append = XR_TRUE after the first buffer.
+    return oneFile(
+        fmt::format(
+            R"(/* XR_FB_haptic_pcm: submit at most {0} samples at a time with append = XR_TRUE after the first buffer.
    XR_FB_haptic_amplitude_envelope: all amplitudes last {1}_amplitude_duration_ns together. */
 #pragma once
 #include <stdint.h>
@@ -118,11 +116,10 @@ static const uint32_t {1}_amplitude_count = {6};
 static const float {1}_amplitudes[{6}] = {{{7}
 }};
 )",
-             maxSamples, name, made->drive.sampleRate, samples.size(),
-             numbersInLines(samples, 10, [](float x) { return floatNumber(static_cast<double>(x)); }), made->duration,
-             made->amplitudes.size(), numbersInLines(made->amplitudes, 10, floatNumber))});
-    result.losses = std::move(made.value().drive.losses).sorted();
-    return result;
+            maxSamples, name, made->drive.sampleRate, samples.size(),
+            numbersInLines(samples, 10, [](float x) { return floatNumber(static_cast<double>(x)); }), made->duration,
+            made->amplitudes.size(), numbersInLines(made->amplitudes, 10, floatNumber)),
+        std::move(made->drive.losses));
 }
 
 Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& params)
@@ -135,8 +132,7 @@ Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& param
         buffers += fmt::format("{}\n    {{\"append\": {}, \"bufferSize\": {}, \"buffer\": [{}]}}",
                                buffers.empty() ? "" : ",", buffers.empty() ? "false" : "true", buffer.size(),
                                numbersInLines(buffer, 10, [](float x) { return number(static_cast<double>(x)); }));
-    ExportedClip result;
-    result.files.push_back({"", fmt::format(R"({{
+    return oneFile(fmt::format(R"({{
   "name": {},
   "pcmVibration": {{
     "sampleRate": {},
@@ -149,10 +145,9 @@ Result<ExportedClip> writeOpenXrJson(const Clip& clip, const ExportParams& param
   }}
 }}
 )",
-                                            inQuotes(made->name), made->drive.sampleRate, buffers, made->duration,
-                                            made->amplitudes.size(), numbersInLines(made->amplitudes, 10, number))});
-    result.losses = std::move(made.value().drive.losses).sorted();
-    return result;
+                               inQuotes(made->name), made->drive.sampleRate, buffers, made->duration,
+                               made->amplitudes.size(), numbersInLines(made->amplitudes, 10, number)),
+                   std::move(made->drive.losses));
 }
 
 } // namespace pacini

@@ -8,12 +8,10 @@ namespace pacini
 {
 
 /// The drive signal of the clip (made for the profile where there is one) at `sampleRate`, 2000 to 48000 Hz, 8000
-/// where it is not given. 8-bit WAV is unsigned, all else signed and little-endian. Losses: samples beyond full scale
-/// are cut. Errors: invalidArgument for the rate, those of driveSignal().
-[[nodiscard]] Result<ExportedClip> writeWav8(const Clip& clip, const ExportParams& params);
-[[nodiscard]] Result<ExportedClip> writeWav16(const Clip& clip, const ExportParams& params);
-[[nodiscard]] Result<ExportedClip> writeRaw8(const Clip& clip, const ExportParams& params);
-[[nodiscard]] Result<ExportedClip> writeRaw16(const Clip& clip, const ExportParams& params);
+/// where it is not given. `bits` of a sample are 8 or 16; 8-bit WAV is unsigned, all else signed and little-endian.
+/// Losses: samples beyond full scale are cut. Errors: invalidArgument for the rate, those of driveSignal().
+[[nodiscard]] Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits);
+[[nodiscard]] Result<ExportedClip> writeRaw(const Clip& clip, const ExportParams& params, int bits);
 
 [[nodiscard]] bool isCArray(std::string_view bytes);
 

@@ -66,31 +66,6 @@ Result<std::string> wavBytes(const DriveSamples& drive, int bits)
     return wav;
 }
 
-Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits)
-{
-    auto drive = driveSamples(clip, params, usualRate);
-    if (!drive)
-        return drive.error();
-    auto wav = wavBytes(*drive, bits);
-    if (!wav)
-        return wav.error();
-    ExportedClip result;
-    result.files.push_back({"", std::move(wav).value()});
-    result.losses = std::move(drive.value().losses).sorted();
-    return result;
-}
-
-Result<ExportedClip> writeRaw(const Clip& clip, const ExportParams& params, int bits)
-{
-    auto drive = driveSamples(clip, params, usualRate);
-    if (!drive)
-        return drive.error();
-    ExportedClip result;
-    result.files.push_back({"", pcmBytes(drive->samples, bits, true)});
-    result.losses = std::move(drive.value().losses).sorted();
-    return result;
-}
-
 std::string upperCase(std::string name)
 {
     for (char& c : name)
@@ -104,24 +79,23 @@ bool isCArray(std::string_view bytes)
     return bytes.starts_with("#ifndef HAPTIC_");
 }
 
-Result<ExportedClip> writeWav8(const Clip& clip, const ExportParams& params)
+Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits)
 {
-    return writeWav(clip, params, 8);
+    auto drive = driveSamples(clip, params, usualRate);
+    if (!drive)
+        return drive.error();
+    auto wav = wavBytes(*drive, bits);
+    if (!wav)
+        return wav.error();
+    return oneFile(std::move(*wav), std::move(drive->losses));
 }
 
-Result<ExportedClip> writeWav16(const Clip& clip, const ExportParams& params)
+Result<ExportedClip> writeRaw(const Clip& clip, const ExportParams& params, int bits)
 {
-    return writeWav(clip, params, 16);
-}
-
-Result<ExportedClip> writeRaw8(const Clip& clip, const ExportParams& params)
-{
-    return writeRaw(clip, params, 8);
-}
-
-Result<ExportedClip> writeRaw16(const Clip& clip, const ExportParams& params)
-{
-    return writeRaw(clip, params, 16);
+    auto drive = driveSamples(clip, params, usualRate);
+    if (!drive)
+        return drive.error();
+    return oneFile(pcmBytes(drive->samples, bits, true), std::move(drive->losses));
 }
 
 Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params)
@@ -132,15 +106,12 @@ Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params)
     const std::string name = identifierOf(nameOfClip(clip, params.name));
     const std::vector<float> silence{0.0f}; // C has no empty arrays
     const std::vector<float>& samples = drive->samples.empty() ? silence : drive->samples;
-    ExportedClip result;
-    result.files.push_back(
-        {"", fmt::format("#ifndef HAPTIC_{0}_H\n#define HAPTIC_{0}_H\n\n#include <stdint.h>\n\n"
-                         "#define HAPTIC_{0}_SAMPLE_RATE {1}\n#define HAPTIC_{0}_LENGTH {2}\n\n"
-                         "static const int8_t haptic_{3}[HAPTIC_{0}_LENGTH] = {{{4}\n}};\n\n#endif\n",
-                         upperCase(name), drive->sampleRate, samples.size(), name,
-                         numbersInLines(samples, 20, [](float x) { return fmt::format("{}", stepsOf(x, 8)); }))});
-    result.losses = std::move(drive.value().losses).sorted();
-    return result;
+    return oneFile(fmt::format("#ifndef HAPTIC_{0}_H\n#define HAPTIC_{0}_H\n\n#include <stdint.h>\n\n"
+                               "#define HAPTIC_{0}_SAMPLE_RATE {1}\n#define HAPTIC_{0}_LENGTH {2}\n\n"
+                               "static const int8_t haptic_{3}[HAPTIC_{0}_LENGTH] = {{{4}\n}};\n\n#endif\n",
+                               upperCase(name), drive->sampleRate, samples.size(), name,
+                               numbersInLines(samples, 20, [](float x) { return fmt::format("{}", stepsOf(x, 8)); })),
+                   std::move(drive->losses));
 }
 
 } // namespace pacini

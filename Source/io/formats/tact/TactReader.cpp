@@ -232,33 +232,32 @@ Curve largestOf(std::vector<Piece> pieces, double duration)
     }
     return curve;
 }
-} // namespace
 
-Result<ImportedClip> readTact(std::string_view bytes)
+std::optional<Error> readTactProject(const nlohmann::json& tree, ImportedClip& imported)
 {
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    TactReader reader{FieldsReader(*tree), result.warnings};
+    TactReader reader{FieldsReader(tree), imported.warnings};
     reader.reader.takeTextsAsNumbers();
     reader.read();
     if (reader.reader.error)
-        return *reader.reader.error;
+        return reader.reader.error;
     if (const std::size_t texts = reader.reader.textsTaken(); texts > 0)
-        result.warnings.push_back(
+        imported.warnings.push_back(
             fmt::format("project.tracks: {} in quotes and read as numbers",
                         texts == 1 ? std::string("a number is") : fmt::format("{} numbers are", texts)));
     SingleVoice voice;
     voice.duration = reader.duration / 1000.0;
     voice.amplitude = largestOf(std::move(reader.pieces), reader.duration);
     voice.frequency = {{0.0, tactMotorFrequency}};
-    result.clip = clipOfVoice(std::move(voice));
-    result.clip.name = reader.name.substr(0, limits::text / 2);
-    result.warnings.emplace_back("project.tracks: the strongest motor of all places is read as one amplitude");
-    if (auto valid = validate(result.clip); !valid)
-        return valid.error();
-    return result;
+    imported.clip = clipOfVoice(std::move(voice));
+    imported.clip.name = reader.name.substr(0, limits::text / 2);
+    imported.warnings.emplace_back("project.tracks: the strongest motor of all places is read as one amplitude");
+    return {};
+}
+} // namespace
+
+Result<ImportedClip> readTact(std::string_view bytes)
+{
+    return importForeign(bytes, readTactProject);
 }
 
 } // namespace pacini

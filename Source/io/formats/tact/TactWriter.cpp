@@ -63,9 +63,7 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
     }
     const std::int64_t end = tactFrame * count;
     const std::string name = inQuotes(nameOfClip(clip, params.name));
-    ExportedClip result;
-    result.files.push_back(
-        {"", fmt::format(R"({{
+    return oneFile(fmt::format(R"({{
   "project": {{
     "name": {},
     "createdAt": 0,
@@ -91,9 +89,8 @@ Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
   "size": 20
 }}
 )",
-                         name, decimal(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes, end)});
-    result.losses = std::move(losses).sorted();
-    return result;
+                               name, decimal(static_cast<double>(end) / 1000.0, 3), layouts, name, end, modes, end),
+                   std::move(losses));
 }
 
 } // namespace pacini

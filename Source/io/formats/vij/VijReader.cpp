@@ -1,6 +1,6 @@
 #include "io/formats/ForeignText.h"
-#include "io/formats/FormatJson.h"
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
+#include "io/formats/JsonEntry.h"
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/vij/VijFormat.h"
 
@@ -20,7 +20,7 @@ public:
     {
     }
 
-    Result<Clip> read()
+    std::optional<Error> read(Clip& filled)
     {
         const JsonEntry voices = root.required("voices");
         const JsonEntry envelopes = voices.required("envelopes");
@@ -34,7 +34,7 @@ public:
             report.warn(bands.path(), "is not kept");
         const double stated = statedDuration();
         if (error)
-            return *error;
+            return error;
         addBand(amplitude, frequency);
         addEvents(strengths, sharpnesses);
         clip.duration =
@@ -42,9 +42,8 @@ public:
         for (Breakpoint& point : clip.bands.front().pitch)
             point.time = std::min(point.time, clip.duration);
         lastUntilSounded(clip);
-        if (auto valid = validate(clip); !valid)
-            return valid.error();
-        return std::move(clip);
+        filled = std::move(clip);
+        return {};
     }
 
 private:
@@ -121,15 +120,8 @@ bool isVij(std::string_view bytes)
 
 Result<ImportedClip> readVij(std::string_view bytes)
 {
-    ImportedClip result;
-    const auto tree = readForeignTree(bytes, result.warnings);
-    if (!tree)
-        return tree.error();
-    auto clip = VijReader(*tree, result.warnings).read();
-    if (!clip)
-        return clip.error();
-    result.clip = std::move(*clip);
-    return result;
+    return importForeign(bytes, [](const nlohmann::json& tree, ImportedClip& imported)
+                         { return VijReader(tree, imported.warnings).read(imported.clip); });
 }
 
 } // namespace pacini

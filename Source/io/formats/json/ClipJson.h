@@ -8,7 +8,6 @@
 #include <pacini/clip/Clip.h>
 
 #include <cstddef>
-#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -27,11 +26,8 @@ inline constexpr std::size_t largestClipText = std::size_t(512) << 20;
 /// missing keeps the default of Clip. Errors carry the place: a path such as `bands[2].amplitude[7].time` for a wrong,
 /// missing or badly ordered value (the path of the missing member), `line 3, column 17` for wrong JSON. Codes:
 /// invalidData, unsupportedVersion, notFinite (numbers beyond double), tooLarge (longer than `maximumBytes`, nested
-/// deeper than 32, beyond the limits of Clip.h). The stream is read once, in blocks, so that a bad text fails where it
-/// turns bad.
+/// deeper than 32, beyond the limits of Clip.h).
 [[nodiscard]] Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes = largestClipText,
-                                        ReadWarnings* warnings = nullptr);
-[[nodiscard]] Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes = largestClipText,
                                         ReadWarnings* warnings = nullptr);
 
 /// The text of a clip for which validate() holds: UTF-8, all members in the order of the schema, the points of one

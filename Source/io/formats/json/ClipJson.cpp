@@ -1,18 +1,15 @@
-#include "io/ClipJson.h"
+#include "io/formats/json/ClipJson.h"
 
-#include "io/ClipFields.h"
 #include "io/FieldsHandler.h"
 #include "io/FieldsWriter.h"
+#include "io/formats/json/ClipFields.h"
 
 #include <utility>
 
 namespace pacini
 {
 
-namespace
-{
-template <typename Text>
-Result<Clip> read(Text& text, std::size_t maximumBytes, ReadWarnings* warnings)
+Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes, ReadWarnings* warnings)
 {
     Clip clip;
     FieldsHandler handler(clip, clipFields::document);
@@ -21,17 +18,6 @@ Result<Clip> read(Text& text, std::size_t maximumBytes, ReadWarnings* warnings)
     if (auto valid = validate(clip); !valid)
         return valid.error();
     return clip;
-}
-} // namespace
-
-Result<Clip> readClipJson(std::string_view text, std::size_t maximumBytes, ReadWarnings* warnings)
-{
-    return read(text, maximumBytes, warnings);
-}
-
-Result<Clip> readClipJson(std::istream& text, std::size_t maximumBytes, ReadWarnings* warnings)
-{
-    return read(text, maximumBytes, warnings);
 }
 
 std::string writeClipJson(const Clip& clip)

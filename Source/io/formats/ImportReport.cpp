@@ -1,4 +1,4 @@
-#include "io/formats/ImportedClip.h"
+#include "io/formats/ImportReport.h"
 
 #include <pacini/clip/BandPriority.h>
 #include <pacini/synthesis/TransientPulse.h>

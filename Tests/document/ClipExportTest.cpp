@@ -1,4 +1,4 @@
-#include "document/ExportBatch.h"
+#include "document/ClipExport.h"
 
 #include "support/Catch.h"
 #include "support/TempFolder.h"
@@ -18,12 +18,12 @@ TEST_CASE("An export never has the name of the recording that its clip was made 
     Clip clip;
     clip.name = "bell";
     clip.duration = 0.1;
-    for (const ExportFormat& format : exportFormats())
+    for (const ClipFormat& format : exportFormats())
     {
         CAPTURE(format.name);
         CHECK(exportName(clip, format) != "bell.wav");
         ExportChoice choice;
-        choice.format = format.name;
+        choice.format = std::string(format.name);
         choice.folder = folder.path();
         static_cast<void>(exportClips({std::make_shared<const Clip>(clip)}, choice)); // some want more than nothing
         CHECK(bytesOf(folder / "bell.wav") == "the recording");

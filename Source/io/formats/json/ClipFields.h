@@ -2,8 +2,8 @@
 
 // Field lists of a clip in JSON, which its reader, its writer and its seal follow.
 
-#include "io/ClipJson.h"
 #include "io/Fields.h"
+#include "io/formats/json/ClipJson.h"
 
 #include <pacini/clip/Clip.h>
 

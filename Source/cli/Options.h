@@ -1,7 +1,7 @@
 #pragma once
 
-// Validators of option values. Like those of CLI11, but NaN is refused, the nearest name is suggested, and the messages
-// read well.
+// Declaration of options, and validators of their values. The validators are like those of CLI11, but NaN is refused,
+// the nearest name is suggested, and the messages read well.
 
 #include "io/NearestName.h"
 
@@ -71,6 +71,31 @@ template <typename Integer>
             return fmt::format("'{}' is none of {}{}", text, fmt::join(names, ", "), meant);
         },
         std::move(set));
+}
+
+/// Adds an option to `command`. Help texts show `valueName` for its value.
+template <typename T>
+CLI::Option* addOption(CLI::App& command, const std::string& names, T& value, const std::string& description,
+                       const std::string& valueName)
+{
+    return command.add_option(names, value, description)->type_name(valueName);
+}
+
+/// The same for values that `check` takes; without a `valueName` help texts show the type.
+template <typename T>
+CLI::Option* addOption(CLI::App& command, const std::string& names, T& value, const std::string& description,
+                       const CLI::Validator& check, const std::string& valueName = "")
+{
+    auto* option = command.add_option(names, value, description)->check(check);
+    return valueName.empty() ? option : option->type_name(valueName);
+}
+
+/// As addOption(), for a `value` that is taken as it is where the option is not given, and shown in help texts.
+template <typename T, typename... More>
+CLI::Option* addPreset(CLI::App& command, const std::string& names, T& value, const std::string& description,
+                       const More&... more)
+{
+    return addOption(command, names, value, description, more...)->capture_default_str();
 }
 
 } // namespace pacini::cli
