@@ -1,13 +1,14 @@
-#include "EqualizerReference.h"
+#include "cli/bench/FirFit.h"
+
+#include "linearize/EqualizerReference.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
-
-#include <pacini/linearize/FirFit.h>
 
 #include <limits>
 #include <span>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace
@@ -102,7 +103,7 @@ TEST_CASE("The least-squares taps cannot be improved by changing one of them", "
     REQUIRE(problem.ok());
     const std::size_t size = 4096;
     const std::vector<double> amplitude = amplitudesOf(EqualizerTarget(*problem), size, fs);
-    const std::vector<double> taps = detail::symmetricTaps(*problem, amplitude, 20);
+    const std::vector<double> taps = cli::detail::symmetricTaps(*problem, amplitude, 20);
     const auto costOf = [&](const std::vector<double>& half)
     {
         double sum = 0.0;

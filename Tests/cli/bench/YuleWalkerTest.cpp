@@ -1,13 +1,14 @@
-#include "EqualizerReference.h"
+#include "cli/bench/YuleWalker.h"
+
+#include "linearize/EqualizerReference.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
-
-#include <pacini/linearize/YuleWalker.h>
 
 #include <limits>
 #include <span>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace
@@ -112,7 +113,7 @@ TEST_CASE("Levinson's predictor of an autoregressive process is its own polynomi
     for (std::size_t lag = 0; lag < r.size(); ++lag)
         for (std::size_t n = lag; n < h.size(); ++n)
             r[lag] += h[n] * h[n - lag];
-    const auto found = detail::levinson(r, 6);
+    const auto found = cli::detail::levinson(r, 6);
     REQUIRE(found.size() == 7);
     for (std::size_t k = 0; k < found.size(); ++k)
         CHECK(found[k] == Approx(k < wanted.size() ? wanted[k] : 0.0).margin(1e-9));

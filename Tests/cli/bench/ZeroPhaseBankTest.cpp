@@ -1,14 +1,15 @@
+#include "cli/bench/ZeroPhaseBank.h"
+
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
 
-#include <pacini/filters/ZeroPhaseBank.h>
-
 #include <algorithm>
 #include <cfenv>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace

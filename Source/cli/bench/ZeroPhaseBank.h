@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// Implementation of the zero-phase filters.
@@ -202,4 +202,4 @@ inline BandSignals splitRaisedCosine(std::span<const float> signal, double fs, c
                                                           : detail::splitForwardBackward(signal, fs, layout);
 }
 
-} // namespace pacini
+} // namespace pacini::cli
