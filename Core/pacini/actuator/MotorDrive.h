@@ -64,17 +64,9 @@ struct MotorDriveParams
 ///   not braked for a speed that it never had.
 ///
 /// Out of [-overdrive, overdrive], not negative without braking. No latency.
-class MotorDrive
+class MotorDrive : public DesignedBlock<MotorDrive, MotorDriveParams>
 {
 public:
-    using Params = MotorDriveParams;
-
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
     void setParams(const Params& params) noexcept
     {
         if (!current.heat)
@@ -108,8 +100,6 @@ public:
             });
     }
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
-
 private:
     double tick(double strength) noexcept
     {
@@ -134,8 +124,6 @@ private:
         return voltage;
     }
 
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
     FirstOrderInverse speed;
     CoilHeat heat;
     double highest = 1.0;
