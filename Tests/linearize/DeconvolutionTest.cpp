@@ -3,7 +3,7 @@
 #include "support/Measure.h"
 
 #include <pacini/linearize/Deconvolution.h>
-#include <pacini/linearize/HarmonicResponses.h>
+#include <pacini/linearize/LevelAnalysis.h>
 
 #include <algorithm>
 #include <cmath>

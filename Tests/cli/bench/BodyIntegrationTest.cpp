@@ -5,7 +5,7 @@
 #include "support/Catch.h"
 #include "support/Measure.h"
 
-#include <pacini/actuator/BodyFilter.h>
+#include <pacini/actuator/BodyModel.h>
 
 #include <array>
 
