@@ -44,7 +44,7 @@ EqualizerStep::EqualizerStep(MeasurementController& wanted)
             "How much any frequency may be raised, dB; what is weaker stays weak and the rest is lowered"),
       low("Flat from", "Start of the range that is flattened, Hz"),
       high("Flat to", "End of the range that is flattened, Hz"),
-      desk(wanted)
+      controller(wanted)
 {
     sections.control.addItem("Automatic", automatic);
     for (int i = 1; i <= maxSections; ++i)
@@ -73,12 +73,12 @@ EqualizerStep::EqualizerStep(MeasurementController& wanted)
 
 void EqualizerStep::takeWish()
 {
-    EqualizerRequest request = desk.measurement().request();
+    EqualizerRequest request = controller.measurement().request();
     const int chosen = sections.control.getSelectedId();
     request.sections = chosen == automatic ? std::nullopt : std::optional(chosen);
     request.maxBoost = boost.control.getValue();
     // The ends follow what is measured until they are moved.
-    if (const MeasuredResponse* response = desk.measurement().response())
+    if (const MeasuredResponse* response = controller.measurement().response())
     {
         const FrequencyRange& felt = response->findings.features.felt;
         if (request.lowFrequency > 0.0 || std::abs(low.control.getValue() - std::round(felt.low)) > 0.5)
@@ -86,17 +86,17 @@ void EqualizerStep::takeWish()
         if (request.highFrequency > 0.0 || std::abs(high.control.getValue() - std::round(felt.high)) > 0.5)
             request.highFrequency = high.control.getValue();
     }
-    desk.setRequest(request);
+    controller.setRequest(request);
 }
 
 void EqualizerStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     const EqualizerRequest& request = work.request();
     const auto quietly = juce::dontSendNotification;
     sections.control.setSelectedId(request.sections.value_or(automatic), quietly);
     boost.control.setValue(request.maxBoost, quietly);
-    const bool free = !desk.isPlaying();
+    const bool free = !controller.isPlaying();
     for (juce::Component* one : std::initializer_list<juce::Component*>{&sections, &boost, &low, &high})
         one->setEnabled(free && work.response() != nullptr);
     const MeasuredResponse* response = work.response();

@@ -13,7 +13,7 @@ juce::String levelUnit(const ActuatorMeasurement& work)
     return work.settings().calibrated ? toText("dB re 1 m/s² at full drive") : juce::String("dB, relative");
 }
 
-ResponseStep::ResponseStep(MeasurementController& wanted) : desk(wanted)
+ResponseStep::ResponseStep(MeasurementController& wanted) : controller(wanted)
 {
     for (juce::Component* child : std::initializer_list<juce::Component*>{&facts, &notes, &plot, &distortion})
         addAndMakeVisible(child);
@@ -22,7 +22,7 @@ ResponseStep::ResponseStep(MeasurementController& wanted) : desk(wanted)
 
 void ResponseStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     ResponsePlot::Content curves, harmonics;
     harmonics.unit = ResponsePlot::Unit::percent;
     harmonics.axisName = "distortion";

@@ -29,7 +29,7 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
     : name("Name", "What the actuator is called in the list of actuators"),
       file("File", "The profile that is written, .json"),
       saveButton("Save profile"),
-      desk(wanted),
+      controller(wanted),
       services(around),
       browse("Browse" + toText("…"))
 {
@@ -81,7 +81,7 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
 void SaveStep::follow()
 {
     if (!ownFile)
-        file.control.setText(juce::File(pathText(desk.profileFolder()))
+        file.control.setText(juce::File(pathText(controller.profileFolder()))
                                  .getChildFile(fileNameOf(name.control.getText()) + ".json")
                                  .getFullPathName(),
                              false);
@@ -90,19 +90,19 @@ void SaveStep::follow()
 
 void SaveStep::save()
 {
-    const auto saved = desk.save(name.control.getText().trim().toStdString(),
-                                 pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText())),
-                                 use.getToggleState());
+    const auto saved = controller.save(
+        name.control.getText().trim().toStdString(),
+        pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText())), use.getToggleState());
     problem = saved ? std::string() : saved.error().text();
     refresh();
 }
 
 void SaveStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     const bool ready = work.equalizer() != nullptr;
     saveButton.setEnabled(ready && name.control.getText().trim().isNotEmpty() &&
-                          desk.activity() == MeasurementController::Activity::none);
+                          controller.activity() == MeasurementController::Activity::none);
     std::vector<Note> lines;
     if (ready)
     {
@@ -118,7 +118,7 @@ void SaveStep::refresh()
                                            : juce::String(verified->linearity.passed() ? "passed, " : "not passed, ") +
                                                  "worst " + (verified->linearity.worstDeviation >= 0.0 ? "+" : "") +
                                                  numberText(verified->linearity.worstDeviation, 2) + " dB"},
-             {"Limits from", desk.base() ? toText(work.base().name) : juce::String("nothing is known")}});
+             {"Limits from", controller.base() ? toText(work.base().name) : juce::String("nothing is known")}});
         if (!work.saved().empty())
             lines.push_back({"Saved to " + work.saved() + ". It is in the list of actuators now."});
         else

@@ -30,7 +30,7 @@ private:
     [[nodiscard]] juce::Rectangle<int> rigCard() const;
     [[nodiscard]] juce::Rectangle<int> sweepCard() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     StepServices& services;
     Named<juce::ComboBox> rig, output, base;
     std::array<Named<juce::ComboBox>, inputs> input;

@@ -14,16 +14,16 @@ constexpr int playHeight = 25 * grid;
 } // namespace
 
 SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
-    : desk(wanted), verifying(throughEqualizer)
+    : controller(wanted), verifying(throughEqualizer)
 {
     button.onClick = [this]
     {
-        if (desk.isPlaying())
-            desk.stop();
+        if (controller.isPlaying())
+            controller.stop();
         else if (verifying)
-            desk.verify();
+            controller.verify();
         else
-            desk.sweep();
+            controller.sweep();
     };
     bar.setTitle("Progress of the sweep");
     addAndMakeVisible(button);
@@ -33,19 +33,19 @@ SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
 
 bool SweepControl::isMine() const
 {
-    return desk.activity() ==
+    return controller.activity() ==
            (verifying ? MeasurementController::Activity::verifying : MeasurementController::Activity::sweeping);
 }
 
 void SweepControl::refresh()
 {
-    const bool analysing = desk.activity() == MeasurementController::Activity::analysing;
+    const bool analysing = controller.activity() == MeasurementController::Activity::analysing;
     button.setButtonText(isMine() ? "Stop" : verifying ? "Sweep through the equaliser" : "Sweep");
     button.setTitle(button.getButtonText());
     button.setTooltip(isMine() ? "Ends the sweep; nothing of it is kept"
                                : "Plays the sweep through the actuator and records the sensor in step with it");
-    button.setEnabled(isMine() ||
-                      (desk.activity() == MeasurementController::Activity::none && desk.obstacle().empty()));
+    button.setEnabled(
+        isMine() || (controller.activity() == MeasurementController::Activity::none && controller.obstacle().empty()));
     if (analysing)
     {
         progress = -1.0;
@@ -59,8 +59,8 @@ void SweepControl::tick()
 {
     if (!isMine())
         return;
-    progress = desk.progress();
-    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(desk.secondsLeft()))) + " s left");
+    progress = controller.progress();
+    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(controller.secondsLeft()))) + " s left");
 }
 
 void SweepControl::resized()
@@ -75,14 +75,14 @@ void SweepControl::resized()
 
 SweepStep::SweepStep(MeasurementController& wanted)
     : control(wanted, false),
-      desk(wanted),
+      controller(wanted),
       name("Name", "What the next placement is called: who wears it, or how it is attached")
 {
     name.control.setFont(usualFont());
     name.control.setIndents(grid, 7);
     name.control.onTextChange = [this]
     {
-        desk.setNextPlacementName(name.control.getText().toStdString());
+        controller.setNextPlacementName(name.control.getText().toStdString());
     };
     scroll.setViewedComponent(&list, false);
     scroll.setScrollBarsShown(true, false);
@@ -95,19 +95,19 @@ SweepStep::SweepStep(MeasurementController& wanted)
 
 void SweepStep::refresh()
 {
-    const auto& wired = desk.wiring().inputs;
+    const auto& wired = controller.wiring().inputs;
     for (std::size_t i = 0; i < meters.size(); ++i)
     {
         meters[i].setVisible(i < wired.size());
         if (i < wired.size())
-            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
+            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
     }
     if (!name.control.hasKeyboardFocus(true) || name.control.getText().isEmpty())
-        name.control.setText(toText(desk.nextPlacementName()), false);
-    name.setEnabled(!desk.isPlaying());
+        name.control.setText(toText(controller.nextPlacementName()), false);
+    name.setEnabled(!controller.isPlaying());
     control.refresh();
 
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     rows.clear();
     const MeasuredResponse* response = work.response();
     for (std::size_t i = 0; i < work.placements().size(); ++i)
@@ -132,7 +132,7 @@ void SweepStep::refresh()
         row->drop.setButtonText("Drop");
         row->drop.setTitle("Drop " + toText(placement.name));
         row->drop.setTooltip("Takes this placement out; the response is computed anew");
-        row->drop.setEnabled(desk.activity() == MeasurementController::Activity::none);
+        row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);
         row->drop.onClick = [safe = juce::Component::SafePointer<SweepStep>(this), i]
         {
             // Dropping removes this very button.
@@ -140,7 +140,7 @@ void SweepStep::refresh()
                 [safe, i]
                 {
                     if (safe)
-                        safe->desk.dropPlacement(i);
+                        safe->controller.dropPlacement(i);
                 });
         };
         list.addAndMakeVisible(row->name);
@@ -149,9 +149,9 @@ void SweepStep::refresh()
     }
 
     std::vector<Note> lines;
-    if (!desk.sweepProblem().empty())
-        lines.push_back({desk.sweepProblem(), Note::Kind::warning});
-    else if (const auto obstacle = desk.obstacle(); !obstacle.empty())
+    if (!controller.sweepProblem().empty())
+        lines.push_back({controller.sweepProblem(), Note::Kind::warning});
+    else if (const auto obstacle = controller.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
     else if (!work.placements().empty())
     {
@@ -170,8 +170,8 @@ void SweepStep::refresh()
 void SweepStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
-        meters[i].show(desk.takePeak(i));
+    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
+        meters[i].show(controller.takePeak(i));
 }
 
 juce::Rectangle<int> SweepStep::playCard() const

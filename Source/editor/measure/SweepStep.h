@@ -26,7 +26,7 @@ public:
 
 private:
     [[nodiscard]] bool isMine() const;
-    MeasurementController& desk;
+    MeasurementController& controller;
     const bool verifying;
     double progress = 0.0;
     juce::ProgressBar bar{progress};
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] juce::Rectangle<int> playCard() const;
     [[nodiscard]] juce::Rectangle<int> listCard() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     Named<juce::TextEditor> name;
     std::array<InputMeter, 3> meters;
     NoteBox notes{"Result of the last sweep"};

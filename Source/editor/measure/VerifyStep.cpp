@@ -16,7 +16,7 @@ constexpr int meterRow = 20;
 
 VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     : control(wanted, true),
-      desk(wanted),
+      controller(wanted),
       services(around),
       tolerance("Tolerance", "How far any frequency may be off the mean to pass, dB to both sides"),
       saveSweep("Save sweep" + toText("…")),
@@ -26,32 +26,32 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     prepareSlider(tolerance.control, 0.5, 6.0, 0.1, "dB", 1);
     tolerance.control.onValueChange = [this]
     {
-        desk.setTolerance(tolerance.control.getValue());
+        controller.setTolerance(tolerance.control.getValue());
     };
     saveSweep.setTitle("Save the sweep through the equaliser");
     saveSweep.setTooltip("Writes the sweep through the equaliser as a sound for another player");
     saveSweep.onClick = [this]
     {
-        services.askForFile("Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
-                            [this](const juce::File& file)
-                            {
-                                if (const auto saved = desk.saveSweep(pathOf(file.withFileExtension("wav")), true);
-                                    !saved)
-                                    services.tell("The sweep was not saved", toText(saved.error().text()));
-                            });
+        services.askForFile(
+            "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
+            [this](const juce::File& file)
+            {
+                if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true); !saved)
+                    services.tell("The sweep was not saved", toText(saved.error().text()));
+            });
     };
     openRecording.setTitle("Open a recording of the sweep through the equaliser");
     openRecording.setTooltip("Takes a recording of the sweep through the equaliser that was made elsewhere");
     openRecording.onClick = [this]
     {
         services.askForFile("Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
-                            [this](const juce::File& file) { desk.readRecording(pathOf(file), true); });
+                            [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
     };
     again.setTitle("Start the proof anew");
     again.setTooltip("Drops the sweeps through the equaliser");
     again.onClick = [this]
     {
-        desk.dropVerifications();
+        controller.dropVerifications();
     };
     for (juce::Component* child :
          std::initializer_list<juce::Component*>{&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
@@ -62,17 +62,17 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
 
 void VerifyStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     control.refresh();
-    const auto& wired = desk.wiring().inputs;
+    const auto& wired = controller.wiring().inputs;
     for (std::size_t i = 0; i < meters.size(); ++i)
     {
         meters[i].setVisible(i < wired.size());
         if (i < wired.size())
-            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
+            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
     }
     tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
-    const bool free = desk.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
+    const bool free = controller.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
     saveSweep.setEnabled(free);
     openRecording.setEnabled(free);
     again.setEnabled(free && !work.verifications().empty());
@@ -82,8 +82,8 @@ void VerifyStep::refresh()
     curves.empty = "There is no equaliser yet";
     std::vector<Note> lines;
     FactTable::Facts list;
-    if (!desk.verifyProblem().empty())
-        lines.push_back({desk.verifyProblem(), Note::Kind::warning});
+    if (!controller.verifyProblem().empty())
+        lines.push_back({controller.verifyProblem(), Note::Kind::warning});
     else if (!work.problem(MeasureStep::verify).empty())
         lines.push_back({work.problem(MeasureStep::verify), Note::Kind::warning});
     const MeasuredResponse* response = work.response();
@@ -134,13 +134,13 @@ void VerifyStep::refresh()
 void VerifyStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
-        meters[i].show(desk.takePeak(i));
+    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
+        meters[i].show(controller.takePeak(i));
 }
 
 juce::Rectangle<int> VerifyStep::verdictArea() const
 {
-    const int further = std::max(0, static_cast<int>(desk.wiring().inputs.size()) - 1);
+    const int further = std::max(0, static_cast<int>(controller.wiring().inputs.size()) - 1);
     return insideOfCard(getLocalBounds().removeFromLeft(stepSide))
         .withTrimmedTop(19 * grid + further * meterRow)
         .withHeight(4 * grid);
@@ -154,7 +154,7 @@ void VerifyStep::paint(juce::Graphics& g)
     area.removeFromLeft(grid);
     g.setColour(p.card);
     g.fillRoundedRectangle(area.toFloat(), 6.0f);
-    if (const VerifiedResponse* verified = desk.measurement().verified())
+    if (const VerifiedResponse* verified = controller.measurement().verified())
     {
         const bool passed = verified->linearity.passed();
         const auto place = verdictArea().toFloat();

@@ -31,7 +31,7 @@ public:
 private:
     [[nodiscard]] juce::Rectangle<int> verdictArea() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     StepServices& services;
     std::array<InputMeter, MeasurementController::maxInputs> meters; ///< of all axes
     Named<juce::Slider> tolerance;
