@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/EqualizerStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/measure/ResponseStep.h"
 
@@ -30,11 +31,6 @@ const char* nameOf(EqualizerType type)
     }
     return "High-pass";
 }
-
-juce::String signedText(double value, int decimals)
-{
-    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
-}
 } // namespace
 
 EqualizerStep::EqualizerStep(MeasurementController& wanted)
@@ -54,20 +50,16 @@ EqualizerStep::EqualizerStep(MeasurementController& wanted)
     prepareSlider(high.control, 100.0, 2000.0, 1.0, "Hz", 0);
     low.control.setSkewFactorFromMidPoint(50.0);
     high.control.setSkewFactorFromMidPoint(500.0);
-    sections.control.onChange = [this]
+    const auto take = [this]
     {
         takeWish();
     };
+    sections.control.onChange = take;
     for (auto* one : {&boost, &low, &high})
-        one->control.onValueChange = [this]
-        {
-            takeWish();
-        };
+        one->control.onValueChange = take;
     scroll.setViewedComponent(&table, false);
     scroll.setScrollBarsShown(true, false);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&sections, &boost, &low, &high, &facts, &scroll, &notes, &plot})
-        addAndMakeVisible(child);
+    addAll(*this, {&sections, &boost, &low, &high, &facts, &scroll, &notes, &plot});
     refresh();
 }
 
@@ -141,8 +133,7 @@ void EqualizerStep::refresh()
     table.show(std::move(list));
     const Linearity& linearity = fitted->predictedLinearity;
     FactTable::Facts effects{{"Mean deviation", numberText(linearity.meanDeviation, 2) + " dB"},
-                             {"Worst", signedText(linearity.worstDeviation, 2) + " dB at " +
-                                           numberText(linearity.worstFrequency, 0) + " Hz"},
+                             {"Worst", worstText(linearity)},
                              {"Power in the coil", signedText(fitted->cost.powerChange, 1) + " dB"}};
     if (fitted->cost.power)
         effects.push_back({"At full drive", numberText(*fitted->cost.power, 2) + " W"});
@@ -165,12 +156,7 @@ void EqualizerStep::refresh()
 
 void EqualizerStep::paint(juce::Graphics& g)
 {
-    const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    drawCard(g, area.removeFromLeft(stepSide), "Equaliser", p);
-    area.removeFromLeft(grid);
-    g.setColour(p.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    drawSideAndPlot(g, *this, "Equaliser");
 }
 
 void EqualizerStep::resized()

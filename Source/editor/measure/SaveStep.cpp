@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SaveStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 namespace pacini::editor
@@ -52,8 +53,7 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
         ownFile = true;
         refresh();
     };
-    browse.setTooltip("Chooses where to write");
-    browse.onClick = [this]
+    prepareButton(browse, "Chooses where to write", [this]
     {
         services.askForFile("Save the profile", "*.json", true, file.control.getText(),
                             [this](const juce::File& chosen)
@@ -62,19 +62,16 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
                                 file.control.setText(chosen.withFileExtension("json").getFullPathName(), false);
                                 refresh();
                             });
-    };
+    });
     use.setButtonText("Use it in this project at once");
     use.setTitle("Use it in this project at once");
     use.setTooltip("Makes it the actuator that the drive signal of this project is made for");
     use.setToggleState(true, juce::dontSendNotification);
-    saveButton.setTooltip("Writes the profile and adds it to the list of actuators");
-    saveButton.onClick = [this]
+    prepareButton(saveButton, "Writes the profile and adds it to the list of actuators", [this]
     {
         save();
-    };
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&name, &file, &browse, &use, &saveButton, &facts, &notes})
-        addAndMakeVisible(child);
+    });
+    addAll(*this, {&name, &file, &browse, &use, &saveButton, &facts, &notes});
     follow();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SetUpStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 #include <algorithm>
@@ -71,10 +72,6 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
                                  "equaliser are right nevertheless"));
     tone.setButtonText("Test tone of 100 Hz");
     tone.setTitle("Test tone");
-    tone.setTooltip("Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves");
-    devices.setTooltip("Chooses the sound device, its inputs and its sample rate");
-    saveSweep.setTooltip("Writes the sweep as a sound for another player, with a description beside it");
-    openRecording.setTooltip("Takes a recording of the sweep that was made elsewhere, one to three channels");
 
     rig.control.onChange = [this]
     {
@@ -85,37 +82,30 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
         const int chosen = base.control.getSelectedId() - first - 1;
         controller.setBase(chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen)));
     };
-    output.control.onChange = [this]
+    const auto wire = [this]
     {
         takeWiring();
     };
+    output.control.onChange = wire;
     for (auto& one : input)
-        one.control.onChange = [this]
-        {
-            takeWiring();
-        };
+        one.control.onChange = wire;
+    const auto take = [this]
+    {
+        takeSettings();
+    };
     for (auto* one : {&level, &low, &high, &duration, &repeats})
-        one->control.onValueChange = [this]
-        {
-            takeSettings();
-        };
-    fullScale.onValueChange = [this]
-    {
-        takeSettings();
-    };
-    calibrated.onClick = [this]
-    {
-        takeSettings();
-    };
-    tone.onClick = [this]
+        one->control.onValueChange = take;
+    fullScale.onValueChange = take;
+    calibrated.onClick = take;
+    prepareButton(tone, "Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves", [this]
     {
         controller.setTone(tone.getToggleState());
-    };
-    devices.onClick = [this]
+    });
+    prepareButton(devices, "Chooses the sound device, its inputs and its sample rate", [this]
     {
         services.showDevices();
-    };
-    saveSweep.onClick = [this]
+    });
+    prepareButton(saveSweep, "Writes the sweep as a sound for another player, with a description beside it", [this]
     {
         services.askForFile("Save the sweep", "*.wav", true, "sweep.wav",
                             [this](const juce::File& file)
@@ -127,17 +117,16 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
                                                       "Keep the .json beside it: it says what was played."
                                                     : toText(saved.error().text()));
                             });
-    };
-    openRecording.onClick = [this]
+    });
+    prepareButton(openRecording, "Takes a recording of the sweep that was made elsewhere, one to three channels", [this]
     {
         services.askForFile("Open a recording of the sweep", recordings, false, {},
                             [this](const juce::File& file) { controller.readRecording(pathOf(file), false); });
-    };
-    for (juce::Component* child : std::initializer_list<juce::Component*>{
+    });
+    addAll(*this, {
              &rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
              &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
-             &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes})
-        addAndMakeVisible(child);
+             &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes});
     std::vector<std::string> profiles;
     profiles.emplace_back("Nothing is known");
     for (const auto& name : controller.profileNames())
@@ -197,11 +186,9 @@ void SetUpStep::refresh()
         const bool used = i < wiring.inputs.size();
         box.setSelectedId(used ? first + static_cast<int>(wiring.inputs[i]) + (i == 0 ? 0 : 1) : (i == 0 ? 0 : first),
                           quietly);
-        meters[i].setVisible(used);
-        if (used)
-            meters[i].setName(toText(ports.inputs[wiring.inputs[i]]));
         input[i].setEnabled(!busy && !ports.inputs.empty());
     }
+    nameMeters(meters, controller);
     rig.setEnabled(!busy);
     output.setEnabled(!busy && !ports.outputs.empty());
     base.control.setSelectedId(first + (controller.base() ? 1 + static_cast<int>(*controller.base()) : 0), quietly);
@@ -242,8 +229,7 @@ void SetUpStep::refresh()
 
 void SetUpStep::tick()
 {
-    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
-        meters[i].show(controller.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> SetUpStep::rigCard() const

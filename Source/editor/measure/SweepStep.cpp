@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SweepStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 #include <cmath>
@@ -87,21 +88,13 @@ SweepStep::SweepStep(MeasurementController& wanted)
     scroll.setViewedComponent(&list, false);
     scroll.setScrollBarsShown(true, false);
     list.setTitle("Placements");
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes})
-        addAndMakeVisible(child);
+    addAll(*this, {&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes});
     refresh();
 }
 
 void SweepStep::refresh()
 {
-    const auto& wired = controller.wiring().inputs;
-    for (std::size_t i = 0; i < meters.size(); ++i)
-    {
-        meters[i].setVisible(i < wired.size());
-        if (i < wired.size())
-            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
-    }
+    nameMeters(meters, controller);
     if (!name.control.hasKeyboardFocus(true) || name.control.getText().isEmpty())
         name.control.setText(toText(controller.nextPlacementName()), false);
     name.setEnabled(!controller.isPlaying());
@@ -118,7 +111,7 @@ void SweepStep::refresh()
         if (response != nullptr && i < response->average.offsets.size() && work.placements().size() > 1)
         {
             const double offset = response->average.offsets[i];
-            text << ", " << (offset >= 0.0 ? "+" : "") << numberText(offset, 1) << " dB to the average";
+            text << ", " << signedText(offset, 1) << " dB to the average";
             if (response->findings.outliers.contains(i))
                 text << ", left out";
         }
@@ -131,9 +124,8 @@ void SweepStep::refresh()
         row->name.setMinimumHorizontalScale(0.8f);
         row->drop.setButtonText("Drop");
         row->drop.setTitle("Drop " + toText(placement.name));
-        row->drop.setTooltip("Takes this placement out; the response is computed anew");
         row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);
-        row->drop.onClick = [safe = juce::Component::SafePointer<SweepStep>(this), i]
+        prepareButton(row->drop, "Takes this placement out; the response is computed anew", [safe = juce::Component::SafePointer<SweepStep>(this), i]
         {
             // Dropping removes this very button.
             juce::MessageManager::callAsync(
@@ -142,7 +134,7 @@ void SweepStep::refresh()
                     if (safe)
                         safe->controller.dropPlacement(i);
                 });
-        };
+        });
         list.addAndMakeVisible(row->name);
         list.addAndMakeVisible(row->drop);
         rows.push_back(std::move(row));
@@ -170,8 +162,7 @@ void SweepStep::refresh()
 void SweepStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
-        meters[i].show(controller.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> SweepStep::playCard() const

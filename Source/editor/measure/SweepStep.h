@@ -7,7 +7,6 @@
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -55,7 +54,7 @@ private:
 
     MeasurementController& controller;
     Named<juce::TextEditor> name;
-    std::array<InputMeter, 3> meters;
+    InputMeters meters;
     NoteBox notes{"Result of the last sweep"};
     juce::Viewport scroll;
     juce::Component list;

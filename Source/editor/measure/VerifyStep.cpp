@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/VerifyStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/measure/ResponseStep.h"
 
@@ -29,8 +30,7 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
         controller.setTolerance(tolerance.control.getValue());
     };
     saveSweep.setTitle("Save the sweep through the equaliser");
-    saveSweep.setTooltip("Writes the sweep through the equaliser as a sound for another player");
-    saveSweep.onClick = [this]
+    prepareButton(saveSweep, "Writes the sweep through the equaliser as a sound for another player", [this]
     {
         services.askForFile(
             "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
@@ -39,24 +39,20 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
                 if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true); !saved)
                     services.tell("The sweep was not saved", toText(saved.error().text()));
             });
-    };
+    });
     openRecording.setTitle("Open a recording of the sweep through the equaliser");
-    openRecording.setTooltip("Takes a recording of the sweep through the equaliser that was made elsewhere");
-    openRecording.onClick = [this]
+    prepareButton(openRecording, "Takes a recording of the sweep through the equaliser that was made elsewhere", [this]
     {
         services.askForFile("Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
                             [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
-    };
+    });
     again.setTitle("Start the proof anew");
-    again.setTooltip("Drops the sweeps through the equaliser");
-    again.onClick = [this]
+    prepareButton(again, "Drops the sweeps through the equaliser", [this]
     {
         controller.dropVerifications();
-    };
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
-                                                 &openRecording, &again, &facts, &notes, &plot})
-        addAndMakeVisible(child);
+    });
+    addAll(*this, {&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
+                                                 &openRecording, &again, &facts, &notes, &plot});
     refresh();
 }
 
@@ -64,13 +60,7 @@ void VerifyStep::refresh()
 {
     const ActuatorMeasurement& work = controller.measurement();
     control.refresh();
-    const auto& wired = controller.wiring().inputs;
-    for (std::size_t i = 0; i < meters.size(); ++i)
-    {
-        meters[i].setVisible(i < wired.size());
-        if (i < wired.size())
-            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
-    }
+    nameMeters(meters, controller);
     tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
     const bool free = controller.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
     saveSweep.setEnabled(free);
@@ -100,15 +90,10 @@ void VerifyStep::refresh()
                     curves.curves.push_back({"sweeps", one->measurement.response(), ResponsePlot::Role::single});
             curves.curves.push_back({"with the equaliser", verified->after, ResponsePlot::Role::result});
             curves.band = std::pair(after.level - after.tolerance, after.level + after.tolerance);
-            const auto deviation = [](const Linearity& one)
-            {
-                return (one.worstDeviation >= 0.0 ? "+" : "") + numberText(one.worstDeviation, 2) + " dB at " +
-                       numberText(one.worstFrequency, 0) + " Hz";
-            };
             list = {{"Mean deviation", numberText(after.meanDeviation, 2) + " dB"},
                     {"before", numberText(verified->before.meanDeviation, 2) + " dB"},
-                    {"Worst", deviation(after)},
-                    {"before", deviation(verified->before)},
+                    {"Worst", worstText(after)},
+                    {"before", worstText(verified->before)},
                     {"Sweeps", juce::String(static_cast<int>(work.verifications().size()))},
                     {"Level", numberText(work.verifications().back()->level, 1) + " dB"}};
             for (const LinearityOutlier& outlier : after.outliers)
@@ -134,8 +119,7 @@ void VerifyStep::refresh()
 void VerifyStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
-        meters[i].show(controller.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> VerifyStep::verdictArea() const
@@ -148,14 +132,10 @@ juce::Rectangle<int> VerifyStep::verdictArea() const
 
 void VerifyStep::paint(juce::Graphics& g)
 {
-    const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    drawCard(g, area.removeFromLeft(stepSide), "Proof", p);
-    area.removeFromLeft(grid);
-    g.setColour(p.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    drawSideAndPlot(g, *this, "Proof");
     if (const VerifiedResponse* verified = controller.measurement().verified())
     {
+        const Palette& p = paletteFor(*this);
         const bool passed = verified->linearity.passed();
         const auto place = verdictArea().toFloat();
         g.setColour((passed ? p.accent : p.warning).withAlpha(0.2f));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/Inspector.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -173,11 +174,10 @@ Inspector::Inspector(EditorView& shown)
     };
     const auto button = [this](juce::TextButton& one, Command command, const juce::String& help)
     {
-        one.setTooltip(help);
-        one.onClick = [this, command]
+        prepareButton(one, help, [this, command]
         {
             view.doCommand(command);
-        };
+        });
         addAndMakeVisible(one);
     };
     button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/UnfittingList.h"
 
+#include "editor/Controls.h"
 #include "document/EditText.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
@@ -22,16 +23,14 @@ class UnfittingList::Row final : public juce::Component
 public:
     explicit Row(UnfittingList& all)
     {
-        show.setTooltip("Goes to the time of this edit");
-        show.onClick = [this, &all]
+        prepareButton(show, "Goes to the time of this edit", [this, &all]
         {
             all.showEdit(index);
-        };
-        remove.setTooltip("Removes this edit from the clip; undo brings it back");
-        remove.onClick = [this, &all]
+        });
+        prepareButton(remove, "Removes this edit from the clip; undo brings it back", [this, &all]
         {
             all.removeEdit(index);
-        };
+        });
         addAndMakeVisible(show);
         addAndMakeVisible(remove);
     }
