@@ -27,10 +27,7 @@ EmptyState::EmptyState(EditorModel& project, std::vector<std::filesystem::path> 
     : model(project), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
 {
     setTitle("No clip yet");
-    prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this]
-    {
-        onOpen();
-    });
+    prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this] { onOpen(); });
     addAndMakeVisible(openButton);
     subscriptions.on({&model.projectChanged}, [this] { fill(); });
     fill();
@@ -42,10 +39,7 @@ void EmptyState::fill()
                              const juce::String& help)
     {
         auto button = std::make_unique<juce::TextButton>(shownName(file));
-        prepareButton(*button, help + pathText(file), [this, file]
-        {
-            onFile(file);
-        });
+        prepareButton(*button, help + pathText(file), [this, file] { onFile(file); });
         addAndMakeVisible(*button);
         list.push_back(std::move(button));
     };

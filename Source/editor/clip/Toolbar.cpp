@@ -37,11 +37,12 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     {
         one.setTitle(title);
         one.setWantsKeyboardFocus(true);
-        prepareButton(one, help, [this, command]
-        {
-            if (onCommand)
-                onCommand(command);
-        });
+        prepareButton(one, help,
+                      [this, command]
+                      {
+                          if (onCommand)
+                              onCommand(command);
+                      });
         addAndMakeVisible(one);
     };
     button(startButton, toStart, "To start", "Brings the playhead to the start (Home)");

@@ -20,10 +20,8 @@ WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
 {
     setTitle("Progress");
     stopButton.setTitle("Stop opening and analysing");
-    prepareButton(stopButton, "Skips files that are not opened and analysed yet (Escape)", [this]
-    {
-        sounds.stopWork();
-    });
+    prepareButton(stopButton, "Skips files that are not opened and analysed yet (Escape)",
+                  [this] { sounds.stopWork(); });
     addAndMakeVisible(stopButton);
     subscriptions.on({&sounds.workChanged}, [this] { follow(); });
     follow();

@@ -53,7 +53,8 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
     };
     prepareButton(backButton, "To the step before", [go] { go(-1); });
     prepareButton(nextButton, "To the next step", [go] { go(1); });
-    prepareButton(closeButton, "Back to the editor; what was measured stays until the program ends", [this] { close(); });
+    prepareButton(closeButton, "Back to the editor; what was measured stays until the program ends",
+                  [this] { close(); });
     steps.onChoose = [this](MeasureStep chosen)
     {
         show(chosen);

@@ -59,9 +59,9 @@ void ResponseStep::refresh()
             {"Resonance", numberText(features.resonance.frequency, 1) + " Hz"},
             {"Q", numberText(features.resonance.q, 2)},
             {"Usable range", numberText(features.felt.low, 0) + " to " + numberText(features.felt.high, 0) + " Hz"},
-            {"Even within 3 dB", features.even.high > features.even.low
-                                     ? numberText(features.even.low, 0) + " to " + numberText(features.even.high, 0) + " Hz"
-                                     : juce::String("nowhere")},
+            {"Even within 3 dB", features.even.high > features.even.low ? numberText(features.even.low, 0) + " to " +
+                                                                              numberText(features.even.high, 0) + " Hz"
+                                                                        : juce::String("nowhere")},
             {"Plateau", numberText(features.plateau, 1) + " dB"}};
         if (response->findings.times)
             list.push_back({"Rise and fall", numberText(1e3 * response->findings.times->riseTime, 0) + " and " +

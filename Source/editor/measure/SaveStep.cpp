@@ -53,24 +53,23 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
         ownFile = true;
         refresh();
     };
-    prepareButton(browse, "Chooses where to write", [this]
-    {
-        services.askForFile("Save the profile", "*.json", true, file.control.getText(),
-                            [this](const juce::File& chosen)
-                            {
-                                ownFile = true;
-                                file.control.setText(chosen.withFileExtension("json").getFullPathName(), false);
-                                refresh();
-                            });
-    });
+    prepareButton(browse, "Chooses where to write",
+                  [this]
+                  {
+                      services.askForFile("Save the profile", "*.json", true, file.control.getText(),
+                                          [this](const juce::File& chosen)
+                                          {
+                                              ownFile = true;
+                                              file.control.setText(chosen.withFileExtension("json").getFullPathName(),
+                                                                   false);
+                                              refresh();
+                                          });
+                  });
     use.setButtonText("Use it in this project at once");
     use.setTitle("Use it in this project at once");
     use.setTooltip("Makes it the actuator that the drive signal of this project is made for");
     use.setToggleState(true, juce::dontSendNotification);
-    prepareButton(saveButton, "Writes the profile and adds it to the list of actuators", [this]
-    {
-        save();
-    });
+    prepareButton(saveButton, "Writes the profile and adds it to the list of actuators", [this] { save(); });
     addAll(*this, {&name, &file, &browse, &use, &saveButton, &facts, &notes});
     follow();
 }

@@ -97,36 +97,35 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
         one->control.onValueChange = take;
     fullScale.onValueChange = take;
     calibrated.onClick = take;
-    prepareButton(tone, "Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves", [this]
-    {
-        controller.setTone(tone.getToggleState());
-    });
-    prepareButton(devices, "Chooses the sound device, its inputs and its sample rate", [this]
-    {
-        services.showDevices();
-    });
-    prepareButton(saveSweep, "Writes the sweep as a sound for another player, with a description beside it", [this]
-    {
-        services.askForFile("Save the sweep", "*.wav", true, "sweep.wav",
-                            [this](const juce::File& file)
-                            {
-                                const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
-                                services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
-                                              saved ? "Play it to the actuator and record the sensor from before its "
-                                                      "beginning until after its end. Then open the recording here. "
-                                                      "Keep the .json beside it: it says what was played."
-                                                    : toText(saved.error().text()));
-                            });
-    });
-    prepareButton(openRecording, "Takes a recording of the sweep that was made elsewhere, one to three channels", [this]
-    {
-        services.askForFile("Open a recording of the sweep", recordings, false, {},
-                            [this](const juce::File& file) { controller.readRecording(pathOf(file), false); });
-    });
-    addAll(*this, {
-             &rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
-             &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
-             &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes});
+    prepareButton(tone, "Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves",
+                  [this] { controller.setTone(tone.getToggleState()); });
+    prepareButton(devices, "Chooses the sound device, its inputs and its sample rate",
+                  [this] { services.showDevices(); });
+    prepareButton(saveSweep, "Writes the sweep as a sound for another player, with a description beside it",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Save the sweep", "*.wav", true, "sweep.wav",
+                          [this](const juce::File& file)
+                          {
+                              const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
+                              services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
+                                            saved ? "Play it to the actuator and record the sensor from before its "
+                                                    "beginning until after its end. Then open the recording here. "
+                                                    "Keep the .json beside it: it says what was played."
+                                                  : toText(saved.error().text()));
+                          });
+                  });
+    prepareButton(openRecording, "Takes a recording of the sweep that was made elsewhere, one to three channels",
+                  [this]
+                  {
+                      services.askForFile("Open a recording of the sweep", recordings, false, {},
+                                          [this](const juce::File& file)
+                                          { controller.readRecording(pathOf(file), false); });
+                  });
+    addAll(*this, {&rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
+                   &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
+                   &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes});
     std::vector<std::string> profiles;
     profiles.emplace_back("Nothing is known");
     for (const auto& name : controller.profileNames())

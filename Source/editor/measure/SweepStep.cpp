@@ -125,16 +125,17 @@ void SweepStep::refresh()
         row->drop.setButtonText("Drop");
         row->drop.setTitle("Drop " + toText(placement.name));
         row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);
-        prepareButton(row->drop, "Takes this placement out; the response is computed anew", [safe = juce::Component::SafePointer<SweepStep>(this), i]
-        {
-            // Dropping removes this very button.
-            juce::MessageManager::callAsync(
-                [safe, i]
-                {
-                    if (safe)
-                        safe->controller.dropPlacement(i);
-                });
-        });
+        prepareButton(row->drop, "Takes this placement out; the response is computed anew",
+                      [safe = juce::Component::SafePointer<SweepStep>(this), i]
+                      {
+                          // Dropping removes this very button.
+                          juce::MessageManager::callAsync(
+                              [safe, i]
+                              {
+                                  if (safe)
+                                      safe->controller.dropPlacement(i);
+                              });
+                      });
         list.addAndMakeVisible(row->name);
         list.addAndMakeVisible(row->drop);
         rows.push_back(std::move(row));

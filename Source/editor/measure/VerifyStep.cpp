@@ -30,29 +30,30 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
         controller.setTolerance(tolerance.control.getValue());
     };
     saveSweep.setTitle("Save the sweep through the equaliser");
-    prepareButton(saveSweep, "Writes the sweep through the equaliser as a sound for another player", [this]
-    {
-        services.askForFile(
-            "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
-            [this](const juce::File& file)
-            {
-                if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true); !saved)
-                    services.tell("The sweep was not saved", toText(saved.error().text()));
-            });
-    });
+    prepareButton(saveSweep, "Writes the sweep through the equaliser as a sound for another player",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
+                          [this](const juce::File& file)
+                          {
+                              if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true);
+                                  !saved)
+                                  services.tell("The sweep was not saved", toText(saved.error().text()));
+                          });
+                  });
     openRecording.setTitle("Open a recording of the sweep through the equaliser");
-    prepareButton(openRecording, "Takes a recording of the sweep through the equaliser that was made elsewhere", [this]
-    {
-        services.askForFile("Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
-                            [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
-    });
+    prepareButton(openRecording, "Takes a recording of the sweep through the equaliser that was made elsewhere",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
+                          [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
+                  });
     again.setTitle("Start the proof anew");
-    prepareButton(again, "Drops the sweeps through the equaliser", [this]
-    {
-        controller.dropVerifications();
-    });
-    addAll(*this, {&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
-                                                 &openRecording, &again, &facts, &notes, &plot});
+    prepareButton(again, "Drops the sweeps through the equaliser", [this] { controller.dropVerifications(); });
+    addAll(*this, {&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep, &openRecording, &again, &facts,
+                   &notes, &plot});
     refresh();
 }
 

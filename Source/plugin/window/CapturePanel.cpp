@@ -31,23 +31,18 @@ CapturePanel::CapturePanel(PluginProcessor& heard)
     length.setTitle("Length of the capture");
     length.setTooltip("How much of what was heard becomes a clip");
     button.setDescription("Turns the last seconds of the sound into a clip");
-    editor::prepareButton(button, "Turns the last seconds of the sound into a clip", [this]
-    {
-        captureNow();
-    });
+    editor::prepareButton(button, "Turns the last seconds of the sound into a clip", [this] { captureNow(); });
     editButton.setDescription("Opens the captured clip in the clip editor");
     editButton.setEnabled(false);
-    editor::prepareButton(editButton, "Opens the captured clip in the clip editor", [this]
-    {
-        if (onEdit)
-            onEdit(*clip);
-    });
+    editor::prepareButton(editButton, "Opens the captured clip in the clip editor",
+                          [this]
+                          {
+                              if (onEdit)
+                                  onEdit(*clip);
+                          });
     saveButton.setDescription("Saves the captured clip, as JSON or packed");
     saveButton.setEnabled(false);
-    editor::prepareButton(saveButton, "Saves the captured clip, as JSON or packed", [this]
-    {
-        chooseFile();
-    });
+    editor::prepareButton(saveButton, "Saves the captured clip, as JSON or packed", [this] { chooseFile(); });
     message.setFont(editor::smallFont());
     message.setJustificationType(juce::Justification::centredLeft);
     editor::addAll(*this, {&length, &button, &editButton, &saveButton, &message});

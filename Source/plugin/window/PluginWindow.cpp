@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/PluginWindow.h"
 
-#include "editor/Controls.h"
 #include "document/BuiltInProfiles.h"
+#include "editor/Controls.h"
 
 #include <cmath>
 
@@ -107,24 +107,17 @@ PluginWindow::PluginWindow(Plugin& shown)
     actuator = choice(Id::profile);
     loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
     loadButton.setTitle("Load an actuator");
-    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this]
-    {
-        chooseActuator();
-    });
+    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this] { chooseActuator(); });
     adopt(loadButton, nullptr);
     bypassToggle = toggle(Id::bypass, "Bypass");
     clipsButton.setButtonText("Clips");
     clipsButton.setTitle("Clip editor");
     clipsButton.setClickingTogglesState(true);
-    editor::prepareButton(clipsButton, "Captured and opened clips, to see, edit and export; they are kept with the session", [this]
-    {
-        showClips(clipsButton.getToggleState());
-    });
+    editor::prepareButton(clipsButton,
+                          "Captured and opened clips, to see, edit and export; they are kept with the session",
+                          [this] { showClips(clipsButton.getToggleState()); });
     adopt(clipsButton, nullptr);
-    editor::prepareButton(themeButton, "Light or dark", [this]
-    {
-        setDark(!look.isDark());
-    });
+    editor::prepareButton(themeButton, "Light or dark", [this] { setDark(!look.isDark()); });
     adopt(themeButton, nullptr);
 
     sourceChoice = choice(Id::source);

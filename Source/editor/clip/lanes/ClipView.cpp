@@ -138,8 +138,7 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarsShown(true, false);
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
-    addAll(*this, {&ruler, &tools, &selectionBar, &waveform,
-                                                                          &viewport, &actuator, &overview});
+    addAll(*this, {&ruler, &tools, &selectionBar, &waveform, &viewport, &actuator, &overview});
     addChildComponent(markers);
     addAndMakeVisible(*overlay);
     markers.onCommand = [this](Command command)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/WaveformRow.h"
 
-#include "editor/Controls.h"
 #include "document/view/Columns.h"
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
@@ -32,18 +32,21 @@ WaveformRow::WaveformRow(const EditorModel& project, const ProjectSounds& projec
 {
     setOpaque(true);
     setTitle("Sound");
-    prepareButton(viewButton, "Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)", [this]
-    {
-        ViewOptions wanted = viewState.viewOptions();
-        wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
-        viewState.setViewOptions(wanted);
-    });
-    prepareButton(rangeButton, "The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)", [this]
-    {
-        ViewOptions wanted = viewState.viewOptions();
-        wanted.wholeSpectrum = !wanted.wholeSpectrum;
-        viewState.setViewOptions(wanted);
-    });
+    prepareButton(viewButton, "Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)",
+                  [this]
+                  {
+                      ViewOptions wanted = viewState.viewOptions();
+                      wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
+                      viewState.setViewOptions(wanted);
+                  });
+    prepareButton(rangeButton,
+                  "The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)",
+                  [this]
+                  {
+                      ViewOptions wanted = viewState.viewOptions();
+                      wanted.wholeSpectrum = !wanted.wholeSpectrum;
+                      viewState.setViewOptions(wanted);
+                  });
     spectrum.onChanged = [this]
     {
         repaint(plotArea());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/AnalysisPanel.h"
 
-#include "editor/Controls.h"
 #include "document/EncoderPresets.h"
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
@@ -72,28 +72,33 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     };
     spacing.onChange = edit;
     normalise.setTitle("Scale to full drive");
-    prepareButton(normalise, "Scales the loudest moment to full drive; off: full scale of the sound is full drive", edit);
-    prepareButton(resetButton, "Back to the settings of the preset Standard", [this]
-    {
-        set({});
-        edited();
-    });
-    prepareButton(replaceButton, "Uses another sound file for this clip; its edits are kept", [this]
-    {
-        const auto item = model.item();
-        const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
-        view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
-                                 [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
-    });
-    prepareButton(findButton, "Shows Pacini where the sound is now, or another missing sound beside it", [this]
-    {
-        const auto item = model.item();
-        if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
-            view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
-                                     [this](const std::filesystem::path& file) { sounds.findSounds(file); });
-    });
-    addAll(*this, {&replaceButton, &findButton, &preset,
-                                                                        &resetButton, &spacing, &normalise, &edits});
+    prepareButton(normalise, "Scales the loudest moment to full drive; off: full scale of the sound is full drive",
+                  edit);
+    prepareButton(resetButton, "Back to the settings of the preset Standard",
+                  [this]
+                  {
+                      set({});
+                      edited();
+                  });
+    prepareButton(
+        replaceButton, "Uses another sound file for this clip; its edits are kept",
+        [this]
+        {
+            const auto item = model.item();
+            const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
+            view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
+                                     [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
+        });
+    prepareButton(
+        findButton, "Shows Pacini where the sound is now, or another missing sound beside it",
+        [this]
+        {
+            const auto item = model.item();
+            if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
+                view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
+                                         [this](const std::filesystem::path& file) { sounds.findSounds(file); });
+        });
+    addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
 
     prepare(bands, "Bands", "", "How many frequency bands the sound is split into, 1 to 32");
     knob(bands).setRange(1.0, 32.0, 1.0);

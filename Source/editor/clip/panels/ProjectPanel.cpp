@@ -49,14 +49,15 @@ ProjectPanel::ProjectPanel(EditorView& shown)
                    .showMenuAsync(juce::PopupMenu::Options().withTargetComponent(groupButton));
            });
     keepCopy.setTitle("Keep a copy of the sound inside the project");
-    prepareButton(keepCopy, "The project file then holds the whole sound of this clip and can go anywhere without it", [this]
-    {
-        const auto item = model.item();
-        const bool wanted = keepCopy.getToggleState();
-        show();
-        if (item)
-            sounds.keepSound(item->source, wanted);
-    });
+    prepareButton(keepCopy, "The project file then holds the whole sound of this clip and can go anywhere without it",
+                  [this]
+                  {
+                      const auto item = model.item();
+                      const bool wanted = keepCopy.getToggleState();
+                      show();
+                      if (item)
+                          sounds.keepSound(item->source, wanted);
+                  });
     addAndMakeVisible(keepCopy);
     const auto label = [this](juce::Label& one, const juce::String& text)
     {

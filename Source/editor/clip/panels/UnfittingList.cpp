@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/UnfittingList.h"
 
-#include "editor/Controls.h"
 #include "document/EditText.h"
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -23,14 +23,9 @@ class UnfittingList::Row final : public juce::Component
 public:
     explicit Row(UnfittingList& all)
     {
-        prepareButton(show, "Goes to the time of this edit", [this, &all]
-        {
-            all.showEdit(index);
-        });
-        prepareButton(remove, "Removes this edit from the clip; undo brings it back", [this, &all]
-        {
-            all.removeEdit(index);
-        });
+        prepareButton(show, "Goes to the time of this edit", [this, &all] { all.showEdit(index); });
+        prepareButton(remove, "Removes this edit from the clip; undo brings it back",
+                      [this, &all] { all.removeEdit(index); });
         addAndMakeVisible(show);
         addAndMakeVisible(remove);
     }

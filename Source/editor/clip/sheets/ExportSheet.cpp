@@ -75,10 +75,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
                                 : juce::String("All clips of the project"));
     all.setTitle("Export all clips");
     all.setEnabled(count > 1);
-    prepareButton(all, "One file for each clip, named after it, into a folder", [this]
-    {
-        formatChanged();
-    });
+    prepareButton(all, "One file for each clip, named after it, into a folder", [this] { formatChanged(); });
     target.setTitle("File or folder to write");
     target.setFont(usualFont());
     target.setIndents(grid, 7);
@@ -90,10 +87,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     {
         close();
     };
-    prepareButton(browseButton, "Chooses where to write", [this]
-    {
-        browse();
-    });
+    prepareButton(browseButton, "Chooses where to write", [this] { browse(); });
     losses.setMultiLine(true);
     losses.setReadOnly(true);
     losses.setCaretVisible(false);

@@ -125,11 +125,12 @@ void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& h
 {
     auto button = std::make_unique<juce::ToggleButton>(on ? "On" : "Off");
     button->setToggleState(on, juce::dontSendNotification);
-    prepareButton(*button, help, [turn = std::move(turn), now = button.get()]
-    {
-        now->setButtonText(now->getToggleState() ? "On" : "Off");
-        turn(now->getToggleState());
-    });
+    prepareButton(*button, help,
+                  [turn = std::move(turn), now = button.get()]
+                  {
+                      now->setButtonText(now->getToggleState() ? "On" : "Off");
+                      turn(now->getToggleState());
+                  });
     add(name, std::move(button));
 }
 
