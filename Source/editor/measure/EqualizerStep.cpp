@@ -5,7 +5,6 @@
 #include "editor/Text.h"
 #include "editor/measure/ResponseStep.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pacini::editor

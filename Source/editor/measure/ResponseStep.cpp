@@ -4,7 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace pacini::editor
 {

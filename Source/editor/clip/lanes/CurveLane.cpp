@@ -9,7 +9,6 @@
 #include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pacini::editor
 {

@@ -9,7 +9,6 @@
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include "editor/clip/EditorView.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pacini::editor
 {

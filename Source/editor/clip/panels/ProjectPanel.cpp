@@ -6,8 +6,6 @@
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
 
-#include <algorithm>
-
 namespace pacini::editor
 {
 

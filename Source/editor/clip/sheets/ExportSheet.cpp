@@ -6,8 +6,6 @@
 #include "editor/Theme.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace pacini::editor
 {
