@@ -126,8 +126,9 @@ private:
 template <typename Fit, typename LevelAt>
 void setFlatness(Fit& fit, const EqualizerFitProblem& problem, LevelAt levelAt)
 {
-    std::vector<double> curve(problem.points());
-    std::transform(problem.frequency.begin(), problem.frequency.end(), curve.begin(), levelAt);
+    std::vector<double> curve;
+    for (std::size_t i = 0; i < problem.points(); ++i)
+        curve.push_back(levelAt(problem.frequency[i]));
     const Flatness flatness = flatnessOf(problem, curve, problem.given);
     fit.rms = flatness.rms;
     fit.max = flatness.max;
