@@ -2,7 +2,6 @@
 #include "support/Measure.h"
 
 #include <pacini/actuator/LimiterGain.h>
-#include <pacini/actuator/SlidingMaximum.h>
 #include <pacini/foundation/Random.h>
 
 #include <algorithm>

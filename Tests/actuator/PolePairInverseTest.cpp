@@ -1,7 +1,7 @@
 #include "support/Catch.h"
 
 #include <pacini/actuator/BodyDesign.h>
-#include <pacini/actuator/PolePairInverse.h>
+#include <pacini/actuator/OutputFilter.h>
 
 using namespace pacini;
 

@@ -7,7 +7,7 @@
 #include "support/Measure.h"
 #include "support/Paths.h"
 
-#include <pacini/actuator/PolePairInverse.h>
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Random.h>
 

@@ -1,6 +1,6 @@
 #include "support/Catch.h"
 
-#include <pacini/analysis/BandFades.h>
+#include <pacini/analysis/BandAnalysis.h>
 
 using namespace pacini;
 

@@ -1,6 +1,6 @@
 #include "support/Catch.h"
 
-#include <pacini/analysis/EventTransients.h>
+#include <pacini/analysis/Encoder.h>
 
 using namespace pacini;
 

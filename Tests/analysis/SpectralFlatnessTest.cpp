@@ -2,7 +2,7 @@
 #include "support/Catch.h"
 #include "support/Measure.h"
 
-#include <pacini/analysis/SpectralFlatness.h>
+#include <pacini/analysis/methods/CentroidFlatness.h>
 
 using namespace pacini;
 using namespace pacini::test;

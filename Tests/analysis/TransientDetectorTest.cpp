@@ -98,7 +98,11 @@ TEST_CASE("The transient score and its windows equal the reference", "[analysis]
     for (const auto& entry : data["cases"])
     {
         const auto params = paramsOf(entry["params"]);
-        const auto score = transientScore(inputOf(data, entry), data["fs"], params.score);
+        auto score = inputOf(data, entry);
+        TransientScore block;
+        block.setParams(params.score);
+        block.prepare({data["fs"], score.size()});
+        block.process(score, score);
         CHECK(*std::max_element(score.begin(), score.end()) ==
               Approx(entry["score_max"].get<double>()).epsilon(1e-6).margin(1e-9));
         std::vector<std::vector<std::size_t>> windows;

@@ -14,7 +14,6 @@ void envelopeFollower(benchmark::State& state)
     const auto in = strokes(1.0, 48000.0);
     std::vector<float> out(in.size());
     EnvelopeFollower follower;
-    follower.setParams({.crestAdaptive = state.range(0) != 0});
     follower.prepare({48000.0, in.size()});
     for (auto _ : state)
     {
@@ -24,7 +23,7 @@ void envelopeFollower(benchmark::State& state)
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(in.size()));
 }
-BENCHMARK(envelopeFollower)->ArgName("crestAdaptive")->Arg(0)->Arg(1);
+BENCHMARK(envelopeFollower);
 
 void bandAnalysis(benchmark::State& state)
 {

@@ -1,9 +1,9 @@
 #include "BenchmarkSound.h"
+#include "cli/bench/ZeroPhaseBank.h"
 
 #include <pacini/filters/BiquadCascade.h>
 #include <pacini/filters/FilterBank.h>
 #include <pacini/filters/RationalDecimator.h>
-#include <pacini/filters/ZeroPhaseBank.h>
 
 #include <benchmark/benchmark.h>
 
@@ -54,11 +54,11 @@ BENCHMARK(filterBank)->Arg(6)->Arg(12)->Arg(24);
 void zeroPhaseBank(benchmark::State& state)
 {
     const auto in = strokes(10.0, 4000.0);
-    ZeroPhaseBankParams params;
+    cli::ZeroPhaseBankParams params;
     params.layout.bands = static_cast<std::size_t>(state.range(0));
-    params.method = state.range(1) == 0 ? ZeroPhaseMethod::raisedCosine : ZeroPhaseMethod::forwardBackward;
+    params.method = state.range(1) == 0 ? cli::ZeroPhaseMethod::raisedCosine : cli::ZeroPhaseMethod::forwardBackward;
     for (auto _ : state)
-        benchmark::DoNotOptimize(splitZeroPhase(in, 4000.0, params));
+        benchmark::DoNotOptimize(cli::splitZeroPhase(in, 4000.0, params));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(in.size()));
 }
 BENCHMARK(zeroPhaseBank)->ArgNames({"bands", "forwardBackward"})->ArgsProduct({{6, 12, 24}, {0, 1}});

@@ -28,7 +28,7 @@ struct MeasureBench
     std::filesystem::path folder = editor::pathOf(temporary.getFile());
     editor::Session session{{}, {}};
     editor::EditorView view{session, {}};
-    std::shared_ptr<MeasurementController> desk;
+    std::shared_ptr<MeasurementController> controller;
     editor::MeasurePage* page = nullptr;
 
     explicit MeasureBench(RigParams params = {})
@@ -37,15 +37,15 @@ struct MeasureBench
         const auto wristband = readProfile(sourceFolder() / "profiles/l5-wristband.json");
         REQUIRE(wristband.ok());
         session.actuators.addProfile({"l5-wristband", std::make_shared<const Profile>(*wristband)}, false);
-        desk = std::make_shared<MeasurementController>(session.actuators, session.transport,
-                                                       MeasurementController::HostServices{nullptr, folder, 0.0, true});
+        controller = std::make_shared<MeasurementController>(
+            session.actuators, session.transport, MeasurementController::HostServices{nullptr, folder, 0.0, true});
         params.sampleRate = 8000.0;
-        desk->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
-        MeasureSettings settings = desk->measurement().settings();
+        controller->useRig(std::make_shared<SimulatedMeasureRig>(params, 0.0));
+        MeasureSettings settings = controller->measurement().settings();
         settings.level = -12.0;
         settings.duration = 4.0;
-        desk->setSettings(settings);
-        auto made = std::make_unique<editor::MeasurePage>(desk, nullptr);
+        controller->setSettings(settings);
+        auto made = std::make_unique<editor::MeasurePage>(controller, nullptr);
         page = made.get();
         view.setBounds(0, 0, 1280, 800);
         view.showSheet(std::move(made));
@@ -60,11 +60,11 @@ struct MeasureBench
 
     void waitForSweep()
     {
-        REQUIRE(desk->isPlaying());
-        while (desk->isPlaying())
+        REQUIRE(controller->isPlaying());
+        while (controller->isPlaying())
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            desk->poll();
+            controller->poll();
         }
     }
 
@@ -100,8 +100,8 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     CHECK(page.step() == MeasureStep::setUp);
     CHECK_FALSE(page.show(MeasureStep::response)); // nothing has been swept
     bench.sweep();
-    INFO(bench.desk->sweepProblem());
-    REQUIRE(bench.desk->measurement().placements().size() == 1);
+    INFO(bench.controller->sweepProblem());
+    REQUIRE(bench.controller->measurement().placements().size() == 1);
 
     REQUIRE(page.show(MeasureStep::response));
     const auto& curves = page.responseStep().responsePlot().shown();
@@ -110,22 +110,22 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     REQUIRE(curves.range.has_value());
 
     REQUIRE(page.show(MeasureStep::equalizer));
-    const std::size_t automatic = bench.desk->measurement().equalizer()->fit.sections.size();
+    const std::size_t automatic = bench.controller->measurement().equalizer()->fit.sections.size();
     page.equalizerStep().sections.control.setSelectedId(1, juce::sendNotificationSync);
-    REQUIRE(bench.desk->measurement().equalizer() != nullptr);
-    CHECK(bench.desk->measurement().equalizer()->fit.sections.size() == 1);
+    REQUIRE(bench.controller->measurement().equalizer() != nullptr);
+    CHECK(bench.controller->measurement().equalizer()->fit.sections.size() == 1);
     page.equalizerStep().boost.control.setValue(3.0, juce::sendNotificationSync);
-    CHECK(bench.desk->measurement().equalizer()->fit.boost < 3.2);
+    CHECK(bench.controller->measurement().equalizer()->fit.boost < 3.2);
     page.equalizerStep().boost.control.setValue(12.0, juce::sendNotificationSync);
     page.equalizerStep().sections.control.setSelectedItemIndex(0, juce::sendNotificationSync);
-    CHECK(bench.desk->measurement().equalizer()->fit.sections.size() == automatic);
+    CHECK(bench.controller->measurement().equalizer()->fit.sections.size() == automatic);
 
     REQUIRE(page.show(MeasureStep::verify));
-    bench.desk->setTolerance(1.0);
+    bench.controller->setTolerance(1.0);
     page.verifyStep().control.button.onClick();
     bench.waitForSweep();
-    REQUIRE(bench.desk->measurement().verified() != nullptr);
-    CHECK(bench.desk->measurement().state(MeasureStep::verify) == MeasureStepState::done);
+    REQUIRE(bench.controller->measurement().verified() != nullptr);
+    CHECK(bench.controller->measurement().state(MeasureStep::verify) == MeasureStepState::done);
     CHECK(page.verifyStep().responsePlot().shown().band.has_value());
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -145,7 +145,7 @@ TEST_CASE("The measure page leads from set-up to a saved profile that is proved 
     REQUIRE(saved->measurement.has_value());
     REQUIRE(saved->measurement->linearity.has_value());
     CHECK(std::abs(saved->measurement->linearity->worstDeviation) <= 1.0);
-    CHECK(bench.desk->measurement().state(MeasureStep::save) == MeasureStepState::done);
+    CHECK(bench.controller->measurement().state(MeasureStep::save) == MeasureStepState::done);
 
     // It can be chosen, has been, and goes with the project.
     REQUIRE(bench.session.actuators.profiles().size() == 2);
@@ -170,26 +170,26 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
     SECTION("nothing is connected to the input")
     {
         MeasureBench bench;
-        bench.desk->setWiring({0, {4}});
+        bench.controller->setWiring({0, {4}});
         bench.sweep();
-        CHECK(bench.desk->measurement().placements().empty());
+        CHECK(bench.controller->measurement().placements().empty());
         CHECK(notes(bench).find("No sweep was heard on 'Nothing connected'") == 0);
         CHECK_FALSE(bench.page->show(MeasureStep::response));
     }
     SECTION("nothing is connected to the output")
     {
         MeasureBench bench;
-        bench.desk->setWiring({1, {0, 1, 2}});
+        bench.controller->setWiring({1, {0, 1, 2}});
         bench.sweep();
-        CHECK(bench.desk->measurement().placements().empty());
+        CHECK(bench.controller->measurement().placements().empty());
         CHECK(notes(bench).find("No sweep was heard") == 0);
     }
     SECTION("the input carries the drive")
     {
         MeasureBench bench;
-        bench.desk->setWiring({0, {3}});
+        bench.controller->setWiring({0, {3}});
         bench.sweep();
-        CHECK(bench.desk->measurement().placements().empty());
+        CHECK(bench.controller->measurement().placements().empty());
         CHECK(notes(bench).find("'Drive signal' carries the drive signal itself, not a movement.") == 0);
     }
     SECTION("the sensor is overloaded")
@@ -198,23 +198,23 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         narrow.range = 2.0 * standardGravity;
         MeasureBench bench(narrow);
         bench.sweep();
-        REQUIRE(bench.desk->measurement().placements().size() == 1);
+        REQUIRE(bench.controller->measurement().placements().size() == 1);
         CHECK(notes(bench).find("' clips: ") != std::string::npos);
     }
     SECTION("a second try takes the words away, and placements can be dropped")
     {
         MeasureBench bench;
-        bench.desk->setWiring({0, {4}});
+        bench.controller->setWiring({0, {4}});
         bench.sweep();
-        bench.desk->setWiring({0, {0, 1, 2}});
+        bench.controller->setWiring({0, {0, 1, 2}});
         bench.sweep();
-        CHECK(bench.desk->sweepProblem().empty());
+        CHECK(bench.controller->sweepProblem().empty());
         bench.sweep();
-        REQUIRE(bench.desk->measurement().placements().size() == 2);
-        CHECK(bench.desk->measurement().placements()[1]->name == "Placement 2");
-        bench.desk->dropPlacement(0);
-        REQUIRE(bench.desk->measurement().placements().size() == 1);
-        CHECK(bench.desk->measurement().response() != nullptr);
+        REQUIRE(bench.controller->measurement().placements().size() == 2);
+        CHECK(bench.controller->measurement().placements()[1]->name == "Placement 2");
+        bench.controller->dropPlacement(0);
+        REQUIRE(bench.controller->measurement().placements().size() == 1);
+        CHECK(bench.controller->measurement().response() != nullptr);
     }
 }
 
@@ -223,13 +223,13 @@ TEST_CASE("Escape stops a sweep, and what was measured outlives the page", "[mea
     MeasureBench bench;
     bench.sweep();
     bench.page->sweepStep().control.button.onClick();
-    REQUIRE(bench.desk->isPlaying());
+    REQUIRE(bench.controller->isPlaying());
     CHECK(bench.page->keyPressed(juce::KeyPress(juce::KeyPress::escapeKey)));
-    CHECK_FALSE(bench.desk->isPlaying());
+    CHECK_FALSE(bench.controller->isPlaying());
     CHECK(bench.view.sheet() == bench.page);
     bench.view.showSheet(nullptr);
-    CHECK(bench.desk->measurement().placements().size() == 1);
-    auto again = std::make_unique<editor::MeasurePage>(bench.desk, nullptr);
+    CHECK(bench.controller->measurement().placements().size() == 1);
+    auto again = std::make_unique<editor::MeasurePage>(bench.controller, nullptr);
     CHECK(again->show(MeasureStep::response));
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("A sweep can be saved and its recording opened", "[measure]")
 {
     MeasureBench bench;
     const auto sound = bench.folder / "sweep.wav";
-    REQUIRE(bench.desk->saveSweep(sound, false).ok());
+    REQUIRE(bench.controller->saveSweep(sound, false).ok());
     const auto described = readSweepFile(bench.folder / "sweep.json");
     REQUIRE(described.ok());
     CHECK(described->sweep.duration == 4.0);
@@ -262,19 +262,19 @@ TEST_CASE("A sweep can be saved and its recording opened", "[measure]")
     writing.channels = 3;
     const auto recording = bench.folder / "anna.wav";
     REQUIRE(writeAudio(recording, interleaved, writing).ok());
-    bench.desk->readRecording(recording, false);
-    INFO(bench.desk->sweepProblem());
-    REQUIRE(bench.desk->measurement().placements().size() == 1);
-    CHECK(bench.desk->measurement().placements()[0]->name == "anna");
-    bench.desk->readRecording(bench.folder / "nobody.wav", false);
-    CHECK(bench.desk->sweepProblem().find("nobody.wav was not read") == 0);
+    bench.controller->readRecording(recording, false);
+    INFO(bench.controller->sweepProblem());
+    REQUIRE(bench.controller->measurement().placements().size() == 1);
+    CHECK(bench.controller->measurement().placements()[0]->name == "anna");
+    bench.controller->readRecording(bench.folder / "nobody.wav", false);
+    CHECK(bench.controller->sweepProblem().find("nobody.wav was not read") == 0);
 }
 
 TEST_CASE("Nothing on the measure page is cut off or overlaps, everything has a name and a hint", "[measure]")
 {
     MeasureBench bench;
     bench.sweep();
-    bench.desk->verify();
+    bench.controller->verify();
     bench.waitForSweep();
     for (const auto size : {juce::Point(880, 560), juce::Point(1280, 800)})
     {

@@ -1,10 +1,10 @@
 #include "support/Catch.h"
 
 #include <pacini/evaluate/AnalyticBand.h>
-#include <pacini/evaluate/FrameMean.h>
 #include <pacini/evaluate/FrameSpectra.h>
 #include <pacini/evaluate/HannSmoothing.h>
 #include <pacini/evaluate/Segmentation.h>
+#include <pacini/evaluate/SignalAnalyzer.h>
 #include <pacini/foundation/Random.h>
 #include <pacini/foundation/Windows.h>
 

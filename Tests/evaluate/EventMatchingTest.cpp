@@ -1,7 +1,6 @@
 #include "support/Catch.h"
 
 #include <pacini/evaluate/EventMatching.h>
-#include <pacini/evaluate/PeakPicking.h>
 #include <pacini/evaluate/RiseDetector.h>
 #include <pacini/foundation/Random.h>
 

@@ -4,6 +4,7 @@
 
 #include <pacini/actuator/Equalizer.h>
 #include <pacini/foundation/Random.h>
+#include <pacini/linearize/EqualizerFitParams.h>
 #include <pacini/linearize/FrequencyResponse.h>
 
 #include <algorithm>
@@ -125,6 +126,14 @@ inline FrequencyResponse randomResponse(std::uint64_t seed)
         response.level.push_back(level);
     }
     return response;
+}
+
+/// The usual parameters at another sample rate, Hz.
+inline EqualizerFitParams fitParamsAt(double fs)
+{
+    EqualizerFitParams params;
+    params.sampleRate = fs;
+    return params;
 }
 
 } // namespace pacini::test

@@ -33,7 +33,6 @@ TEST_CASE("a capture ring gives back the newest frames in order", "[realtime]")
     {
         ring.push(counted(pushed, block));
         pushed += block;
-        CHECK(ring.framesPushed() == pushed);
         for (std::size_t wanted : {0u, 1u, 50u, 100u, 1000u})
         {
             const auto capture = ring.newest(wanted);
@@ -64,6 +63,7 @@ TEST_CASE("copies made while the ring is written hold no torn frame", "[realtime
     CaptureRing ring;
     ring.prepare(frames);
     std::atomic<bool> stop{false};
+    std::atomic<std::size_t> pushed{0};
     std::thread writer(
         [&]
         {
@@ -71,7 +71,7 @@ TEST_CASE("copies made while the ring is written hold no torn frame", "[realtime
             while (!stop.load(std::memory_order_relaxed))
             {
                 ring.push(counted(position, 512));
-                position += 512;
+                pushed.store(position += 512);
             }
         });
     int torn = 0;
@@ -79,7 +79,7 @@ TEST_CASE("copies made while the ring is written hold no torn frame", "[realtime
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (races < wantedRaces && torn == 0 && std::chrono::steady_clock::now() < deadline)
     {
-        const bool full = ring.framesPushed() >= frames;
+        const bool full = pushed.load() >= frames;
         const auto capture = ring.newest(frames);
         torn += capture.samples != counted(static_cast<std::size_t>(capture.firstFrame), capture.samples.size());
         races += full && capture.samples.size() < frames;

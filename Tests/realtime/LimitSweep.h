@@ -5,7 +5,7 @@
 
 #include "actuator/Witness.h"
 
-#include <pacini/actuator/PolePairInverse.h>
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Random.h>
 #include <pacini/realtime/Translator.h>

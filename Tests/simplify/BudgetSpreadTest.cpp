@@ -1,3 +1,4 @@
+#include "OptimalSquared.h"
 #include "TestCurves.h"
 #include "support/Catch.h"
 
@@ -97,7 +98,7 @@ TEST_CASE("A shared budget comes within 2 % of the exact optimum", "[simplify]")
             for (std::size_t own = 2; own <= budget; ++own)
             {
                 const double error =
-                    curves[c].weight * squaredError(curves[c].samples, optimalSquared(curves[c].samples, own));
+                    curves[c].weight * squaredError(curves[c].samples, test::optimalSquared(curves[c].samples, own));
                 for (std::size_t all = own; all <= budget; ++all)
                     next[all] = std::min(next[all], best[all - own] + error);
             }

@@ -1,3 +1,4 @@
+#include "OptimalSquared.h"
 #include "TestCurves.h"
 #include "support/Catch.h"
 
@@ -72,7 +73,7 @@ TEST_CASE("Optimal simplification equals a search of all choices", "[simplify]")
             const auto least = optimalToCount(dense, count);
             CHECK(least.size() <= count);
             CHECK(errorsOf(dense, least).max == Approx(best[count].max).epsilon(1e-9).margin(1e-14));
-            const auto squares = optimalSquared(columns.samples(), count);
+            const auto squares = test::optimalSquared(columns.samples(), count);
             CHECK(squares.size() <= count);
             CHECK(errorsOf(dense, squares).squared == Approx(best[count].squared).epsilon(1e-9).margin(1e-14));
         }
@@ -93,7 +94,7 @@ TEST_CASE("Optimal simplification equals a search of all choices", "[simplify]")
             const auto within = optimalToBound(dense, bound);
             CHECK(within.size() == fewest);
             CHECK(errorsOf(dense, within).max <= bound + 1e-12);
-            CHECK(optimalSquared(columns.samples(), dense.size(), bound + 1e-12).size() == fewestSquared);
+            CHECK(test::optimalSquared(columns.samples(), dense.size(), bound + 1e-12).size() == fewestSquared);
         }
     }
 }
@@ -142,7 +143,7 @@ TEST_CASE("Weights decide where the optimum spends its points", "[simplify]")
     // Two equal bumps; the weighted one gets the one free point.
     std::vector<double> values{0, 1, 0, 0, 0, 1, 0};
     std::vector<double> weights{1, 1, 1, 1, 1, 9, 1};
-    CHECK(optimalSquared({values, {}, weights}, 3) == KeptPoints{0, 5, 6});
+    CHECK(test::optimalSquared({values, {}, weights}, 3) == KeptPoints{0, 5, 6});
     weights = {1, 9, 1, 1, 1, 1, 1};
-    CHECK(optimalSquared({values, {}, weights}, 3) == KeptPoints{0, 1, 6});
+    CHECK(test::optimalSquared({values, {}, weights}, 3) == KeptPoints{0, 1, 6});
 }

@@ -31,17 +31,9 @@ struct SpinningMotorParams
 /// Response times are of the strength, which is the square of the speed: it is at 90 % when the speed is at
 /// sqrt(0.9), after -log(1 - sqrt(0.9)) = 2.97 time constants, and down to 10 % after log(10) / 2 = 1.15 of those of
 /// the fall. The fall's hold while the voltage is less than the speed; against its direction the motor is driven.
-class SpinningMotor
+class SpinningMotor : public DesignedBlock<SpinningMotor, SpinningMotorParams>
 {
 public:
-    using Params = SpinningMotorParams;
-
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
     void setParams(const Params& params) noexcept
     {
         current = params;
@@ -70,11 +62,7 @@ public:
         forEachSample(in, out, tick, [this] { flushTiny(speed); });
     }
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
-
 private:
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
     double turnsPerFrame = 0.0;
     double rise = 1.0; ///< share of the way to the wanted speed in one frame
     double fall = 1.0;

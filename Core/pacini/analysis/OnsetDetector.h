@@ -2,7 +2,6 @@
 
 // Onset detector: finds the events of a sound, where something starts.
 
-#include <pacini/analysis/Onset.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetFrame.h>
 #include <pacini/analysis/OnsetMeasure.h>

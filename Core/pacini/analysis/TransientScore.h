@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace pacini
 {
@@ -53,11 +52,8 @@ public:
     {
         current = params;
         current.floor = clampTo(params.floor, 1e-9, 1e9);
-        EnvelopeFollowerParams follower{.attack = params.fastAttack,
-                                        .hold = params.hold,
-                                        .release = params.release,
-                                        .decay = params.decay,
-                                        .slope = RisingSlope::level};
+        EnvelopeFollowerParams follower{
+            .attack = params.fastAttack, .hold = params.hold, .release = params.release, .decay = params.decay};
         fast.setParams(follower);
         follower.attack = params.slowAttack;
         slow.setParams(follower);
@@ -99,17 +95,5 @@ private:
 };
 
 static_assert(DspBlock<TransientScore>);
-
-/// The score of a whole signal, one value per sample; fs in Hz.
-[[nodiscard]] inline std::vector<float> transientScore(std::span<const float> signal, double fs,
-                                                       const TransientScoreParams& params = {})
-{
-    TransientScore block;
-    block.setParams(params);
-    block.prepare({fs, signal.size()});
-    std::vector<float> score(signal.size());
-    block.process(signal, score);
-    return score;
-}
 
 } // namespace pacini

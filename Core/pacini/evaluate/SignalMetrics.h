@@ -4,7 +4,6 @@
 
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/SignalAnalyzer.h>
-#include <pacini/evaluate/SignalFeatures.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DotProduct.h>
 #include <pacini/foundation/Result.h>

@@ -36,21 +36,13 @@ struct BiquadCascadeCoefficients
 /// state machine for every filter that is a series of sections. Parameters may change between calls; sections that
 /// remain keep their state, new ones start from silence. Sections run in state-variable form (see StateVariable.h).
 template <typename P, auto Design>
-class DesignedCascade
+class DesignedCascade : public DesignedBlock<DesignedCascade<P, Design>, P>
 {
 public:
-    using Params = P;
-
-    void prepare(const ProcessSpec& spec) noexcept
+    void setParams(const P& params) noexcept
     {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
-    void setParams(const Params& params) noexcept
-    {
-        current = params;
-        cascade = Design(params, fs);
+        this->current = params;
+        cascade = Design(params, this->fs);
         for (std::size_t i = cascade.sections.size(); i < states.size(); ++i)
             states[i] = {};
     }
@@ -73,13 +65,10 @@ public:
         forEachSample(in, out, tick, flush);
     }
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
     [[nodiscard]] const BiquadCascadeCoefficients& coefficients() const noexcept { return cascade; }
 
 private:
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
-    BiquadCascadeCoefficients cascade = Design(Params{}, ProcessSpec{}.sampleRate);
+    BiquadCascadeCoefficients cascade = Design(P{}, ProcessSpec{}.sampleRate);
     std::array<StateVariableState, maxBiquadSections> states{};
 };
 

@@ -64,17 +64,9 @@ struct FilterBankCoefficients
 }
 
 /// Streaming bank. The outputs are in phase with each other at the crossovers; they have no common delay.
-class FilterBank
+class FilterBank : public DesignedBlock<FilterBank, BandLayoutParams>
 {
 public:
-    using Params = BandLayoutParams;
-
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
     /// Keeps the state of the crossovers that remain; further bands start from silence.
     void setParams(const Params& params) noexcept
     {
@@ -117,7 +109,6 @@ public:
     }
 
     [[nodiscard]] std::size_t bands() const noexcept { return bank.bands(); }
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
     [[nodiscard]] const FilterBankCoefficients& coefficients() const noexcept { return bank; }
 
 private:
@@ -180,8 +171,6 @@ private:
         }
     }
 
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
     FilterBankCoefficients bank = designFilterBank(Params{}, ProcessSpec{}.sampleRate);
     std::array<Split, maxBands - 1> splits{};
     std::array<Allpass, maxBands - 1> allpasses{};

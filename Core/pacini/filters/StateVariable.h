@@ -203,17 +203,9 @@ struct StateVariableState
 }
 
 /// One streaming section; setParams() costs one tangent and may come before every sample. The state is kept.
-class StateVariable
+class StateVariable : public DesignedBlock<StateVariable, BiquadParams>
 {
 public:
-    using Params = BiquadParams;
-
-    void prepare(const ProcessSpec& spec) noexcept
-    {
-        fs = spec.sampleRate;
-        setParams(current);
-        reset();
-    }
     void setParams(const Params& params) noexcept
     {
         current = params;
@@ -227,12 +219,9 @@ public:
             in, out, [this](double x) { return state.tick(filter, x); }, [this] { state.flush(); });
     }
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
     [[nodiscard]] const StateVariableCoefficients& coefficients() const noexcept { return filter; }
 
 private:
-    double fs = ProcessSpec{}.sampleRate;
-    Params current;
     StateVariableCoefficients filter;
     StateVariableState state;
 };

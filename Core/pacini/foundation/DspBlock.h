@@ -133,4 +133,26 @@ void forEachSample(std::span<const float> in, std::span<float> out, Tick&& tick,
     }
 }
 
+/// What blocks without latency share whose design needs the sample rate only: `Block` derives from this and adds
+/// setParams(), which keeps its argument in `current` and designs for `fs`, reset() and process().
+template <typename Block, typename P>
+class DesignedBlock
+{
+public:
+    using Params = P;
+
+    void prepare(const ProcessSpec& spec) noexcept
+    {
+        fs = spec.sampleRate;
+        auto& block = static_cast<Block&>(*this);
+        block.setParams(current);
+        block.reset();
+    }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return 0; }
+
+protected:
+    double fs = ProcessSpec{}.sampleRate; ///< Hz
+    Params current;
+};
+
 } // namespace pacini

@@ -3,7 +3,6 @@
 // Deconvolution: from what was played and what was recorded to the impulse response.
 
 #include <pacini/foundation/Fft.h>
-#include <pacini/foundation/Result.h>
 #include <pacini/foundation/SplitRealFft.h>
 #include <pacini/linearize/Sweep.h>
 
@@ -101,18 +100,6 @@ private:
     SplitRealFft<double> fft;
     HalfSpectrum inverse;
 };
-
-/// The circular impulse response, of the fast size from recorded.size() + played.size() on, so that nothing wraps but
-/// what comes before the arrival. Errors: truncated when one of both is empty.
-[[nodiscard]] inline Result<std::vector<double>> deconvolve(std::span<const double> recorded,
-                                                            std::span<const double> played,
-                                                            double regularisation = deconvolutionRegularisation)
-{
-    if (recorded.empty() || played.empty())
-        return Error{ErrorCode::truncated, recorded.empty() ? "recorded" : "played", "has no samples"};
-    Deconvolver deconvolver(played, nextFastFftSize(recorded.size() + played.size()), regularisation);
-    return deconvolver.signal(deconvolver.response(deconvolver.spectrum(recorded)));
-}
 
 /// `sweep` sampled at `rate` Hz, the first sample `delay` samples (may be fractional) before its start.
 [[nodiscard]] inline std::vector<double> delayedSweep(const ExponentialSweep& sweep, double rate, double delay)

@@ -94,8 +94,6 @@ public:
         return capture;
     }
 
-    /// Frames pushed since reset. [any]
-    [[nodiscard]] std::uint64_t framesPushed() const noexcept { return written.load(std::memory_order_acquire); }
     [[nodiscard]] std::size_t capacityFrames() const noexcept { return capacity; }
 
 private:

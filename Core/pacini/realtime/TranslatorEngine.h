@@ -4,11 +4,10 @@
 
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/DriveStage.h>
-#include <pacini/realtime/EventPulses.h>
 #include <pacini/realtime/HighBandVoice.h>
-#include <pacini/realtime/LiveGate.h>
 #include <pacini/realtime/LiveOnsetDetector.h>
 #include <pacini/realtime/TranslatorDesign.h>
+#include <pacini/synthesis/TransientPulse.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +19,91 @@
 
 namespace pacini
 {
+
+/// Noise gate. Opens at once when the level passes the threshold (the jump is as small as the threshold), stays open
+/// while the level is above half of it or was so during the release, and closes in a straight line over another
+/// release.
+class LiveGate
+{
+public:
+    /// `threshold` linear, `releaseFrames` at least 1.
+    void setParams(double threshold, double releaseFrames) noexcept
+    {
+        limit = threshold;
+        fall = 1.0 / releaseFrames;
+        held = static_cast<std::size_t>(releaseFrames);
+    }
+    void reset() noexcept
+    {
+        gain = 0.0;
+        left = 0;
+    }
+
+    [[nodiscard]] double tick(double level) noexcept
+    {
+        if (level >= limit || (left > 0 && level >= 0.5 * limit))
+        {
+            left = held;
+            gain = 1.0;
+        }
+        else if (left > 0)
+            --left;
+        else
+            gain = std::max(0.0, gain - fall);
+        return gain;
+    }
+
+    [[nodiscard]] bool closed() const noexcept { return gain == 0.0; }
+
+private:
+    double limit = 0.0;
+    double fall = 1.0;
+    std::size_t held = 0;
+    std::size_t left = 0;
+    double gain = 0.0;
+};
+
+/// Pulse voices. Pulses that begin at once; one more than there is room for takes the place of the oldest, which is
+/// then almost over.
+class EventPulses
+{
+public:
+    void reset() noexcept { *this = EventPulses(); }
+
+    /// From frame `after` of the next call of addTo() on.
+    void begin(const Pulse& pulse, double gain, std::size_t after) noexcept
+    {
+        voices[next] = {PulseVoice(pulse), gain, after};
+        next = (next + 1) % voices.size();
+        ++sounding;
+    }
+
+    [[nodiscard]] bool silent() const noexcept { return sounding == 0; }
+
+    void addTo(std::span<float> out) noexcept
+    {
+        sounding = 0;
+        for (Voice& voice : voices)
+            if (!voice.pulse.finished())
+            {
+                const std::size_t wait = std::min(std::exchange(voice.after, 0), out.size());
+                voice.pulse.addTo(out.subspan(wait), voice.gain);
+                sounding += voice.pulse.finished() ? 0u : 1u;
+            }
+    }
+
+private:
+    struct Voice
+    {
+        PulseVoice pulse;
+        double gain = 0.0;
+        std::size_t after = 0;
+    };
+
+    std::array<Voice, 4> voices{};
+    std::size_t next = 0;
+    std::size_t sounding = 0;
+};
 
 /// Translator engine. Runs on frames of the inner rate, decides on a fixed grid (see ControlHop.h), so that its output
 /// does not depend on how it is called. Asleep, in silence, it does nothing.

@@ -53,13 +53,4 @@ struct TranslatorPreset
     return presets;
 }
 
-/// The preset of that name, letters compared as they are; null when there is none.
-[[nodiscard]] inline const TranslatorPreset* findTranslatorPreset(std::string_view name) noexcept
-{
-    for (const TranslatorPreset& preset : translatorPresets())
-        if (preset.name == name)
-            return &preset;
-    return nullptr;
-}
-
 } // namespace pacini

@@ -3,7 +3,6 @@
 // Budget allocation: one budget of breakpoints for several curves.
 
 #include <pacini/foundation/Result.h>
-#include <pacini/simplify/BudgetCurve.h>
 #include <pacini/simplify/GreedyBudget.h>
 #include <pacini/simplify/KeptPoints.h>
 #include <pacini/simplify/Lagrangian.h>

@@ -6,7 +6,6 @@
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/Culling.h>
 #include <pacini/synthesis/DecoderChoice.h>
-#include <pacini/synthesis/ErrorSum.h>
 #include <pacini/synthesis/LimitedError.h>
 #include <pacini/synthesis/LoopUnroll.h>
 #include <pacini/synthesis/PlayEnergy.h>

@@ -1,12 +1,12 @@
 #include "cli/bench/Bench.h"
 #include "cli/bench/Timed.h"
+#include "cli/bench/ZeroPhaseBank.h"
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/methods/MethodCurves.h>
 #include <pacini/evaluate/AnalyticBand.h>
 #include <pacini/filters/FilterBank.h>
 #include <pacini/filters/RationalDecimator.h>
-#include <pacini/filters/ZeroPhaseBank.h>
 #include <pacini/foundation/Fft.h>
 
 #include <fmt/format.h>

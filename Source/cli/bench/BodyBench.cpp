@@ -1,8 +1,8 @@
 #include "cli/bench/Bench.h"
 #include "cli/bench/BenchSpectrum.h"
+#include "cli/bench/BodyIntegration.h"
 #include "cli/bench/Timed.h"
 
-#include <pacini/actuator/BodyIntegration.h>
 #include <pacini/actuator/BodyModel.h>
 #include <pacini/filters/Resampler.h>
 

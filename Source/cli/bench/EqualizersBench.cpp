@@ -1,10 +1,10 @@
 #include "cli/bench/Bench.h"
+#include "cli/bench/FirFit.h"
 #include "cli/bench/Timed.h"
+#include "cli/bench/YuleWalker.h"
 
 #include <pacini/foundation/Random.h>
 #include <pacini/linearize/EqualizerFit.h>
-#include <pacini/linearize/FirFit.h>
-#include <pacini/linearize/YuleWalker.h>
 
 #include <fmt/format.h>
 

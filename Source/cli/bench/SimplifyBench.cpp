@@ -1,10 +1,10 @@
 #include "cli/bench/Bench.h"
 #include "cli/bench/Timed.h"
+#include "cli/bench/ZeroPhaseBank.h"
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/methods/MethodCurves.h>
 #include <pacini/filters/RationalDecimator.h>
-#include <pacini/filters/ZeroPhaseBank.h>
 #include <pacini/simplify/BudgetSpread.h>
 #include <pacini/simplify/CurveError.h>
 #include <pacini/simplify/Simplify.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EmptyState.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -26,11 +27,7 @@ EmptyState::EmptyState(EditorModel& project, std::vector<std::filesystem::path> 
     : model(project), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
 {
     setTitle("No clip yet");
-    openButton.setTooltip("Opens sounds, clips and projects (Ctrl+O)");
-    openButton.onClick = [this]
-    {
-        onOpen();
-    };
+    prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this] { onOpen(); });
     addAndMakeVisible(openButton);
     subscriptions.on({&model.projectChanged}, [this] { fill(); });
     fill();
@@ -42,11 +39,7 @@ void EmptyState::fill()
                              const juce::String& help)
     {
         auto button = std::make_unique<juce::TextButton>(shownName(file));
-        button->setTooltip(help + pathText(file));
-        button->onClick = [this, file]
-        {
-            onFile(file);
-        };
+        prepareButton(*button, help + pathText(file), [this, file] { onFile(file); });
         addAndMakeVisible(*button);
         list.push_back(std::move(button));
     };

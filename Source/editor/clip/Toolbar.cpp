@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/Toolbar.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -35,13 +36,13 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     const auto button = [this](juce::Button& one, Command command, const juce::String& title, const juce::String& help)
     {
         one.setTitle(title);
-        one.setTooltip(help);
         one.setWantsKeyboardFocus(true);
-        one.onClick = [this, command]
-        {
-            if (onCommand)
-                onCommand(command);
-        };
+        prepareButton(one, help,
+                      [this, command]
+                      {
+                          if (onCommand)
+                              onCommand(command);
+                      });
         addAndMakeVisible(one);
     };
     button(startButton, toStart, "To start", "Brings the playhead to the start (Home)");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/WorkBar.h"
 
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 
 #include <algorithm>
@@ -18,12 +19,9 @@ WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
     : model(project), sounds(projectSounds), stopButton("Stop")
 {
     setTitle("Progress");
-    stopButton.setTooltip("Skips files that are not opened and analysed yet (Escape)");
     stopButton.setTitle("Stop opening and analysing");
-    stopButton.onClick = [this]
-    {
-        sounds.stopWork();
-    };
+    prepareButton(stopButton, "Skips files that are not opened and analysed yet (Escape)",
+                  [this] { sounds.stopWork(); });
     addAndMakeVisible(stopButton);
     subscriptions.on({&sounds.workChanged}, [this] { follow(); });
     follow();

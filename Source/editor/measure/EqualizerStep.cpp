@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/EqualizerStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/measure/ResponseStep.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pacini::editor
@@ -30,11 +30,6 @@ const char* nameOf(EqualizerType type)
     }
     return "High-pass";
 }
-
-juce::String signedText(double value, int decimals)
-{
-    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
-}
 } // namespace
 
 EqualizerStep::EqualizerStep(MeasurementController& wanted)
@@ -44,7 +39,7 @@ EqualizerStep::EqualizerStep(MeasurementController& wanted)
             "How much any frequency may be raised, dB; what is weaker stays weak and the rest is lowered"),
       low("Flat from", "Start of the range that is flattened, Hz"),
       high("Flat to", "End of the range that is flattened, Hz"),
-      desk(wanted)
+      controller(wanted)
 {
     sections.control.addItem("Automatic", automatic);
     for (int i = 1; i <= maxSections; ++i)
@@ -54,31 +49,27 @@ EqualizerStep::EqualizerStep(MeasurementController& wanted)
     prepareSlider(high.control, 100.0, 2000.0, 1.0, "Hz", 0);
     low.control.setSkewFactorFromMidPoint(50.0);
     high.control.setSkewFactorFromMidPoint(500.0);
-    sections.control.onChange = [this]
+    const auto take = [this]
     {
         takeWish();
     };
+    sections.control.onChange = take;
     for (auto* one : {&boost, &low, &high})
-        one->control.onValueChange = [this]
-        {
-            takeWish();
-        };
+        one->control.onValueChange = take;
     scroll.setViewedComponent(&table, false);
     scroll.setScrollBarsShown(true, false);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&sections, &boost, &low, &high, &facts, &scroll, &notes, &plot})
-        addAndMakeVisible(child);
+    addAll(*this, {&sections, &boost, &low, &high, &facts, &scroll, &notes, &plot});
     refresh();
 }
 
 void EqualizerStep::takeWish()
 {
-    EqualizerRequest request = desk.measurement().request();
+    EqualizerRequest request = controller.measurement().request();
     const int chosen = sections.control.getSelectedId();
     request.sections = chosen == automatic ? std::nullopt : std::optional(chosen);
     request.maxBoost = boost.control.getValue();
     // The ends follow what is measured until they are moved.
-    if (const MeasuredResponse* response = desk.measurement().response())
+    if (const MeasuredResponse* response = controller.measurement().response())
     {
         const FrequencyRange& felt = response->findings.features.felt;
         if (request.lowFrequency > 0.0 || std::abs(low.control.getValue() - std::round(felt.low)) > 0.5)
@@ -86,17 +77,17 @@ void EqualizerStep::takeWish()
         if (request.highFrequency > 0.0 || std::abs(high.control.getValue() - std::round(felt.high)) > 0.5)
             request.highFrequency = high.control.getValue();
     }
-    desk.setRequest(request);
+    controller.setRequest(request);
 }
 
 void EqualizerStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     const EqualizerRequest& request = work.request();
     const auto quietly = juce::dontSendNotification;
     sections.control.setSelectedId(request.sections.value_or(automatic), quietly);
     boost.control.setValue(request.maxBoost, quietly);
-    const bool free = !desk.isPlaying();
+    const bool free = !controller.isPlaying();
     for (juce::Component* one : std::initializer_list<juce::Component*>{&sections, &boost, &low, &high})
         one->setEnabled(free && work.response() != nullptr);
     const MeasuredResponse* response = work.response();
@@ -141,8 +132,7 @@ void EqualizerStep::refresh()
     table.show(std::move(list));
     const Linearity& linearity = fitted->predictedLinearity;
     FactTable::Facts effects{{"Mean deviation", numberText(linearity.meanDeviation, 2) + " dB"},
-                             {"Worst", signedText(linearity.worstDeviation, 2) + " dB at " +
-                                           numberText(linearity.worstFrequency, 0) + " Hz"},
+                             {"Worst", worstText(linearity)},
                              {"Power in the coil", signedText(fitted->cost.powerChange, 1) + " dB"}};
     if (fitted->cost.power)
         effects.push_back({"At full drive", numberText(*fitted->cost.power, 2) + " W"});
@@ -165,12 +155,7 @@ void EqualizerStep::refresh()
 
 void EqualizerStep::paint(juce::Graphics& g)
 {
-    const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    drawCard(g, area.removeFromLeft(stepSide), "Equaliser", p);
-    area.removeFromLeft(grid);
-    g.setColour(p.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    drawSideAndPlot(g, *this, "Equaliser");
 }
 
 void EqualizerStep::resized()

@@ -23,7 +23,7 @@ public:
 
 private:
     void takeWish();
-    MeasurementController& desk;
+    MeasurementController& controller;
     FactTable table{"Sections"};
     FactTable facts{"What the equaliser does"};
     NoteBox notes{"Notes on the equaliser"};

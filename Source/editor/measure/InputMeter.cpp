@@ -108,6 +108,23 @@ void InputMeter::paint(juce::Graphics& g)
     g.drawText("CLIP", lamp, juce::Justification::centred, false);
 }
 
+void nameMeters(InputMeters& meters, const MeasurementController& controller)
+{
+    const auto& wired = controller.wiring().inputs;
+    for (std::size_t i = 0; i < meters.size(); ++i)
+    {
+        meters[i].setVisible(i < wired.size());
+        if (i < wired.size())
+            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
+    }
+}
+
+void feedMeters(InputMeters& meters, MeasurementController& controller)
+{
+    for (std::size_t i = 0; i < controller.wiring().inputs.size(); ++i)
+        meters[i].show(controller.takePeak(i));
+}
+
 std::unique_ptr<juce::AccessibilityHandler> InputMeter::createAccessibilityHandler()
 {
     class Value final : public juce::AccessibilityTextValueInterface

@@ -3,7 +3,11 @@
 
 // Input level meter with peak hold and overload lamp, for setting a gain.
 
+#include "editor/measure/MeasurementController.h"
+
 #include <juce_gui_basics/juce_gui_basics.h>
+
+#include <array>
 
 namespace pacini::editor
 {
@@ -36,5 +40,12 @@ private:
     bool clipped = false;
     juce::String text;
 };
+
+using InputMeters = std::array<InputMeter, MeasurementController::maxInputs>;
+
+/// Shows the meters of the wired inputs, with their names.
+void nameMeters(InputMeters& meters, const MeasurementController& controller);
+/// To be called 30 times a second.
+void feedMeters(InputMeters& meters, MeasurementController& controller);
 
 } // namespace pacini::editor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/MeasurePage.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 
@@ -46,30 +47,21 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
       closeButton("Close")
 {
     setOpaque(true);
-    backButton.setTooltip("To the step before");
-    nextButton.setTooltip("To the next step");
-    closeButton.setTooltip("Back to the editor; what was measured stays until the program ends");
-    backButton.onClick = [this]
+    const auto go = [this](int steps)
     {
-        show(static_cast<MeasureStep>(static_cast<int>(stepNow) - 1));
+        show(static_cast<MeasureStep>(static_cast<int>(stepNow) + steps));
     };
-    nextButton.onClick = [this]
-    {
-        show(static_cast<MeasureStep>(static_cast<int>(stepNow) + 1));
-    };
-    closeButton.onClick = [this]
-    {
-        close();
-    };
+    prepareButton(backButton, "To the step before", [go] { go(-1); });
+    prepareButton(nextButton, "To the next step", [go] { go(1); });
+    prepareButton(closeButton, "Back to the editor; what was measured stays until the program ends",
+                  [this] { close(); });
     steps.onChoose = [this](MeasureStep chosen)
     {
         show(chosen);
     };
     scroll.setScrollBarsShown(true, true);
     scroll.setWantsKeyboardFocus(false);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&steps, &scroll, &backButton, &nextButton, &closeButton})
-        addAndMakeVisible(child);
+    addAll(*this, {&steps, &scroll, &backButton, &nextButton, &closeButton});
     int order = 1;
     for (juce::Component* child :
          std::initializer_list<juce::Component*>{&scroll, &nextButton, &backButton, &closeButton, &steps})

@@ -28,7 +28,6 @@ public:
     MeasurePage(std::shared_ptr<MeasurementController> wanted, std::function<void()> showDevices);
     ~MeasurePage() override;
 
-    [[nodiscard]] MeasurementController& desk() noexcept { return *shared; }
     [[nodiscard]] MeasureStep step() const noexcept { return stepNow; }
     /// False for a step that is locked.
     bool show(MeasureStep wanted);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/ResponseStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace pacini::editor
 {
@@ -13,16 +14,15 @@ juce::String levelUnit(const ActuatorMeasurement& work)
     return work.settings().calibrated ? toText("dB re 1 m/s² at full drive") : juce::String("dB, relative");
 }
 
-ResponseStep::ResponseStep(MeasurementController& wanted) : desk(wanted)
+ResponseStep::ResponseStep(MeasurementController& wanted) : controller(wanted)
 {
-    for (juce::Component* child : std::initializer_list<juce::Component*>{&facts, &notes, &plot, &distortion})
-        addAndMakeVisible(child);
+    addAll(*this, {&facts, &notes, &plot, &distortion});
     refresh();
 }
 
 void ResponseStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     ResponsePlot::Content curves, harmonics;
     harmonics.unit = ResponsePlot::Unit::percent;
     harmonics.axisName = "distortion";
@@ -51,29 +51,25 @@ void ResponseStep::refresh()
         harmonics.curves.push_back({"all harmonics", {level.response.frequency, level.distortion}});
         harmonics.range = curves.range;
 
-        const auto number = [](double value, int decimals)
-        {
-            return numberText(value, decimals);
-        };
         FactTable::Facts list{
             {"Placements",
              juce::String(static_cast<int>(placements.size() - response->findings.outliers.size())) +
                  (response->findings.outliers.empty() ? juce::String()
                                                       : " of " + juce::String(static_cast<int>(placements.size())))},
-            {"Resonance", number(features.resonance.frequency, 1) + " Hz"},
-            {"Q", number(features.resonance.q, 2)},
-            {"Usable range", number(features.felt.low, 0) + " to " + number(features.felt.high, 0) + " Hz"},
-            {"Even within 3 dB", features.even.high > features.even.low
-                                     ? number(features.even.low, 0) + " to " + number(features.even.high, 0) + " Hz"
-                                     : juce::String("nowhere")},
-            {"Plateau", number(features.plateau, 1) + " dB"}};
+            {"Resonance", numberText(features.resonance.frequency, 1) + " Hz"},
+            {"Q", numberText(features.resonance.q, 2)},
+            {"Usable range", numberText(features.felt.low, 0) + " to " + numberText(features.felt.high, 0) + " Hz"},
+            {"Even within 3 dB", features.even.high > features.even.low ? numberText(features.even.low, 0) + " to " +
+                                                                              numberText(features.even.high, 0) + " Hz"
+                                                                        : juce::String("nowhere")},
+            {"Plateau", numberText(features.plateau, 1) + " dB"}};
         if (response->findings.times)
-            list.push_back({"Rise and fall", number(1e3 * response->findings.times->riseTime, 0) + " and " +
-                                                 number(1e3 * response->findings.times->fallTime, 0) + " ms"});
-        list.push_back({"Distortion", "at most " + number(response->findings.distortion, 1) + " %"});
+            list.push_back({"Rise and fall", numberText(1e3 * response->findings.times->riseTime, 0) + " and " +
+                                                 numberText(1e3 * response->findings.times->fallTime, 0) + " ms"});
+        list.push_back({"Distortion", "at most " + numberText(response->findings.distortion, 1) + " %"});
         if (const auto& drift = measured.driftPpm)
-            list.push_back({"Clocks", (*drift > 0.0 ? "+" : "") + number(*drift, 1) + " ppm"});
-        list.push_back({"Latency", number(1e3 * measured.latency, 1) + " ms"});
+            list.push_back({"Clocks", (*drift > 0.0 ? "+" : "") + numberText(*drift, 1) + " ppm"});
+        list.push_back({"Latency", numberText(1e3 * measured.latency, 1) + " ms"});
         facts.show(std::move(list));
         for (const std::string& note : response->notes)
             lines.push_back({note, Note::Kind::warning});
@@ -95,12 +91,7 @@ void ResponseStep::refresh()
 
 void ResponseStep::paint(juce::Graphics& g)
 {
-    const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    drawCard(g, area.removeFromLeft(stepSide), "Actuator", p);
-    area.removeFromLeft(grid);
-    g.setColour(p.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    drawSideAndPlot(g, *this, "Actuator");
 }
 
 void ResponseStep::resized()

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] const NoteBox& noteBox() const noexcept { return notes; }
 
 private:
-    MeasurementController& desk;
+    MeasurementController& controller;
     FactTable facts{"The actuator"};
     NoteBox notes{"Notes on the measurement"};
     ResponsePlot plot{"Response", "Level over frequency of each placement, their average and the noise"};

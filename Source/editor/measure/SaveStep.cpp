@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SaveStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 namespace pacini::editor
@@ -29,7 +30,7 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
     : name("Name", "What the actuator is called in the list of actuators"),
       file("File", "The profile that is written, .json"),
       saveButton("Save profile"),
-      desk(wanted),
+      controller(wanted),
       services(around),
       browse("Browse" + toText("…"))
 {
@@ -52,36 +53,31 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
         ownFile = true;
         refresh();
     };
-    browse.setTooltip("Chooses where to write");
-    browse.onClick = [this]
-    {
-        services.askForFile("Save the profile", "*.json", true, file.control.getText(),
-                            [this](const juce::File& chosen)
-                            {
-                                ownFile = true;
-                                file.control.setText(chosen.withFileExtension("json").getFullPathName(), false);
-                                refresh();
-                            });
-    };
+    prepareButton(browse, "Chooses where to write",
+                  [this]
+                  {
+                      services.askForFile("Save the profile", "*.json", true, file.control.getText(),
+                                          [this](const juce::File& chosen)
+                                          {
+                                              ownFile = true;
+                                              file.control.setText(chosen.withFileExtension("json").getFullPathName(),
+                                                                   false);
+                                              refresh();
+                                          });
+                  });
     use.setButtonText("Use it in this project at once");
     use.setTitle("Use it in this project at once");
     use.setTooltip("Makes it the actuator that the drive signal of this project is made for");
     use.setToggleState(true, juce::dontSendNotification);
-    saveButton.setTooltip("Writes the profile and adds it to the list of actuators");
-    saveButton.onClick = [this]
-    {
-        save();
-    };
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&name, &file, &browse, &use, &saveButton, &facts, &notes})
-        addAndMakeVisible(child);
+    prepareButton(saveButton, "Writes the profile and adds it to the list of actuators", [this] { save(); });
+    addAll(*this, {&name, &file, &browse, &use, &saveButton, &facts, &notes});
     follow();
 }
 
 void SaveStep::follow()
 {
     if (!ownFile)
-        file.control.setText(juce::File(pathText(desk.profileFolder()))
+        file.control.setText(juce::File(pathText(controller.profileFolder()))
                                  .getChildFile(fileNameOf(name.control.getText()) + ".json")
                                  .getFullPathName(),
                              false);
@@ -90,19 +86,19 @@ void SaveStep::follow()
 
 void SaveStep::save()
 {
-    const auto saved = desk.save(name.control.getText().trim().toStdString(),
-                                 pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText())),
-                                 use.getToggleState());
+    const auto saved = controller.save(
+        name.control.getText().trim().toStdString(),
+        pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText())), use.getToggleState());
     problem = saved ? std::string() : saved.error().text();
     refresh();
 }
 
 void SaveStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     const bool ready = work.equalizer() != nullptr;
     saveButton.setEnabled(ready && name.control.getText().trim().isNotEmpty() &&
-                          desk.activity() == MeasurementController::Activity::none);
+                          controller.activity() == MeasurementController::Activity::none);
     std::vector<Note> lines;
     if (ready)
     {
@@ -118,7 +114,7 @@ void SaveStep::refresh()
                                            : juce::String(verified->linearity.passed() ? "passed, " : "not passed, ") +
                                                  "worst " + (verified->linearity.worstDeviation >= 0.0 ? "+" : "") +
                                                  numberText(verified->linearity.worstDeviation, 2) + " dB"},
-             {"Limits from", desk.base() ? toText(work.base().name) : juce::String("nothing is known")}});
+             {"Limits from", controller.base() ? toText(work.base().name) : juce::String("nothing is known")}});
         if (!work.saved().empty())
             lines.push_back({"Saved to " + work.saved() + ". It is in the list of actuators now."});
         else

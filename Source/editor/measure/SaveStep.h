@@ -25,7 +25,7 @@ private:
     void follow();
     void save();
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     StepServices& services;
     juce::TextButton browse;
     juce::ToggleButton use;

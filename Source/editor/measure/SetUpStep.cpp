@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SetUpStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char
 } // namespace
 
 SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
-    : desk(wanted),
+    : controller(wanted),
       services(around),
       rig("Rig", "The sound device with actuator and sensor on it, or a simulation to try the page with"),
       output("Output", "The output that the amplifier of the actuator is connected to"),
@@ -71,76 +72,63 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
                                  "equaliser are right nevertheless"));
     tone.setButtonText("Test tone of 100 Hz");
     tone.setTitle("Test tone");
-    tone.setTooltip("Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves");
-    devices.setTooltip("Chooses the sound device, its inputs and its sample rate");
-    saveSweep.setTooltip("Writes the sweep as a sound for another player, with a description beside it");
-    openRecording.setTooltip("Takes a recording of the sweep that was made elsewhere, one to three channels");
 
     rig.control.onChange = [this]
     {
-        desk.chooseRig(static_cast<std::size_t>(std::max(0, rig.control.getSelectedId() - first)));
+        controller.chooseRig(static_cast<std::size_t>(std::max(0, rig.control.getSelectedId() - first)));
     };
     base.control.onChange = [this]
     {
         const int chosen = base.control.getSelectedId() - first - 1;
-        desk.setBase(chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen)));
+        controller.setBase(chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen)));
     };
-    output.control.onChange = [this]
+    const auto wire = [this]
     {
         takeWiring();
     };
+    output.control.onChange = wire;
     for (auto& one : input)
-        one.control.onChange = [this]
-        {
-            takeWiring();
-        };
+        one.control.onChange = wire;
+    const auto take = [this]
+    {
+        takeSettings();
+    };
     for (auto* one : {&level, &low, &high, &duration, &repeats})
-        one->control.onValueChange = [this]
-        {
-            takeSettings();
-        };
-    fullScale.onValueChange = [this]
-    {
-        takeSettings();
-    };
-    calibrated.onClick = [this]
-    {
-        takeSettings();
-    };
-    tone.onClick = [this]
-    {
-        desk.setTone(tone.getToggleState());
-    };
-    devices.onClick = [this]
-    {
-        services.showDevices();
-    };
-    saveSweep.onClick = [this]
-    {
-        services.askForFile("Save the sweep", "*.wav", true, "sweep.wav",
-                            [this](const juce::File& file)
-                            {
-                                const auto saved = desk.saveSweep(pathOf(file.withFileExtension("wav")), false);
-                                services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
-                                              saved ? "Play it to the actuator and record the sensor from before its "
-                                                      "beginning until after its end. Then open the recording here. "
-                                                      "Keep the .json beside it: it says what was played."
-                                                    : toText(saved.error().text()));
-                            });
-    };
-    openRecording.onClick = [this]
-    {
-        services.askForFile("Open a recording of the sweep", recordings, false, {},
-                            [this](const juce::File& file) { desk.readRecording(pathOf(file), false); });
-    };
-    for (juce::Component* child : std::initializer_list<juce::Component*>{
-             &rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
-             &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
-             &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes})
-        addAndMakeVisible(child);
+        one->control.onValueChange = take;
+    fullScale.onValueChange = take;
+    calibrated.onClick = take;
+    prepareButton(tone, "Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves",
+                  [this] { controller.setTone(tone.getToggleState()); });
+    prepareButton(devices, "Chooses the sound device, its inputs and its sample rate",
+                  [this] { services.showDevices(); });
+    prepareButton(saveSweep, "Writes the sweep as a sound for another player, with a description beside it",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Save the sweep", "*.wav", true, "sweep.wav",
+                          [this](const juce::File& file)
+                          {
+                              const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
+                              services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
+                                            saved ? "Play it to the actuator and record the sensor from before its "
+                                                    "beginning until after its end. Then open the recording here. "
+                                                    "Keep the .json beside it: it says what was played."
+                                                  : toText(saved.error().text()));
+                          });
+                  });
+    prepareButton(openRecording, "Takes a recording of the sweep that was made elsewhere, one to three channels",
+                  [this]
+                  {
+                      services.askForFile("Open a recording of the sweep", recordings, false, {},
+                                          [this](const juce::File& file)
+                                          { controller.readRecording(pathOf(file), false); });
+                  });
+    addAll(*this, {&rig,       &output,    &input[0], &input[1],  &input[2],      &calibrated, &fullScale, &meters[0],
+                   &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
+                   &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes});
     std::vector<std::string> profiles;
     profiles.emplace_back("Nothing is known");
-    for (const auto& name : desk.profileNames())
+    for (const auto& name : controller.profileNames())
         profiles.push_back(name);
     fill(base.control, profiles);
     refresh();
@@ -157,13 +145,13 @@ void SetUpStep::takeWiring()
         if (chosen >= 0)
             wiring.inputs.push_back(static_cast<std::size_t>(chosen));
     }
-    desk.setWiring(wiring);
+    controller.setWiring(wiring);
     refresh();
 }
 
 void SetUpStep::takeSettings()
 {
-    MeasureSettings settings = desk.measurement().settings();
+    MeasureSettings settings = controller.measurement().settings();
     settings.level = level.control.getValue();
     settings.lowFrequency = low.control.getValue();
     settings.highFrequency = high.control.getValue();
@@ -171,21 +159,21 @@ void SetUpStep::takeSettings()
     settings.repeats = static_cast<int>(std::lround(repeats.control.getValue()));
     settings.calibrated = calibrated.getToggleState();
     settings.fullScale = fullScale.getValue();
-    desk.setSettings(settings);
+    controller.setSettings(settings);
     refresh();
 }
 
 void SetUpStep::refresh()
 {
-    const MeasureSettings& settings = desk.measurement().settings();
-    const RigPorts& ports = desk.ports();
-    const RigWiring& wiring = desk.wiring();
-    const bool locked = desk.measurement().rangeLocked();
-    const bool busy = desk.isPlaying();
+    const MeasureSettings& settings = controller.measurement().settings();
+    const RigPorts& ports = controller.ports();
+    const RigWiring& wiring = controller.wiring();
+    const bool locked = controller.measurement().rangeLocked();
+    const bool busy = controller.isPlaying();
     const auto quietly = juce::dontSendNotification;
 
-    fill(rig.control, desk.rigNames());
-    rig.control.setSelectedId(first + static_cast<int>(desk.rigIndex()), quietly);
+    fill(rig.control, controller.rigNames());
+    rig.control.setSelectedId(first + static_cast<int>(controller.rigIndex()), quietly);
     fill(output.control, ports.outputs);
     output.control.setSelectedId(first + static_cast<int>(wiring.output), quietly);
     output.control.setTextWhenNoChoicesAvailable("No output");
@@ -197,14 +185,12 @@ void SetUpStep::refresh()
         const bool used = i < wiring.inputs.size();
         box.setSelectedId(used ? first + static_cast<int>(wiring.inputs[i]) + (i == 0 ? 0 : 1) : (i == 0 ? 0 : first),
                           quietly);
-        meters[i].setVisible(used);
-        if (used)
-            meters[i].setName(toText(ports.inputs[wiring.inputs[i]]));
         input[i].setEnabled(!busy && !ports.inputs.empty());
     }
+    nameMeters(meters, controller);
     rig.setEnabled(!busy);
     output.setEnabled(!busy && !ports.outputs.empty());
-    base.control.setSelectedId(first + (desk.base() ? 1 + static_cast<int>(*desk.base()) : 0), quietly);
+    base.control.setSelectedId(first + (controller.base() ? 1 + static_cast<int>(*controller.base()) : 0), quietly);
 
     level.control.setValue(settings.level, quietly);
     low.control.setValue(settings.lowFrequency, quietly);
@@ -219,16 +205,16 @@ void SetUpStep::refresh()
         one->setEnabled(!busy);
     calibrated.setEnabled(!locked && !busy);
     fullScale.setEnabled(!locked && !busy && settings.calibrated);
-    tone.setToggleState(desk.isToneOn(), quietly);
+    tone.setToggleState(controller.isToneOn(), quietly);
     tone.setEnabled(!busy && ports.problem.empty());
     devices.setVisible(services.showDevices != nullptr);
-    openRecording.setEnabled(desk.activity() == MeasurementController::Activity::none);
+    openRecording.setEnabled(controller.activity() == MeasurementController::Activity::none);
 
-    facts.show({{"All that is played", numberText(desk.sweepSeconds(), 1) + " s"},
+    facts.show({{"All that is played", numberText(controller.sweepSeconds(), 1) + " s"},
                 {"Sample rate", numberText(ports.sampleRate, 0) + " Hz"}});
 
     std::vector<Note> lines;
-    if (const auto obstacle = desk.obstacle(); !obstacle.empty())
+    if (const auto obstacle = controller.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
     if (locked)
         lines.push_back({"Range and calibration stay as they are while there are placements: drop them in step 2 to "
@@ -242,8 +228,7 @@ void SetUpStep::refresh()
 
 void SetUpStep::tick()
 {
-    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
-        meters[i].show(desk.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> SetUpStep::rigCard() const

@@ -24,17 +24,17 @@ public:
     [[nodiscard]] const InputMeter& meter(std::size_t index) const { return meters[index]; }
 
 private:
-    static constexpr std::size_t inputs = 3;
+    static constexpr std::size_t inputs = MeasurementController::maxInputs;
     void takeWiring();
     void takeSettings();
     [[nodiscard]] juce::Rectangle<int> rigCard() const;
     [[nodiscard]] juce::Rectangle<int> sweepCard() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     StepServices& services;
     Named<juce::ComboBox> rig, output, base;
     std::array<Named<juce::ComboBox>, inputs> input;
-    std::array<InputMeter, inputs> meters;
+    InputMeters meters;
     juce::ToggleButton calibrated;
     juce::Slider fullScale;
     juce::ToggleButton tone;

@@ -23,6 +23,26 @@ juce::String numberText(double value, int decimals)
     return decimals > 0 ? juce::String(value, decimals) : juce::String(static_cast<juce::int64>(std::llround(value)));
 }
 
+juce::String signedText(double value, int decimals)
+{
+    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
+}
+
+juce::String worstText(const Linearity& linearity)
+{
+    return signedText(linearity.worstDeviation, 2) + " dB at " + numberText(linearity.worstFrequency, 0) + " Hz";
+}
+
+void drawSideAndPlot(juce::Graphics& g, const juce::Component& step, const juce::String& title)
+{
+    const Palette& p = paletteFor(step);
+    auto area = step.getLocalBounds();
+    drawCard(g, area.removeFromLeft(stepSide), title, p);
+    area.removeFromLeft(grid);
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+}
+
 NoteBox::NoteBox(const juce::String& name)
 {
     setMultiLine(true);

@@ -5,6 +5,8 @@
 
 #include "editor/Theme.h"
 
+#include <pacini/actuator/ProfileMeasurement.h>
+
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <functional>
@@ -56,6 +58,15 @@ void prepareSlider(juce::Slider& slider, double least, double most, double step,
 
 /// A rounded number; with no decimals JUCE would show all there are.
 [[nodiscard]] juce::String numberText(double value, int decimals);
+
+/// The same with its sign, for what is a change.
+[[nodiscard]] juce::String signedText(double value, int decimals);
+
+/// Where a response is off its mean the most, and by how much.
+[[nodiscard]] juce::String worstText(const Linearity& linearity);
+
+/// The ground of a step: a card of that title at its side, and one for a plot.
+void drawSideAndPlot(juce::Graphics& g, const juce::Component& step, const juce::String& title);
 
 struct Note
 {

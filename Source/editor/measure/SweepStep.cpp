@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/SweepStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 
 #include <cmath>
@@ -14,16 +15,16 @@ constexpr int playHeight = 25 * grid;
 } // namespace
 
 SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
-    : desk(wanted), verifying(throughEqualizer)
+    : controller(wanted), verifying(throughEqualizer)
 {
     button.onClick = [this]
     {
-        if (desk.isPlaying())
-            desk.stop();
+        if (controller.isPlaying())
+            controller.stop();
         else if (verifying)
-            desk.verify();
+            controller.verify();
         else
-            desk.sweep();
+            controller.sweep();
     };
     bar.setTitle("Progress of the sweep");
     addAndMakeVisible(button);
@@ -33,19 +34,19 @@ SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
 
 bool SweepControl::isMine() const
 {
-    return desk.activity() ==
+    return controller.activity() ==
            (verifying ? MeasurementController::Activity::verifying : MeasurementController::Activity::sweeping);
 }
 
 void SweepControl::refresh()
 {
-    const bool analysing = desk.activity() == MeasurementController::Activity::analysing;
+    const bool analysing = controller.activity() == MeasurementController::Activity::analysing;
     button.setButtonText(isMine() ? "Stop" : verifying ? "Sweep through the equaliser" : "Sweep");
     button.setTitle(button.getButtonText());
     button.setTooltip(isMine() ? "Ends the sweep; nothing of it is kept"
                                : "Plays the sweep through the actuator and records the sensor in step with it");
-    button.setEnabled(isMine() ||
-                      (desk.activity() == MeasurementController::Activity::none && desk.obstacle().empty()));
+    button.setEnabled(
+        isMine() || (controller.activity() == MeasurementController::Activity::none && controller.obstacle().empty()));
     if (analysing)
     {
         progress = -1.0;
@@ -59,8 +60,8 @@ void SweepControl::tick()
 {
     if (!isMine())
         return;
-    progress = desk.progress();
-    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(desk.secondsLeft()))) + " s left");
+    progress = controller.progress();
+    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(controller.secondsLeft()))) + " s left");
 }
 
 void SweepControl::resized()
@@ -75,39 +76,31 @@ void SweepControl::resized()
 
 SweepStep::SweepStep(MeasurementController& wanted)
     : control(wanted, false),
-      desk(wanted),
+      controller(wanted),
       name("Name", "What the next placement is called: who wears it, or how it is attached")
 {
     name.control.setFont(usualFont());
     name.control.setIndents(grid, 7);
     name.control.onTextChange = [this]
     {
-        desk.setNextPlacementName(name.control.getText().toStdString());
+        controller.setNextPlacementName(name.control.getText().toStdString());
     };
     scroll.setViewedComponent(&list, false);
     scroll.setScrollBarsShown(true, false);
     list.setTitle("Placements");
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes})
-        addAndMakeVisible(child);
+    addAll(*this, {&name, &control, &meters[0], &meters[1], &meters[2], &scroll, &notes});
     refresh();
 }
 
 void SweepStep::refresh()
 {
-    const auto& wired = desk.wiring().inputs;
-    for (std::size_t i = 0; i < meters.size(); ++i)
-    {
-        meters[i].setVisible(i < wired.size());
-        if (i < wired.size())
-            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
-    }
+    nameMeters(meters, controller);
     if (!name.control.hasKeyboardFocus(true) || name.control.getText().isEmpty())
-        name.control.setText(toText(desk.nextPlacementName()), false);
-    name.setEnabled(!desk.isPlaying());
+        name.control.setText(toText(controller.nextPlacementName()), false);
+    name.setEnabled(!controller.isPlaying());
     control.refresh();
 
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     rows.clear();
     const MeasuredResponse* response = work.response();
     for (std::size_t i = 0; i < work.placements().size(); ++i)
@@ -118,7 +111,7 @@ void SweepStep::refresh()
         if (response != nullptr && i < response->average.offsets.size() && work.placements().size() > 1)
         {
             const double offset = response->average.offsets[i];
-            text << ", " << (offset >= 0.0 ? "+" : "") << numberText(offset, 1) << " dB to the average";
+            text << ", " << signedText(offset, 1) << " dB to the average";
             if (response->findings.outliers.contains(i))
                 text << ", left out";
         }
@@ -131,27 +124,27 @@ void SweepStep::refresh()
         row->name.setMinimumHorizontalScale(0.8f);
         row->drop.setButtonText("Drop");
         row->drop.setTitle("Drop " + toText(placement.name));
-        row->drop.setTooltip("Takes this placement out; the response is computed anew");
-        row->drop.setEnabled(desk.activity() == MeasurementController::Activity::none);
-        row->drop.onClick = [safe = juce::Component::SafePointer<SweepStep>(this), i]
-        {
-            // Dropping removes this very button.
-            juce::MessageManager::callAsync(
-                [safe, i]
-                {
-                    if (safe)
-                        safe->desk.dropPlacement(i);
-                });
-        };
+        row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);
+        prepareButton(row->drop, "Takes this placement out; the response is computed anew",
+                      [safe = juce::Component::SafePointer<SweepStep>(this), i]
+                      {
+                          // Dropping removes this very button.
+                          juce::MessageManager::callAsync(
+                              [safe, i]
+                              {
+                                  if (safe)
+                                      safe->controller.dropPlacement(i);
+                              });
+                      });
         list.addAndMakeVisible(row->name);
         list.addAndMakeVisible(row->drop);
         rows.push_back(std::move(row));
     }
 
     std::vector<Note> lines;
-    if (!desk.sweepProblem().empty())
-        lines.push_back({desk.sweepProblem(), Note::Kind::warning});
-    else if (const auto obstacle = desk.obstacle(); !obstacle.empty())
+    if (!controller.sweepProblem().empty())
+        lines.push_back({controller.sweepProblem(), Note::Kind::warning});
+    else if (const auto obstacle = controller.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
     else if (!work.placements().empty())
     {
@@ -170,8 +163,7 @@ void SweepStep::refresh()
 void SweepStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
-        meters[i].show(desk.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> SweepStep::playCard() const

@@ -7,7 +7,6 @@
 #include "editor/measure/MeasurementController.h"
 #include "editor/measure/StepParts.h"
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -26,7 +25,7 @@ public:
 
 private:
     [[nodiscard]] bool isMine() const;
-    MeasurementController& desk;
+    MeasurementController& controller;
     const bool verifying;
     double progress = 0.0;
     juce::ProgressBar bar{progress};
@@ -53,9 +52,9 @@ private:
     [[nodiscard]] juce::Rectangle<int> playCard() const;
     [[nodiscard]] juce::Rectangle<int> listCard() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     Named<juce::TextEditor> name;
-    std::array<InputMeter, 3> meters;
+    InputMeters meters;
     NoteBox notes{"Result of the last sweep"};
     juce::Viewport scroll;
     juce::Component list;

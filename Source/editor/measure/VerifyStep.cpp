@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/measure/VerifyStep.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/measure/ResponseStep.h"
 
@@ -16,7 +17,7 @@ constexpr int meterRow = 20;
 
 VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     : control(wanted, true),
-      desk(wanted),
+      controller(wanted),
       services(around),
       tolerance("Tolerance", "How far any frequency may be off the mean to pass, dB to both sides"),
       saveSweep("Save sweep" + toText("…")),
@@ -26,53 +27,43 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     prepareSlider(tolerance.control, 0.5, 6.0, 0.1, "dB", 1);
     tolerance.control.onValueChange = [this]
     {
-        desk.setTolerance(tolerance.control.getValue());
+        controller.setTolerance(tolerance.control.getValue());
     };
     saveSweep.setTitle("Save the sweep through the equaliser");
-    saveSweep.setTooltip("Writes the sweep through the equaliser as a sound for another player");
-    saveSweep.onClick = [this]
-    {
-        services.askForFile("Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
-                            [this](const juce::File& file)
-                            {
-                                if (const auto saved = desk.saveSweep(pathOf(file.withFileExtension("wav")), true);
-                                    !saved)
-                                    services.tell("The sweep was not saved", toText(saved.error().text()));
-                            });
-    };
+    prepareButton(saveSweep, "Writes the sweep through the equaliser as a sound for another player",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
+                          [this](const juce::File& file)
+                          {
+                              if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true);
+                                  !saved)
+                                  services.tell("The sweep was not saved", toText(saved.error().text()));
+                          });
+                  });
     openRecording.setTitle("Open a recording of the sweep through the equaliser");
-    openRecording.setTooltip("Takes a recording of the sweep through the equaliser that was made elsewhere");
-    openRecording.onClick = [this]
-    {
-        services.askForFile("Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
-                            [this](const juce::File& file) { desk.readRecording(pathOf(file), true); });
-    };
+    prepareButton(openRecording, "Takes a recording of the sweep through the equaliser that was made elsewhere",
+                  [this]
+                  {
+                      services.askForFile(
+                          "Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
+                          [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
+                  });
     again.setTitle("Start the proof anew");
-    again.setTooltip("Drops the sweeps through the equaliser");
-    again.onClick = [this]
-    {
-        desk.dropVerifications();
-    };
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep,
-                                                 &openRecording, &again, &facts, &notes, &plot})
-        addAndMakeVisible(child);
+    prepareButton(again, "Drops the sweeps through the equaliser", [this] { controller.dropVerifications(); });
+    addAll(*this, {&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep, &openRecording, &again, &facts,
+                   &notes, &plot});
     refresh();
 }
 
 void VerifyStep::refresh()
 {
-    const ActuatorMeasurement& work = desk.measurement();
+    const ActuatorMeasurement& work = controller.measurement();
     control.refresh();
-    const auto& wired = desk.wiring().inputs;
-    for (std::size_t i = 0; i < meters.size(); ++i)
-    {
-        meters[i].setVisible(i < wired.size());
-        if (i < wired.size())
-            meters[i].setName(toText(desk.ports().inputs[wired[i]]));
-    }
+    nameMeters(meters, controller);
     tolerance.control.setValue(work.tolerance(), juce::dontSendNotification);
-    const bool free = desk.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
+    const bool free = controller.activity() == MeasurementController::Activity::none && work.equalizer() != nullptr;
     saveSweep.setEnabled(free);
     openRecording.setEnabled(free);
     again.setEnabled(free && !work.verifications().empty());
@@ -82,8 +73,8 @@ void VerifyStep::refresh()
     curves.empty = "There is no equaliser yet";
     std::vector<Note> lines;
     FactTable::Facts list;
-    if (!desk.verifyProblem().empty())
-        lines.push_back({desk.verifyProblem(), Note::Kind::warning});
+    if (!controller.verifyProblem().empty())
+        lines.push_back({controller.verifyProblem(), Note::Kind::warning});
     else if (!work.problem(MeasureStep::verify).empty())
         lines.push_back({work.problem(MeasureStep::verify), Note::Kind::warning});
     const MeasuredResponse* response = work.response();
@@ -100,15 +91,10 @@ void VerifyStep::refresh()
                     curves.curves.push_back({"sweeps", one->measurement.response(), ResponsePlot::Role::single});
             curves.curves.push_back({"with the equaliser", verified->after, ResponsePlot::Role::result});
             curves.band = std::pair(after.level - after.tolerance, after.level + after.tolerance);
-            const auto deviation = [](const Linearity& one)
-            {
-                return (one.worstDeviation >= 0.0 ? "+" : "") + numberText(one.worstDeviation, 2) + " dB at " +
-                       numberText(one.worstFrequency, 0) + " Hz";
-            };
             list = {{"Mean deviation", numberText(after.meanDeviation, 2) + " dB"},
                     {"before", numberText(verified->before.meanDeviation, 2) + " dB"},
-                    {"Worst", deviation(after)},
-                    {"before", deviation(verified->before)},
+                    {"Worst", worstText(after)},
+                    {"before", worstText(verified->before)},
                     {"Sweeps", juce::String(static_cast<int>(work.verifications().size()))},
                     {"Level", numberText(work.verifications().back()->level, 1) + " dB"}};
             for (const LinearityOutlier& outlier : after.outliers)
@@ -134,13 +120,12 @@ void VerifyStep::refresh()
 void VerifyStep::tick()
 {
     control.tick();
-    for (std::size_t i = 0; i < desk.wiring().inputs.size(); ++i)
-        meters[i].show(desk.takePeak(i));
+    feedMeters(meters, controller);
 }
 
 juce::Rectangle<int> VerifyStep::verdictArea() const
 {
-    const int further = std::max(0, static_cast<int>(desk.wiring().inputs.size()) - 1);
+    const int further = std::max(0, static_cast<int>(controller.wiring().inputs.size()) - 1);
     return insideOfCard(getLocalBounds().removeFromLeft(stepSide))
         .withTrimmedTop(19 * grid + further * meterRow)
         .withHeight(4 * grid);
@@ -148,14 +133,10 @@ juce::Rectangle<int> VerifyStep::verdictArea() const
 
 void VerifyStep::paint(juce::Graphics& g)
 {
-    const Palette& p = paletteFor(*this);
-    auto area = getLocalBounds();
-    drawCard(g, area.removeFromLeft(stepSide), "Proof", p);
-    area.removeFromLeft(grid);
-    g.setColour(p.card);
-    g.fillRoundedRectangle(area.toFloat(), 6.0f);
-    if (const VerifiedResponse* verified = desk.measurement().verified())
+    drawSideAndPlot(g, *this, "Proof");
+    if (const VerifiedResponse* verified = controller.measurement().verified())
     {
+        const Palette& p = paletteFor(*this);
         const bool passed = verified->linearity.passed();
         const auto place = verdictArea().toFloat();
         g.setColour((passed ? p.accent : p.warning).withAlpha(0.2f));

@@ -8,7 +8,6 @@
 #include "editor/measure/StepParts.h"
 #include "editor/measure/SweepStep.h"
 
-#include <array>
 #include <cstddef>
 
 namespace pacini::editor
@@ -31,9 +30,9 @@ public:
 private:
     [[nodiscard]] juce::Rectangle<int> verdictArea() const;
 
-    MeasurementController& desk;
+    MeasurementController& controller;
     StepServices& services;
-    std::array<InputMeter, MeasurementController::maxInputs> meters; ///< of all axes
+    InputMeters meters; ///< of all axes
     Named<juce::Slider> tolerance;
     juce::TextButton saveSweep, openRecording, again;
     FactTable facts{"How flat it is"};

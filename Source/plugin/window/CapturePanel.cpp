@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/window/CapturePanel.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "io/ClipFile.h"
@@ -29,32 +30,22 @@ CapturePanel::CapturePanel(PluginProcessor& heard)
     length.setSelectedId(5, juce::dontSendNotification);
     length.setTitle("Length of the capture");
     length.setTooltip("How much of what was heard becomes a clip");
-    button.setTooltip("Turns the last seconds of the sound into a clip");
     button.setDescription("Turns the last seconds of the sound into a clip");
-    button.onClick = [this]
-    {
-        captureNow();
-    };
-    editButton.setTooltip("Opens the captured clip in the clip editor");
+    editor::prepareButton(button, "Turns the last seconds of the sound into a clip", [this] { captureNow(); });
     editButton.setDescription("Opens the captured clip in the clip editor");
     editButton.setEnabled(false);
-    editButton.onClick = [this]
-    {
-        if (onEdit)
-            onEdit(*clip);
-    };
-    saveButton.setTooltip("Saves the captured clip, as JSON or packed");
+    editor::prepareButton(editButton, "Opens the captured clip in the clip editor",
+                          [this]
+                          {
+                              if (onEdit)
+                                  onEdit(*clip);
+                          });
     saveButton.setDescription("Saves the captured clip, as JSON or packed");
     saveButton.setEnabled(false);
-    saveButton.onClick = [this]
-    {
-        chooseFile();
-    };
+    editor::prepareButton(saveButton, "Saves the captured clip, as JSON or packed", [this] { chooseFile(); });
     message.setFont(editor::smallFont());
     message.setJustificationType(juce::Justification::centredLeft);
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&length, &button, &editButton, &saveButton, &message})
-        addAndMakeVisible(child);
+    editor::addAll(*this, {&length, &button, &editButton, &saveButton, &message});
     addChildComponent(chip);
 }
 

@@ -18,10 +18,10 @@ public:
     bool hasEditor() const override { return true; }
 
     /// The clips that are edited in the window; they stay open when it is closed.
-    [[nodiscard]] HostedSession& clips() noexcept { return clipDesk; }
+    [[nodiscard]] HostedSession& clips() noexcept { return hostedSession; }
 
 private:
-    HostedSession clipDesk{project()};
+    HostedSession hostedSession{project()};
 
     JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(Plugin)
 };

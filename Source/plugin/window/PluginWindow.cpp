@@ -2,6 +2,7 @@
 #include "plugin/window/PluginWindow.h"
 
 #include "document/BuiltInProfiles.h"
+#include "editor/Controls.h"
 
 #include <cmath>
 
@@ -106,35 +107,23 @@ PluginWindow::PluginWindow(Plugin& shown)
     actuator = choice(Id::profile);
     loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
     loadButton.setTitle("Load an actuator");
-    loadButton.setTooltip("Takes an actuator from a profile file");
-    loadButton.onClick = [this]
-    {
-        chooseActuator();
-    };
+    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this] { chooseActuator(); });
     adopt(loadButton, nullptr);
     bypassToggle = toggle(Id::bypass, "Bypass");
     clipsButton.setButtonText("Clips");
     clipsButton.setTitle("Clip editor");
-    clipsButton.setTooltip("Captured and opened clips, to see, edit and export; they are kept with the session");
     clipsButton.setClickingTogglesState(true);
-    clipsButton.onClick = [this]
-    {
-        showClips(clipsButton.getToggleState());
-    };
+    editor::prepareButton(clipsButton,
+                          "Captured and opened clips, to see, edit and export; they are kept with the session",
+                          [this] { showClips(clipsButton.getToggleState()); });
     adopt(clipsButton, nullptr);
-    themeButton.setTooltip("Light or dark");
-    themeButton.onClick = [this]
-    {
-        setDark(!look.isDark());
-    };
+    editor::prepareButton(themeButton, "Light or dark", [this] { setDark(!look.isDark()); });
     adopt(themeButton, nullptr);
 
     sourceChoice = choice(Id::source);
     sourceMix = slider(Id::sourceMix, Shape::bar);
     inputGain = slider(Id::inputGain, Shape::bar);
-    for (juce::Component* meter :
-         std::initializer_list<juce::Component*>{&inputMeter, &lamp, &bands, &outputMeter, &reductionMeter, &feltMeter})
-        addAndMakeVisible(meter);
+    editor::addAll(*this, {&inputMeter, &lamp, &bands, &outputMeter, &reductionMeter, &feltMeter});
     outputMode = choice(Id::outputMode);
     outputChannel = slider(Id::outputChannel, Shape::bar);
 

@@ -14,6 +14,7 @@ namespace pacini::editor
 {
 
 class EditorView;
+struct Session;
 
 struct Action
 {
@@ -29,11 +30,30 @@ struct Action
     bool lineBefore = false;
 };
 
-struct Menu
+/// A menu and its actions.
+class Menu
 {
+public:
+    explicit Menu(const char* title) : name(title) {}
+
+    /// What is added next stands below a line.
+    void addLine() { line = true; }
+    Action& add(Command id, const char* text, const char* help, std::function<void()> run,
+                std::function<bool()> can = {}, std::vector<juce::KeyPress> keys = {});
+    void addSwitch(Command id, const char* text, const char* help, std::function<void()> run, std::function<bool()> on,
+                   std::vector<juce::KeyPress> keys = {}, std::function<bool()> can = {});
+    void addMenu(Command id, const char* text, const char* help, std::function<juce::PopupMenu()> choices,
+                 std::function<bool()> can, std::function<void()> run = {});
+
     const char* name;
     std::vector<Action> actions;
+
+private:
+    bool line = false;
 };
+
+/// Whether a clip is shown, for `can`.
+[[nodiscard]] std::function<bool()> hasClip(const Session& session);
 
 /// In their order in the menu bar. What they work on outlives them.
 [[nodiscard]] Menu fileMenu(EditorView& view);

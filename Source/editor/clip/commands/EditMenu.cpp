@@ -37,78 +37,46 @@ Selection everything(const Clip& clip)
 Menu editMenu(EditorView& view)
 {
     Session& session = view.session();
-    const auto anyClip = [&session]
-    {
-        return session.model.clip() != nullptr;
-    };
+    const auto anyClip = hasClip(session);
     const auto anySelected = [&session]
     {
         return !isEmpty(session.clipSelection.selected());
     };
     using Key = juce::KeyPress;
-    return {"Edit",
-            {
-                {.id = undo,
-                 .name = "Undo",
-                 .help = "Undoes the last step",
-                 .run = [&session] { session.model.undo(); },
-                 .can = [&session] { return session.model.document().canUndo(); },
-                 .keys = {ctrl('z')},
-                 .fullName =
-                     [&session]
-                 {
-                     return nameWithStep("Undo", session.model.document().undoName());
-                 }},
-                {.id = redo,
-                 .name = "Redo",
-                 .help = "Redoes the last step that was undone",
-                 .run = [&session] { session.model.redo(); },
-                 .can = [&session] { return session.model.document().canRedo(); },
-                 .keys = {ctrlShift('z'), ctrl('y')},
-                 .fullName =
-                     [&session]
-                 {
-                     return nameWithStep("Redo", session.model.document().redoName());
-                 }},
-                {.id = cut,
-                 .name = "Cut",
-                 .help = "Copies and removes what is selected, or the time range",
-                 .run = [&session] { session.clipSelection.cut(); },
-                 .can = anyClip,
-                 .keys = {ctrl('x')},
-                 .lineBefore = true},
-                {.id = copy,
-                 .name = "Copy",
-                 .help = "Copies what is selected, or the time range of all lanes",
-                 .run = [&session] { session.clipSelection.copy(); },
-                 .can = anyClip,
-                 .keys = {ctrl('c')}},
-                {.id = paste,
-                 .name = "Paste at playhead",
-                 .help = "Pastes into the lanes it was copied from; a single lane into the one with the focus",
-                 .run = [&session] { session.clipSelection.paste(session.transport.playhead(), focusedLane()); },
-                 .can = [&session] { return session.model.clip() && session.clipSelection.canPaste(); },
-                 .keys = {ctrl('v')}},
-                {.id = deleteSelection,
-                 .name = "Delete points",
-                 .help = "Removes the selected points and transients",
-                 .run = [&session] { session.clipSelection.deleteSelection(); },
-                 .can = anySelected,
-                 .keys = {Key(Key::deleteKey), Key(Key::backspaceKey)}},
-                {.id = selectAll,
-                 .name = "Select all",
-                 .help = "Selects all points of the lane with the focus, else all transients",
-                 .run = [&session] { session.clipSelection.select(everything(*session.model.clip())); },
-                 .can = anyClip,
-                 .keys = {ctrl('a')},
-                 .lineBefore = true},
-                {.id = selectNone,
-                 .name = "Select nothing",
-                 .help = "Selects nothing",
-                 .run = [&session] { session.clipSelection.select({}); },
-                 .can = anySelected,
-                 .keys = {ctrlShift('a')}},
-            }};
+    Menu menu("Edit");
+    menu.add(
+            undo, "Undo", "Undoes the last step", [&session] { session.model.undo(); },
+            [&session] { return session.model.document().canUndo(); }, {ctrl('z')})
+        .fullName = [&session]
+    {
+        return nameWithStep("Undo", session.model.document().undoName());
+    };
+    menu.add(
+            redo, "Redo", "Redoes the last step that was undone", [&session] { session.model.redo(); },
+            [&session] { return session.model.document().canRedo(); }, {ctrlShift('z'), ctrl('y')})
+        .fullName = [&session]
+    {
+        return nameWithStep("Redo", session.model.document().redoName());
+    };
+    menu.addLine();
+    menu.add(cut, "Cut", "Copies and removes what is selected, or the time range",
+             [&session] { session.clipSelection.cut(); }, anyClip, {ctrl('x')});
+    menu.add(copy, "Copy", "Copies what is selected, or the time range of all lanes",
+             [&session] { session.clipSelection.copy(); }, anyClip, {ctrl('c')});
+    menu.add(
+        paste, "Paste at playhead",
+        "Pastes into the lanes it was copied from; a single lane into the one with the focus",
+        [&session] { session.clipSelection.paste(session.transport.playhead(), focusedLane()); },
+        [&session] { return session.model.clip() && session.clipSelection.canPaste(); }, {ctrl('v')});
+    menu.add(deleteSelection, "Delete points", "Removes the selected points and transients",
+             [&session] { session.clipSelection.deleteSelection(); }, anySelected,
+             {Key(Key::deleteKey), Key(Key::backspaceKey)});
+    menu.addLine();
+    menu.add(selectAll, "Select all", "Selects all points of the lane with the focus, else all transients",
+             [&session] { session.clipSelection.select(everything(*session.model.clip())); }, anyClip, {ctrl('a')});
+    menu.add(selectNone, "Select nothing", "Selects nothing", [&session] { session.clipSelection.select({}); },
+             anySelected, {ctrlShift('a')});
+    return menu;
 }
 
 } // namespace pacini::editor

@@ -31,91 +31,44 @@ juce::PopupMenu demoSounds(EditorView& view)
 
 Menu fileMenu(EditorView& view)
 {
-    const auto anyClip = [&view]
-    {
-        return view.session().model.clip() != nullptr;
-    };
-    Menu menu{"File", {}};
-    menu.actions = {
-        {.id = newProject,
-         .name = "New project",
-         .help = "Begins an empty project",
-         .run = [&view] { view.files().whenSaved([&view] { view.session().model.newProject(); }); },
-         .keys = {ctrl('n')}},
-        {.id = openFile,
-         .name = "Open...",
-         .help = "Opens sounds, clips of all known formats and projects",
-         .run = [&view] { view.files().askWhatToOpen(); },
-         .keys = {ctrl('o')}},
-        {.id = openFolder,
-         .name = "Open folder...",
-         .help = "Adds every sound and clip in a folder, and in the folders inside it",
-         .run = [&view] { view.files().askWhatFolder(); },
-         .keys = {ctrlShift('o')}},
-        {.id = openRecent,
-         .name = "Recent projects",
-         .help = "Opens a project that was open before",
-         .can = [&view] { return !view.session().model.recentFiles().files().empty(); },
-         .choices =
-             [&view]
-         {
-             return recentProjects(view);
-         }},
-        {.id = openDemo,
-         .name = "Open a demo sound",
-         .help = "Opens one of the sounds that come with Pacini",
-         .run = [&view] { view.files().open({view.hostServices().demoSounds.front()}); },
-         .can = [&view] { return !view.hostServices().demoSounds.empty(); },
-         .choices =
-             [&view]
-         {
-             return demoSounds(view);
-         }},
-        {.id = openSample,
-         .name = "Open the sample project",
-         .help = "Three clips with hand edits, groups, markers and notes, to try things on; it opens as a new project",
-         .run = [&view] { view.files().openSample(); },
-         .can =
-             [&view]
-         {
-             return view.files().hasSample();
-         }},
-        {.id = save,
-         .name = "Save project",
-         .help = "Writes the project to its file",
-         .run = [&view] { view.files().save(); },
-         .can = anyClip,
-         .keys = {ctrl('s')},
-         .lineBefore = true},
-        {.id = saveAs,
-         .name = "Save project as...",
-         .help = "Writes the project to another file",
-         .run = [&view] { view.files().saveAs(); },
-         .can = anyClip,
-         .keys = {ctrlShift('s')}},
-        {.id = exportClips,
-         .name = "Export...",
-         .help = "Writes clips for use elsewhere, in any format",
-         .run = [&view]
-         { view.showSheet(std::make_unique<ExportSheet>(view.session().model, view.session().actuators)); },
-         .can = anyClip,
-         .keys = {ctrl('e')},
-         .lineBefore = true},
-    };
-    menu.actions.push_back({.id = stopWork,
-                            .name = "Stop opening and analysing",
-                            .help = "Skips files that are not opened and analysed yet",
-                            .run = [&view] { view.session().sounds.stopWork(); },
-                            .can = [&view] { return view.session().sounds.workNow().has_value(); },
-                            .keys = {juce::KeyPress(juce::KeyPress::escapeKey)},
-                            .lineBefore = true});
+    const auto anyClip = hasClip(view.session());
+    Menu menu("File");
+    menu.add(newProject, "New project", "Begins an empty project",
+             [&view] { view.files().whenSaved([&view] { view.session().model.newProject(); }); }, {}, {ctrl('n')});
+    menu.add(openFile, "Open...", "Opens sounds, clips of all known formats and projects",
+             [&view] { view.files().askWhatToOpen(); }, {}, {ctrl('o')});
+    menu.add(openFolder, "Open folder...", "Adds every sound and clip in a folder, and in the folders inside it",
+             [&view] { view.files().askWhatFolder(); }, {}, {ctrlShift('o')});
+    menu.addMenu(
+        openRecent, "Recent projects", "Opens a project that was open before", [&view] { return recentProjects(view); },
+        [&view] { return !view.session().model.recentFiles().files().empty(); });
+    menu.addMenu(
+        openDemo, "Open a demo sound", "Opens one of the sounds that come with Pacini",
+        [&view] { return demoSounds(view); }, [&view] { return !view.hostServices().demoSounds.empty(); },
+        [&view] { view.files().open({view.hostServices().demoSounds.front()}); });
+    menu.add(
+        openSample, "Open the sample project",
+        "Three clips with hand edits, groups, markers and notes, to try things on; it opens as a new project",
+        [&view] { view.files().openSample(); }, [&view] { return view.files().hasSample(); });
+    menu.addLine();
+    menu.add(save, "Save project", "Writes the project to its file", [&view] { view.files().save(); }, anyClip,
+             {ctrl('s')});
+    menu.add(saveAs, "Save project as...", "Writes the project to another file", [&view] { view.files().saveAs(); },
+             anyClip, {ctrlShift('s')});
+    menu.addLine();
+    menu.add(exportClips, "Export...", "Writes clips for use elsewhere, in any format",
+             [&view] { view.showSheet(std::make_unique<ExportSheet>(view.session().model, view.session().actuators)); },
+             anyClip, {ctrl('e')});
+    menu.addLine();
+    menu.add(
+        stopWork, "Stop opening and analysing", "Skips files that are not opened and analysed yet",
+        [&view] { view.session().sounds.stopWork(); }, [&view] { return view.session().sounds.workNow().has_value(); },
+        {juce::KeyPress(juce::KeyPress::escapeKey)});
     if (view.hostServices().quit)
-        menu.actions.push_back({.id = quit,
-                                .name = "Quit",
-                                .help = "Closes the program",
-                                .run = [&view] { view.hostServices().quit(); },
-                                .keys = {ctrl('q')},
-                                .lineBefore = true});
+    {
+        menu.addLine();
+        menu.add(quit, "Quit", "Closes the program", [&view] { view.hostServices().quit(); }, {}, {ctrl('q')});
+    }
     return menu;
 }
 

@@ -9,19 +9,14 @@ namespace pacini::editor
 
 Menu helpMenu(EditorView& view)
 {
-    return {"Help",
-            {
-                {.id = manual,
-                 .name = "Manual",
-                 .help = "Explains the editor, step by step",
-                 .run = [&view] { view.showSheet(std::make_unique<HelpSheet>()); },
-                 .keys = {juce::KeyPress(juce::KeyPress::F1Key, juce::ModifierKeys::shiftModifier, 0)}},
-                {.id = shortcuts,
-                 .name = "Keys and mouse",
-                 .help = "Shows what keys and mouse do",
-                 .run = [&view] { view.showSheet(std::make_unique<ShortcutsSheet>(view.menus().all())); },
-                 .keys = {juce::KeyPress(juce::KeyPress::F1Key)}},
-            }};
+    Menu menu("Help");
+    menu.add(manual, "Manual", "Explains the editor, step by step",
+             [&view] { view.showSheet(std::make_unique<HelpSheet>()); }, {},
+             {juce::KeyPress(juce::KeyPress::F1Key, juce::ModifierKeys::shiftModifier, 0)});
+    menu.add(shortcuts, "Keys and mouse", "Shows what keys and mouse do",
+             [&view] { view.showSheet(std::make_unique<ShortcutsSheet>(view.menus().all())); }, {},
+             {juce::KeyPress(juce::KeyPress::F1Key)});
+    return menu;
 }
 
 } // namespace pacini::editor

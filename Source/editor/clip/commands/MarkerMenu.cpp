@@ -67,46 +67,24 @@ Menu markerMenu(EditorView& view)
         return session.model.clip() && !session.model.clip()->markers.empty();
     };
     using Key = juce::KeyPress;
-    return {"Marker",
-            {
-                {.id = addMarker,
-                 .name = "Add marker",
-                 .help = "Adds a marker at the playhead, also while playing",
-                 .run = [&session] { addHere(session); },
-                 .can = [&session] { return session.model.clip() != nullptr; },
-                 .keys = {Key('m')}},
-                {.id = renameMarker,
-                 .name = "Rename marker...",
-                 .help = "Renames the marker at the playhead",
-                 .run = [&view] { rename(view); },
-                 .can = onMarker,
-                 .keys = {Key(Key::F2Key)}},
-                {.id = deleteMarker,
-                 .name = "Delete marker",
-                 .help = "Removes the marker at the playhead",
-                 .run =
-                     [&session] {
-                         setMarkers(session, "Delete marker",
-                                    withoutMarker(session.model.clip()->markers, *markerHere(session)));
-                     },
-                 .can = onMarker,
-                 .keys = {Key('m', juce::ModifierKeys::shiftModifier, 0)}},
-                {.id = nextMarker,
-                 .name = "Next marker",
-                 .help = "Brings the playhead to the next marker",
-                 .run = [&session]
-                 { go(session, markerAfter(session.model.clip()->markers, session.transport.playhead())); },
-                 .can = anyMarker,
-                 .keys = {ctrlShift(Key::rightKey)},
-                 .lineBefore = true},
-                {.id = markerBack,
-                 .name = "Previous marker",
-                 .help = "Brings the playhead to the marker before it",
-                 .run = [&session]
-                 { go(session, markerBefore(session.model.clip()->markers, session.transport.playhead())); },
-                 .can = anyMarker,
-                 .keys = {ctrlShift(Key::leftKey)}},
-            }};
+    Menu menu("Marker");
+    menu.add(addMarker, "Add marker", "Adds a marker at the playhead, also while playing",
+             [&session] { addHere(session); }, hasClip(session), {Key('m')});
+    menu.add(renameMarker, "Rename marker...", "Renames the marker at the playhead", [&view] { rename(view); },
+             onMarker, {Key(Key::F2Key)});
+    menu.add(
+        deleteMarker, "Delete marker", "Removes the marker at the playhead",
+        [&session]
+        { setMarkers(session, "Delete marker", withoutMarker(session.model.clip()->markers, *markerHere(session))); },
+        onMarker, {Key('m', juce::ModifierKeys::shiftModifier, 0)});
+    menu.addLine();
+    menu.add(nextMarker, "Next marker", "Brings the playhead to the next marker",
+             [&session] { go(session, markerAfter(session.model.clip()->markers, session.transport.playhead())); },
+             anyMarker, {ctrlShift(Key::rightKey)});
+    menu.add(markerBack, "Previous marker", "Brings the playhead to the marker before it",
+             [&session] { go(session, markerBefore(session.model.clip()->markers, session.transport.playhead())); },
+             anyMarker, {ctrlShift(Key::leftKey)});
+    return menu;
 }
 
 } // namespace pacini::editor

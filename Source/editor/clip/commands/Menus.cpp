@@ -5,6 +5,8 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
+#include <utility>
+
 namespace pacini::editor
 {
 
@@ -20,6 +22,38 @@ bool canDo(const Action& action)
     return !action.can || action.can();
 }
 } // namespace
+
+Action& Menu::add(Command id, const char* text, const char* help, std::function<void()> run, std::function<bool()> can,
+                  std::vector<juce::KeyPress> keys)
+{
+    return actions.emplace_back(Action{.id = id,
+                                       .name = text,
+                                       .help = help,
+                                       .run = std::move(run),
+                                       .can = std::move(can),
+                                       .keys = std::move(keys),
+                                       .lineBefore = std::exchange(line, false)});
+}
+
+void Menu::addSwitch(Command id, const char* text, const char* help, std::function<void()> run,
+                     std::function<bool()> on, std::vector<juce::KeyPress> keys, std::function<bool()> can)
+{
+    add(id, text, help, std::move(run), std::move(can), std::move(keys)).on = std::move(on);
+}
+
+void Menu::addMenu(Command id, const char* text, const char* help, std::function<juce::PopupMenu()> choices,
+                   std::function<bool()> can, std::function<void()> run)
+{
+    add(id, text, help, std::move(run), std::move(can)).choices = std::move(choices);
+}
+
+std::function<bool()> hasClip(const Session& session)
+{
+    return [&session]
+    {
+        return session.model.clip() != nullptr;
+    };
+}
 
 Menus::Menus(EditorView& view) : owner(view)
 {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -33,6 +34,13 @@ double amplitudeOf(double decibels)
     return std::pow(10.0, decibels / 20.0);
 }
 
+/// A number from `low` to `high`, at first `value`.
+OperationField number(const char* name, const char* unit, const char* help, double low, double high, double value,
+                      int decimals = 0, std::function<bool(const OperationValues&)> counts = {})
+{
+    return {name, unit, help, low, high, value, decimals, {}, std::move(counts)};
+}
+
 std::function<bool(const OperationValues&)> whenFirstIs(double choice)
 {
     return [choice](const OperationValues& v)
@@ -44,203 +52,110 @@ std::function<bool(const OperationValues&)> whenFirstIs(double choice)
 
 Operation gainOperation(const ClipSelection& selection)
 {
-    Operation result;
-    result.name = "Gain";
-    result.fields = {{.name = "Gain",
-                      .unit = "dB",
-                      .help = "How much louder (above 0) or softer levels become, in dB",
-                      .low = silence,
-                      .high = 24.0,
-                      .value = 0.0,
-                      .decimals = 1}};
-    result.make = [scope = selection.scope()](const OperationValues& v)
-    {
-        return GainEdit{scope, v[0]};
-    };
-    return result;
+    return {"Gain",
+            false,
+            {number("Gain", "dB", "How much louder (above 0) or softer levels become, in dB", silence, 24.0, 0.0, 1)},
+            [scope = selection.scope()](const OperationValues& v)
+            {
+                return GainEdit{scope, v[0]};
+            }};
 }
 
 Operation quantiseOperation(const ClipSelection& selection)
 {
-    Operation result;
-    result.name = "Quantise";
     std::vector<const char*> names;
     for (const Division& division : divisions)
         names.push_back(division.name);
-    result.fields = {
-        {.name = "Grid", .help = "Whether the grid is in seconds or in beats", .choices = {"Seconds", "Beats"}},
-        {.name = "Distance",
-         .unit = "s",
-         .help = "Distance between the lines of the grid, in s",
-         .low = 0.001,
-         .high = 10.0,
-         .value = 0.1,
-         .decimals = 3,
-         .counts = whenFirstIs(0.0)},
-        {.name = "Tempo",
-         .unit = "beats/min",
-         .help = "Beats (quarter notes) a minute",
-         .low = 20.0,
-         .high = 400.0,
-         .value = 120.0,
-         .decimals = 1,
-         .counts = whenFirstIs(1.0)},
-        {.name = "Division",
-         .help = "Distance between the lines of the grid, as a note",
-         .value = 5.0,
-         .choices = names,
-         .counts = whenFirstIs(1.0)},
-        {.name = "First line",
-         .unit = "s",
-         .help = "Time of any line of the grid, in s",
-         .low = 0.0,
-         .high = 60.0,
-         .value = 0.0,
-         .decimals = 3},
-        {.name = "Strength",
-         .unit = "%",
-         .help = "How far times move towards the grid: 100 % is all the way",
-         .low = 0.0,
-         .high = 100.0,
-         .value = 100.0}};
-    result.make = [scope = selection.scope()](const OperationValues& v)
+    const auto make = [scope = selection.scope()](const OperationValues& v)
     {
         const double whole = 240.0 / v[2]; // s of four beats
         const double step = v[0] == 0.0 ? v[1] : whole * divisions[static_cast<std::size_t>(v[3])].notes;
         return QuantiseEdit{scope, {step, v[4], v[5] / 100.0}};
     };
-    return result;
+    return {
+        "Quantise",
+        false,
+        {{.name = "Grid", .help = "Whether the grid is in seconds or in beats", .choices = {"Seconds", "Beats"}},
+         number("Distance", "s", "Distance between the lines of the grid, in s", 0.001, 10.0, 0.1, 3, whenFirstIs(0.0)),
+         number("Tempo", "beats/min", "Beats (quarter notes) a minute", 20.0, 400.0, 120.0, 1, whenFirstIs(1.0)),
+         {.name = "Division",
+          .help = "Distance between the lines of the grid, as a note",
+          .value = 5.0,
+          .choices = names,
+          .counts = whenFirstIs(1.0)},
+         number("First line", "s", "Time of any line of the grid, in s", 0.0, 60.0, 0.0, 3),
+         number("Strength", "%", "How far times move towards the grid: 100 % is all the way", 0.0, 100.0, 100.0)},
+        make};
 }
 
 Operation humaniseOperation(const ClipSelection& selection)
 {
-    Operation result;
-    result.name = "Humanise";
-    result.fields = {{.name = "Time",
-                      .unit = "ms",
-                      .help = "Largest random shift of times, earlier or later, in ms",
-                      .low = 0.0,
-                      .high = 200.0,
-                      .value = 10.0,
-                      .decimals = 1},
-                     {.name = "Level",
-                      .unit = "dB",
-                      .help = "Largest random change of levels, up or down, in dB",
-                      .low = 0.0,
-                      .high = 12.0,
-                      .value = 2.0,
-                      .decimals = 1},
-                     {.name = "Pitch",
-                      .unit = "semitones",
-                      .help = "Largest random change of frequencies, up or down, in semitones",
-                      .low = 0.0,
-                      .high = 12.0,
-                      .value = 0.5,
-                      .decimals = 2},
-                     {.name = "Variation",
-                      .unit = "number",
-                      .help = "Seed of the random changes: the same number always gives the same result",
-                      .low = 1.0,
-                      .high = 999.0,
-                      .value = 1.0}};
-    result.make = [scope = selection.scope()](const OperationValues& v)
-    {
-        return HumaniseEdit{scope, {v[0] / 1000.0, v[1], v[2], static_cast<std::uint64_t>(v[3])}};
-    };
-    return result;
+    return {"Humanise",
+            false,
+            {number("Time", "ms", "Largest random shift of times, earlier or later, in ms", 0.0, 200.0, 10.0, 1),
+             number("Level", "dB", "Largest random change of levels, up or down, in dB", 0.0, 12.0, 2.0, 1),
+             number("Pitch", "semitones", "Largest random change of frequencies, up or down, in semitones", 0.0, 12.0,
+                    0.5, 2),
+             number("Variation", "number", "Seed of the random changes: the same number always gives the same result",
+                    1.0, 999.0, 1.0)},
+            [scope = selection.scope()](const OperationValues& v)
+            {
+                return HumaniseEdit{scope, {v[0] / 1000.0, v[1], v[2], static_cast<std::uint64_t>(v[3])}};
+            }};
 }
 
 Operation thinOperation(const ClipSelection& selection)
 {
-    Operation result;
-    result.name = "Thin transients";
-    result.fields = {{.name = "Closer than",
-                      .unit = "ms",
-                      .help = "Of transients closer than this the strongest stays; skin tells 8 to 10 ms apart",
-                      .low = 0.0,
-                      .high = 500.0,
-                      .value = 20.0,
-                      .decimals = 1},
-                     {.name = "Weaker than",
-                      .unit = "dB",
-                      .help = "Transients below this level are removed, in dB of full drive; at -60 dB all stay",
-                      .low = silence,
-                      .high = 0.0,
-                      .value = silence,
-                      .decimals = 1}};
-    result.make = [range = selection.scope().range](const OperationValues& v)
-    {
-        return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
-    };
-    return result;
+    return {
+        "Thin transients",
+        false,
+        {number("Closer than", "ms", "Of transients closer than this the strongest stays; skin tells 8 to 10 ms apart",
+                0.0, 500.0, 20.0, 1),
+         number("Weaker than", "dB", "Transients below this level are removed, in dB of full drive; at -60 dB all stay",
+                silence, 0.0, silence, 1)},
+        [range = selection.scope().range](const OperationValues& v)
+        {
+            return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
+        }};
 }
 
 Operation transposeOperation()
 {
-    Operation result;
-    result.name = "Transpose";
-    result.wholeClip = true;
-    result.fields = {{.name = "Shift",
-                      .unit = "semitones",
-                      .help = "Twelve semitones are an octave: twice the frequency",
-                      .low = -48.0,
-                      .high = 48.0,
-                      .value = 0.0,
-                      .decimals = 2}};
-    result.make = [](const OperationValues& v)
-    {
-        return TransposeEdit{v[0]};
-    };
-    return result;
+    return {"Transpose",
+            true,
+            {number("Shift", "semitones", "Twelve semitones are an octave: twice the frequency", -48.0, 48.0, 0.0, 2)},
+            [](const OperationValues& v)
+            {
+                return TransposeEdit{v[0]};
+            }};
 }
 
 Operation stretchOperation(const EditorModel& model)
 {
     const double duration = model.clip()->duration;
-    Operation result;
-    result.name = "Stretch";
-    result.wholeClip = true;
-    result.fields = {{.name = "By", .help = "How the new length is given", .choices = {"Percent", "New duration"}},
-                     {.name = "Percent",
-                      .unit = "%",
-                      .help = "New length in percent of the old one; pitches stay",
-                      .low = 1.0,
-                      .high = 1000.0,
-                      .value = 100.0,
-                      .decimals = 1,
-                      .counts = whenFirstIs(0.0)},
-                     {.name = "Duration",
-                      .unit = "s",
-                      .help = "New length in s; pitches stay",
-                      .low = std::max(0.01, 0.01 * duration),
-                      .high = std::max(0.1, 10.0 * duration),
-                      .value = duration,
-                      .decimals = 3,
-                      .counts = whenFirstIs(1.0)}};
-    result.make = [duration](const OperationValues& v)
-    {
-        const double ratio = v[0] == 0.0 ? v[1] / 100.0 : duration > 0.0 ? v[2] / duration : 1.0;
-        return StretchEdit{ratio};
-    };
-    return result;
+    return {"Stretch",
+            true,
+            {{.name = "By", .help = "How the new length is given", .choices = {"Percent", "New duration"}},
+             number("Percent", "%", "New length in percent of the old one; pitches stay", 1.0, 1000.0, 100.0, 1,
+                    whenFirstIs(0.0)),
+             number("Duration", "s", "New length in s; pitches stay", std::max(0.01, 0.01 * duration),
+                    std::max(0.1, 10.0 * duration), duration, 3, whenFirstIs(1.0))},
+            [duration](const OperationValues& v)
+            {
+                const double ratio = v[0] == 0.0 ? v[1] / 100.0 : duration > 0.0 ? v[2] / duration : 1.0;
+                return StretchEdit{ratio};
+            }};
 }
 
 Operation repeatOperation()
 {
-    Operation result;
-    result.name = "Repeat";
-    result.wholeClip = true;
-    result.fields = {{.name = "Times",
-                      .unit = "passes",
-                      .help = "How many times the clip plays in all",
-                      .low = 1.0,
-                      .high = 100.0,
-                      .value = 2.0}};
-    result.make = [](const OperationValues& v)
-    {
-        return RepeatEdit{static_cast<int>(std::lround(v[0]))};
-    };
-    return result;
+    return {"Repeat",
+            true,
+            {number("Times", "passes", "How many times the clip plays in all", 1.0, 100.0, 2.0)},
+            [](const OperationValues& v)
+            {
+                return RepeatEdit{static_cast<int>(std::lround(v[0]))};
+            }};
 }
 
 } // namespace pacini::editor

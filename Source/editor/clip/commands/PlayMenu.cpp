@@ -46,84 +46,44 @@ void endRange(Session& session)
 Menu playMenu(EditorView& view)
 {
     Session& session = view.session();
-    const auto anyClip = [&session]
-    {
-        return session.model.clip() != nullptr;
-    };
-    const auto hear = [&session](Command id, const char* name, const char* help, Heard what, char key)
-    {
-        return Action{.id = id,
-                      .name = name,
-                      .help = help,
-                      .run = [&session, what] { session.transport.setHeard(what); },
-                      .on = [&session, what] { return session.transport.heard() == what; },
-                      .keys = {ctrl(key)},
-                      .lineBefore = what == Heard::haptic};
-    };
+    const auto anyClip = hasClip(session);
     using Key = juce::KeyPress;
-    return {
-        "Play",
-        {
-            {.id = playOrPause,
-             .name = "Play or pause",
-             .help = "Starts at the playhead, or stops there",
-             .run = [&session] { playOrStop(session); },
-             .can = anyClip,
-             .keys = {Key(Key::spaceKey)}},
-            {.id = toStart,
-             .name = "To start",
-             .help = "Brings the playhead to the start",
-             .run = [&session] { session.transport.setPlayhead(0.0); },
-             .can = anyClip,
-             .keys = {Key(Key::homeKey)}},
-            {.id = toEnd,
-             .name = "To end",
-             .help = "Brings the playhead to the end",
-             .run = [&session] { session.transport.setPlayhead(session.model.clip()->duration); },
-             .can = anyClip,
-             .keys = {Key(Key::endKey)}},
-            {.id = stepBack,
-             .name = "Playhead back",
-             .help = "Moves the playhead a tenth of the view back",
-             .run = [&session] { step(session, -1); },
-             .can = anyClip,
-             .keys = {ctrl(Key::leftKey)}},
-            {.id = stepForward,
-             .name = "Playhead forward",
-             .help = "Moves the playhead a tenth of the view forward",
-             .run = [&session] { step(session, 1); },
-             .can = anyClip,
-             .keys = {ctrl(Key::rightKey)}},
-            {.id = rangeFromHere,
-             .name = "Range begins here",
-             .help = "The time range begins at the playhead",
-             .run = [&session] { beginRange(session); },
-             .can = anyClip,
-             .keys = {Key('i')},
-             .lineBefore = true},
-            {.id = rangeToHere,
-             .name = "Range ends here",
-             .help = "The time range ends at the playhead",
-             .run = [&session] { endRange(session); },
-             .can = anyClip,
-             .keys = {Key('o')}},
-            {.id = loop,
-             .name = "Loop",
-             .help = "Plays the time range, or the whole clip, again and again",
-             .run = [&session] { session.transport.setLooping(!session.transport.isLooping()); },
-             .on = [&session] { return session.transport.isLooping(); },
-             .keys = {ctrl('l')}},
-            hear(hearHaptic, "Haptic only", "The drive signal alone", Heard::haptic, '1'),
-            hear(hearSound, "Sound only", "The sound alone", Heard::sound, '2'),
-            hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3'),
-            {.id = hapticOrSound,
-             .name = "Switch haptic and sound",
-             .help = "Switches between them while playing, to compare them",
-             .run = [&session]
+    Menu menu("Play");
+    const auto hear = [&session, &menu](Command id, const char* name, const char* help, Heard what, char key)
+    {
+        menu.addSwitch(
+            id, name, help, [&session, what] { session.transport.setHeard(what); },
+            [&session, what] { return session.transport.heard() == what; }, {ctrl(key)});
+    };
+    menu.add(playOrPause, "Play or pause", "Starts at the playhead, or stops there",
+             [&session] { playOrStop(session); }, anyClip, {Key(Key::spaceKey)});
+    menu.add(toStart, "To start", "Brings the playhead to the start",
+             [&session] { session.transport.setPlayhead(0.0); }, anyClip, {Key(Key::homeKey)});
+    menu.add(toEnd, "To end", "Brings the playhead to the end",
+             [&session] { session.transport.setPlayhead(session.model.clip()->duration); }, anyClip,
+             {Key(Key::endKey)});
+    menu.add(stepBack, "Playhead back", "Moves the playhead a tenth of the view back",
+             [&session] { step(session, -1); }, anyClip, {ctrl(Key::leftKey)});
+    menu.add(stepForward, "Playhead forward", "Moves the playhead a tenth of the view forward",
+             [&session] { step(session, 1); }, anyClip, {ctrl(Key::rightKey)});
+    menu.addLine();
+    menu.add(rangeFromHere, "Range begins here", "The time range begins at the playhead",
+             [&session] { beginRange(session); }, anyClip, {Key('i')});
+    menu.add(rangeToHere, "Range ends here", "The time range ends at the playhead", [&session] { endRange(session); },
+             anyClip, {Key('o')});
+    menu.addSwitch(
+        loop, "Loop", "Plays the time range, or the whole clip, again and again",
+        [&session] { session.transport.setLooping(!session.transport.isLooping()); },
+        [&session] { return session.transport.isLooping(); }, {ctrl('l')});
+    menu.addLine();
+    hear(hearHaptic, "Haptic only", "The drive signal alone", Heard::haptic, '1');
+    hear(hearSound, "Sound only", "The sound alone", Heard::sound, '2');
+    hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3');
+    menu.add(hapticOrSound, "Switch haptic and sound", "Switches between them while playing, to compare them",
+             [&session]
              { session.transport.setHeard(session.transport.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
-             .can = anyClip,
-             .keys = {Key('h')}},
-        }};
+             anyClip, {Key('h')});
+    return menu;
 }
 
 } // namespace pacini::editor

@@ -23,68 +23,41 @@ std::function<void()> asking(EditorView& view, Operation (*make)(const ClipSelec
 Menu shapeMenu(EditorView& view)
 {
     Session& session = view.session();
-    const auto anyClip = [&session]
-    {
-        return session.model.clip() != nullptr;
-    };
+    const auto anyClip = hasClip(session);
+    using Key = juce::KeyPress;
+    Menu menu("Shape");
     const auto fade = [&](Command id, const char* name, const char* help, FadeDirection direction, FadeShape shape)
     {
-        return Action{.id = id,
-                      .name = name,
-                      .help = help,
-                      .run =
-                          [&session, name, direction, shape] {
-                              session.model.edit(name, FadeEdit{session.clipSelection.scope(), direction, shape});
-                          },
-                      .can = anyClip,
-                      .lineBefore = id == fadeIn};
+        menu.add(
+            id, name, help,
+            [&session, name, direction, shape] {
+                session.model.edit(name, FadeEdit{session.clipSelection.scope(), direction, shape});
+            },
+            anyClip);
     };
-    using Key = juce::KeyPress;
-    return {"Shape",
-            {
-                {.id = changeGain,
-                 .name = "Gain...",
-                 .help = "Louder or softer by a number of dB: the selection, the time range or the clip",
-                 .run = asking(view, gainOperation, false),
-                 .can = anyClip,
-                 .keys = {ctrl('g')}},
-                fade(fadeIn, "Fade in", "Fades in over the selection, the time range or the clip", FadeDirection::in,
-                     FadeShape::linear),
-                fade(fadeOut, "Fade out", "Fades out over the selection, the time range or the clip",
-                     FadeDirection::out, FadeShape::linear),
-                fade(fadeInSmoothly, "Fade in smoothly", "Fades in with a soft begin and end", FadeDirection::in,
-                     FadeShape::smooth),
-                fade(fadeOutSmoothly, "Fade out smoothly", "Fades out with a soft begin and end", FadeDirection::out,
-                     FadeShape::smooth),
-                {.id = invertCurves,
-                 .name = "Invert",
-                 .help = "Turns levels, frequencies and sharpness upside down",
-                 .run = [&session] { session.model.edit("Invert", InvertEdit{session.clipSelection.scope()}); },
-                 .can = anyClip,
-                 .keys = {ctrl('i')},
-                 .lineBefore = true},
-                {.id = quantise,
-                 .name = "Quantise...",
-                 .help = "Moves times towards a grid of seconds or beats",
-                 .run = asking(view, quantiseOperation, true),
-                 .can = anyClip,
-                 .keys = {Key('q')}},
-                {.id = humanise,
-                 .name = "Humanise...",
-                 .help = "Changes times, levels and pitches a little at random",
-                 .run = asking(view, humaniseOperation, true),
-                 .can = anyClip,
-                 .keys = {ctrl('h')}},
-                {.id = thinOut,
-                 .name = "Thin transients...",
-                 .help = "Removes transients that are too close to stronger ones, or too weak",
-                 .run = asking(view, thinOperation, true),
-                 .can =
-                     [&session]
-                 {
-                     return session.model.clip() && !session.model.clip()->transients.empty();
-                 }},
-            }};
+    menu.add(changeGain, "Gain...", "Louder or softer by a number of dB: the selection, the time range or the clip",
+             asking(view, gainOperation, false), anyClip, {ctrl('g')});
+    menu.addLine();
+    fade(fadeIn, "Fade in", "Fades in over the selection, the time range or the clip", FadeDirection::in,
+         FadeShape::linear);
+    fade(fadeOut, "Fade out", "Fades out over the selection, the time range or the clip", FadeDirection::out,
+         FadeShape::linear);
+    fade(fadeInSmoothly, "Fade in smoothly", "Fades in with a soft begin and end", FadeDirection::in,
+         FadeShape::smooth);
+    fade(fadeOutSmoothly, "Fade out smoothly", "Fades out with a soft begin and end", FadeDirection::out,
+         FadeShape::smooth);
+    menu.addLine();
+    menu.add(invertCurves, "Invert", "Turns levels, frequencies and sharpness upside down",
+             [&session] { session.model.edit("Invert", InvertEdit{session.clipSelection.scope()}); }, anyClip,
+             {ctrl('i')});
+    menu.add(quantise, "Quantise...", "Moves times towards a grid of seconds or beats",
+             asking(view, quantiseOperation, true), anyClip, {Key('q')});
+    menu.add(humanise, "Humanise...", "Changes times, levels and pitches a little at random",
+             asking(view, humaniseOperation, true), anyClip, {ctrl('h')});
+    menu.add(thinOut, "Thin transients...", "Removes transients that are too close to stronger ones, or too weak",
+             asking(view, thinOperation, true),
+             [&session] { return session.model.clip() && !session.model.clip()->transients.empty(); });
+    return menu;
 }
 
 } // namespace pacini::editor

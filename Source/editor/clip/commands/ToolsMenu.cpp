@@ -10,26 +10,22 @@ namespace pacini::editor
 
 Menu toolsMenu(EditorView& view)
 {
-    Menu menu{"Tools", {}};
-    menu.actions = {
-        {.id = measureActuator,
-         .name = "Measure an actuator...",
-         .help = "Finds the response of an actuator with a sensor, flattens it and saves it as a profile",
-         .run =
-             [&view, desk = std::make_shared<std::shared_ptr<MeasurementController>>()]
-         {
-             if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)
-                 return; // a desk has one page
+    Menu menu("Tools");
+    menu.add(measureActuator, "Measure an actuator...",
+             "Finds the response of an actuator with a sensor, flattens it and saves it as a profile",
+             [&view, controller = std::make_shared<std::shared_ptr<MeasurementController>>()]
+             {
+                 if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)
+                     return; // a controller has one page
 
-             // Made when it is first needed, and kept: the page may be closed and opened again.
-             const HostServices& around = view.hostServices();
-             if (!*desk)
-                 *desk = std::make_shared<MeasurementController>(
-                     view.session().actuators, view.session().transport,
-                     MeasurementController::HostServices{around.measureRig, around.profileFolder});
-             view.showSheet(std::make_unique<MeasurePage>(*desk, around.showDevices));
-         }},
-    };
+                 // Made when it is first needed, and kept: the page may be closed and opened again.
+                 const HostServices& around = view.hostServices();
+                 if (!*controller)
+                     *controller = std::make_shared<MeasurementController>(
+                         view.session().actuators, view.session().transport,
+                         MeasurementController::HostServices{around.measureRig, around.profileFolder});
+                 view.showSheet(std::make_unique<MeasurePage>(*controller, around.showDevices));
+             });
     return menu;
 }
 

@@ -36,10 +36,7 @@ juce::PopupMenu snapChoices(Session& session)
 Menu viewMenu(EditorView& view)
 {
     Session& session = view.session();
-    const auto anyClip = [&session]
-    {
-        return session.model.clip() != nullptr;
-    };
+    const auto anyClip = hasClip(session);
     const auto taller = [&session](int pixels)
     {
         session.viewState.setLaneHeight(session.viewState.laneHeight() + pixels);
@@ -71,167 +68,87 @@ Menu viewMenu(EditorView& view)
         };
     };
     using Key = juce::KeyPress;
-    Menu menu{"View", {}};
-    menu.actions = {
-        {.id = zoomIn,
-         .name = "Zoom in",
-         .help = "Shows less time",
-         .run = [&view] { view.clipView().zoomAtPlayhead(zoomStep); },
-         .can = anyClip,
-         .keys = {Key('+'), Key('='), Key('+', juce::ModifierKeys::shiftModifier, 0)}},
-        {.id = zoomOut,
-         .name = "Zoom out",
-         .help = "Shows more time",
-         .run = [&view] { view.clipView().zoomAtPlayhead(1.0 / zoomStep); },
-         .can = anyClip,
-         .keys = {Key('-')}},
-        {.id = fit,
-         .name = "Fit clip",
-         .help = "Shows the whole clip",
-         .run = [&session] { session.viewState.fit(); },
-         .can = anyClip,
-         .keys = {Key('0')}},
-        {.id = zoomToRange,
-         .name = "Zoom to range",
-         .help = "Shows the time range, or the selection",
-         .run =
-             [&session]
-         {
-             session.viewState.showRange(session.clipSelection.timeRange().value_or(
-                 timeOf(session.clipSelection.selected(), *session.model.clip()).value_or(TimeRange{})));
-         },
-         .can =
-             [&session] {
-                 return session.model.clip() &&
-                        (session.clipSelection.timeRange() || !isEmpty(session.clipSelection.selected()));
-             },
-         .keys = {Key('r')}},
-        {.id = tallerLanes,
-         .name = "Taller lanes",
-         .help = "Makes lanes taller",
-         .run = [taller] { taller(laneStep); },
-         .can = anyClip,
-         .keys = {ctrl('+')},
-         .lineBefore = true},
-        {.id = lowerLanes,
-         .name = "Lower lanes",
-         .help = "Makes lanes lower",
-         .run = [taller] { taller(-laneStep); },
-         .can = anyClip,
-         .keys = {ctrl('-')}},
-        {.id = decibels,
-         .name = "Levels in dB",
-         .help = "Levels on a scale of decibels, or linear",
-         .run = [&session] { session.viewState.setAmplitudesInDecibels(!session.viewState.amplitudesInDecibels()); },
-         .on =
-             [&session]
-         {
-             return session.viewState.amplitudesInDecibels();
-         }},
-        {.id = draw,
-         .name = "Draw curves",
-         .help = "A drag in a lane draws its curve; with the key held, as long as that",
-         .run = [&view] { view.switchDrawing(); },
-         .can = anyClip,
-         .on = [&session] { return session.viewState.isDrawing(); },
-         .keys = {Key(EditorView::drawKeyCode)},
-         .lineBefore = true},
-        {.id = snap,
-         .name = "Snap",
-         .help = "Dragging snaps to what is near; with Alt it does not",
-         .run =
-             [&session]
-         {
-             SnapTargets wanted = session.viewState.snapTargets();
-             wanted.on = !wanted.on;
-             session.viewState.setSnapTargets(wanted);
-         },
-         .on = [&session] { return session.viewState.snapTargets().on; },
-         .keys = {Key('n')}},
-        {.id = snapTo,
-         .name = "Snap to",
-         .help = "Dragging snaps to these",
-         .can = [&session] { return session.viewState.snapTargets().on; },
-         .choices =
-             [&session]
-         {
-             return snapChoices(session);
-         }},
-        {.id = showWaveform,
-         .name = "Waveform",
-         .help = "Shows the sound as its waveform",
-         .run = give(&ViewOptions::sound, SoundView::waveform),
-         .on = has(&ViewOptions::sound, SoundView::waveform),
-         .keys = {alt('1')},
-         .lineBefore = true},
-        {.id = showSpectrum,
-         .name = "Spectrogram",
-         .help = "Shows the sound as its frequencies over time",
-         .run = give(&ViewOptions::sound, SoundView::spectrum),
-         .on = has(&ViewOptions::sound, SoundView::spectrum),
-         .keys = {alt('2')}},
-        {.id = showBoth,
-         .name = "Waveform over spectrogram",
-         .help = "Shows both over each other",
-         .run = give(&ViewOptions::sound, SoundView::both),
-         .on = has(&ViewOptions::sound, SoundView::both),
-         .keys = {alt('3')}},
-        {.id = wholeSpectrum,
-         .name = "All frequencies of the spectrogram",
-         .help = "Up to half the sample rate, or to 2 kHz, which is all that can be felt",
-         .run = change(&ViewOptions::wholeSpectrum),
-         .on = has(&ViewOptions::wholeSpectrum, true)},
-        {.id = showActuator,
-         .name = "What the actuator plays",
-         .help = "Shows the drive of the actuator and what is lost, below the lanes",
-         .run = change(&ViewOptions::actuator),
-         .on = has(&ViewOptions::actuator, true),
-         .keys = {alt('4')}},
-        {.id = followOff,
-         .name = "Do not follow the playhead",
-         .help = "The view stays while playing",
-         .run = give(&ViewOptions::follow, Follow::off),
-         .on = has(&ViewOptions::follow, Follow::off),
-         .lineBefore = true},
-        {.id = followPage,
-         .name = "Turn pages with the playhead",
-         .help = "The view turns when the playhead leaves it",
-         .run = give(&ViewOptions::follow, Follow::page),
-         .on = has(&ViewOptions::follow, Follow::page)},
-        {.id = followSmooth,
-         .name = "Keep the playhead in the middle",
-         .help = "The view moves along while playing",
-         .run = give(&ViewOptions::follow, Follow::smooth),
-         .on = has(&ViewOptions::follow, Follow::smooth)},
-        {.id = lightLook,
-         .name = "Light colours",
-         .help = "Dark text on light ground",
-         .run = [&view] { view.setDark(!view.isDark()); },
-         .on = [&view] { return !view.isDark(); },
-         .lineBefore = true},
-        {.id = largerInterface,
-         .name = "Larger interface",
-         .help = "Everything larger, to twice the size",
-         .run = [&view] { view.setScale(view.scale() + scaleStep); },
-         .keys = {ctrlShift('+')}},
-        {.id = smallerInterface,
-         .name = "Smaller interface",
-         .help = "Everything smaller, to three quarters",
-         .run = [&view] { view.setScale(view.scale() - scaleStep); },
-         .keys = {ctrlShift('-')}},
-    };
-    menu.actions.push_back({.id = preferences,
-                            .name = "Preferences...",
-                            .help = "How the editor looks and behaves",
-                            .run = [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); },
-                            .keys = {ctrl(',')},
-                            .lineBefore = true});
+    Menu menu("View");
+    menu.add(zoomIn, "Zoom in", "Shows less time", [&view] { view.clipView().zoomAtPlayhead(zoomStep); }, anyClip,
+             {Key('+'), Key('='), Key('+', juce::ModifierKeys::shiftModifier, 0)});
+    menu.add(zoomOut, "Zoom out", "Shows more time", [&view] { view.clipView().zoomAtPlayhead(1.0 / zoomStep); },
+             anyClip, {Key('-')});
+    menu.add(fit, "Fit clip", "Shows the whole clip", [&session] { session.viewState.fit(); }, anyClip, {Key('0')});
+    menu.add(
+        zoomToRange, "Zoom to range", "Shows the time range, or the selection",
+        [&session]
+        {
+            session.viewState.showRange(session.clipSelection.timeRange().value_or(
+                timeOf(session.clipSelection.selected(), *session.model.clip()).value_or(TimeRange{})));
+        },
+        [&session] {
+            return session.model.clip() &&
+                   (session.clipSelection.timeRange() || !isEmpty(session.clipSelection.selected()));
+        },
+        {Key('r')});
+    menu.addLine();
+    menu.add(tallerLanes, "Taller lanes", "Makes lanes taller", [taller] { taller(laneStep); }, anyClip, {ctrl('+')});
+    menu.add(lowerLanes, "Lower lanes", "Makes lanes lower", [taller] { taller(-laneStep); }, anyClip, {ctrl('-')});
+    menu.addSwitch(
+        decibels, "Levels in dB", "Levels on a scale of decibels, or linear",
+        [&session] { session.viewState.setAmplitudesInDecibels(!session.viewState.amplitudesInDecibels()); },
+        [&session] { return session.viewState.amplitudesInDecibels(); });
+    menu.addLine();
+    menu.addSwitch(
+        draw, "Draw curves", "A drag in a lane draws its curve; with the key held, as long as that",
+        [&view] { view.switchDrawing(); }, [&session] { return session.viewState.isDrawing(); },
+        {Key(EditorView::drawKeyCode)}, anyClip);
+    menu.addSwitch(
+        snap, "Snap", "Dragging snaps to what is near; with Alt it does not",
+        [&session]
+        {
+            SnapTargets wanted = session.viewState.snapTargets();
+            wanted.on = !wanted.on;
+            session.viewState.setSnapTargets(wanted);
+        },
+        [&session] { return session.viewState.snapTargets().on; }, {Key('n')});
+    menu.addMenu(
+        snapTo, "Snap to", "Dragging snaps to these", [&session] { return snapChoices(session); },
+        [&session] { return session.viewState.snapTargets().on; });
+    menu.addLine();
+    menu.addSwitch(showWaveform, "Waveform", "Shows the sound as its waveform",
+                   give(&ViewOptions::sound, SoundView::waveform), has(&ViewOptions::sound, SoundView::waveform),
+                   {alt('1')});
+    menu.addSwitch(showSpectrum, "Spectrogram", "Shows the sound as its frequencies over time",
+                   give(&ViewOptions::sound, SoundView::spectrum), has(&ViewOptions::sound, SoundView::spectrum),
+                   {alt('2')});
+    menu.addSwitch(showBoth, "Waveform over spectrogram", "Shows both over each other",
+                   give(&ViewOptions::sound, SoundView::both), has(&ViewOptions::sound, SoundView::both), {alt('3')});
+    menu.addSwitch(wholeSpectrum, "All frequencies of the spectrogram",
+                   "Up to half the sample rate, or to 2 kHz, which is all that can be felt",
+                   change(&ViewOptions::wholeSpectrum), has(&ViewOptions::wholeSpectrum, true));
+    menu.addSwitch(showActuator, "What the actuator plays",
+                   "Shows the drive of the actuator and what is lost, below the lanes", change(&ViewOptions::actuator),
+                   has(&ViewOptions::actuator, true), {alt('4')});
+    menu.addLine();
+    menu.addSwitch(followOff, "Do not follow the playhead", "The view stays while playing",
+                   give(&ViewOptions::follow, Follow::off), has(&ViewOptions::follow, Follow::off));
+    menu.addSwitch(followPage, "Turn pages with the playhead", "The view turns when the playhead leaves it",
+                   give(&ViewOptions::follow, Follow::page), has(&ViewOptions::follow, Follow::page));
+    menu.addSwitch(followSmooth, "Keep the playhead in the middle", "The view moves along while playing",
+                   give(&ViewOptions::follow, Follow::smooth), has(&ViewOptions::follow, Follow::smooth));
+    menu.addLine();
+    menu.addSwitch(
+        lightLook, "Light colours", "Dark text on light ground", [&view] { view.setDark(!view.isDark()); },
+        [&view] { return !view.isDark(); });
+    menu.add(largerInterface, "Larger interface", "Everything larger, to twice the size",
+             [&view] { view.setScale(view.scale() + scaleStep); }, {}, {ctrlShift('+')});
+    menu.add(smallerInterface, "Smaller interface", "Everything smaller, to three quarters",
+             [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-')});
+    menu.addLine();
+    menu.add(preferences, "Preferences...", "How the editor looks and behaves",
+             [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});
     if (view.hostServices().showDevices)
-        menu.actions.push_back({.id = soundDevices,
-                                .name = "Sound devices...",
-                                .help = "Chooses the device and its outputs",
-                                .run = [&view] { view.hostServices().showDevices(); },
-                                .lineBefore = true});
+    {
+        menu.addLine();
+        menu.add(soundDevices, "Sound devices...", "Chooses the device and its outputs",
+                 [&view] { view.hostServices().showDevices(); });
+    }
     return menu;
 }
 

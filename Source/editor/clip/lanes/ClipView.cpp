@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/ClipView.h"
 
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/CurveLane.h"
@@ -137,9 +138,7 @@ ClipView::ClipView(Session& shared)
     viewport.setScrollBarsShown(true, false);
     viewport.setScrollBarThickness(scrollBarWidth);
     viewport.setWantsKeyboardFocus(false);
-    for (juce::Component* child : std::initializer_list<juce::Component*>{&ruler, &tools, &selectionBar, &waveform,
-                                                                          &viewport, &actuator, &overview})
-        addAndMakeVisible(child);
+    addAll(*this, {&ruler, &tools, &selectionBar, &waveform, &viewport, &actuator, &overview});
     addChildComponent(markers);
     addAndMakeVisible(*overlay);
     markers.onCommand = [this](Command command)

@@ -3,12 +3,12 @@
 
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pacini::editor
 {
@@ -51,21 +51,20 @@ CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& s
                        : "Level over time. Double-click adds a point, Delete removes what is selected");
     if (!band)
         return;
-    const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help)
+    const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help,
+                                std::function<void()> click)
     {
+        prepareButton(button, help, std::move(click));
         button.setTitle(title + " " + getTitle().toLowerCase());
-        button.setTooltip(help);
         addAndMakeVisible(button);
     };
-    prepare(pitchButton, "Pitch of", "Shows the pitch of this band (Hz) in place of its level (dB)");
-    prepare(soloButton, "Solo", "Only bands with this are heard and felt; the clip stays as it is");
-    prepare(muteButton, "Mute", "This band is neither heard nor felt; the clip stays as it is");
-    pitchButton.onClick = [this]
-    {
-        shown.kind = pitchButton.getToggleState() ? LaneKind::pitch : LaneKind::amplitude;
-        forgetScale();
-        repaint();
-    };
+    prepare(pitchButton, "Pitch of", "Shows the pitch of this band (Hz) in place of its level (dB)",
+            [this]
+            {
+                shown.kind = pitchButton.getToggleState() ? LaneKind::pitch : LaneKind::amplitude;
+                forgetScale();
+                repaint();
+            });
     const auto hearing = [this](std::set<std::size_t> Audition::*set, bool on)
     {
         Audition wanted = transport.audition();
@@ -75,14 +74,10 @@ CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& s
             (wanted.*set).erase(shown.index);
         transport.setAudition(std::move(wanted));
     };
-    soloButton.onClick = [this, hearing]
-    {
-        hearing(&Audition::solo, soloButton.getToggleState());
-    };
-    muteButton.onClick = [this, hearing]
-    {
-        hearing(&Audition::muted, muteButton.getToggleState());
-    };
+    prepare(soloButton, "Solo", "Only bands with this are heard and felt; the clip stays as it is",
+            [this, hearing] { hearing(&Audition::solo, soloButton.getToggleState()); });
+    prepare(muteButton, "Mute", "This band is neither heard nor felt; the clip stays as it is",
+            [this, hearing] { hearing(&Audition::muted, muteButton.getToggleState()); });
     showHearing();
     subscriptions.on({&transport.changed}, [this] { showHearing(); });
 }

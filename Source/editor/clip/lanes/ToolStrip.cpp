@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/ToolStrip.h"
 
+#include "editor/Controls.h"
+
 namespace pacini::editor
 {
 
@@ -8,31 +10,26 @@ ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
     : model(project), viewState(sight), drawButton("Draw"), snapButton("Snap"), versionButton("A")
 {
     setTitle("Tools");
-    const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help)
+    const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help,
+                                std::function<void()> click)
     {
+        prepareButton(button, help, std::move(click));
         button.setTitle(title);
-        button.setTooltip(help);
         button.setClickingTogglesState(false);
         button.setWantsKeyboardFocus(true);
         addAndMakeVisible(button);
     };
-    prepare(drawButton, "Draw", "A drag in a lane draws its curve (D; held: as long as it is held)");
-    prepare(snapButton, "Snap", "Dragging snaps to transients, markers, playhead or ruler lines (N)");
-    prepare(versionButton, "Version A", "Shows and plays the version that was kept as A in the clip menu (C)");
-    drawButton.onClick = [this]
-    {
-        viewState.setDrawing(!viewState.isDrawing());
-    };
-    snapButton.onClick = [this]
-    {
-        SnapTargets wanted = viewState.snapTargets();
-        wanted.on = !wanted.on;
-        viewState.setSnapTargets(wanted);
-    };
-    versionButton.onClick = [this]
-    {
-        model.setComparing(!model.isComparing());
-    };
+    prepare(drawButton, "Draw", "A drag in a lane draws its curve (D; held: as long as it is held)",
+            [this] { viewState.setDrawing(!viewState.isDrawing()); });
+    prepare(snapButton, "Snap", "Dragging snaps to transients, markers, playhead or ruler lines (N)",
+            [this]
+            {
+                SnapTargets wanted = viewState.snapTargets();
+                wanted.on = !wanted.on;
+                viewState.setSnapTargets(wanted);
+            });
+    prepare(versionButton, "Version A", "Shows and plays the version that was kept as A in the clip menu (C)",
+            [this] { model.setComparing(!model.isComparing()); });
     subscriptions.on({&viewState.lookChanged, &model.contentChanged, &model.versionChanged}, [this] { showState(); });
     showState();
 }

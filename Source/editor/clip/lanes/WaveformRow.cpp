@@ -2,13 +2,13 @@
 #include "editor/clip/lanes/WaveformRow.h"
 
 #include "document/view/Columns.h"
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -31,20 +31,21 @@ WaveformRow::WaveformRow(const EditorModel& project, const ProjectSounds& projec
 {
     setOpaque(true);
     setTitle("Sound");
-    viewButton.setTooltip("Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)");
-    viewButton.onClick = [this]
-    {
-        ViewOptions wanted = viewState.viewOptions();
-        wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
-        viewState.setViewOptions(wanted);
-    };
-    rangeButton.setTooltip("The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)");
-    rangeButton.onClick = [this]
-    {
-        ViewOptions wanted = viewState.viewOptions();
-        wanted.wholeSpectrum = !wanted.wholeSpectrum;
-        viewState.setViewOptions(wanted);
-    };
+    prepareButton(viewButton, "Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)",
+                  [this]
+                  {
+                      ViewOptions wanted = viewState.viewOptions();
+                      wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
+                      viewState.setViewOptions(wanted);
+                  });
+    prepareButton(rangeButton,
+                  "The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)",
+                  [this]
+                  {
+                      ViewOptions wanted = viewState.viewOptions();
+                      wanted.wholeSpectrum = !wanted.wholeSpectrum;
+                      viewState.setViewOptions(wanted);
+                  });
     spectrum.onChanged = [this]
     {
         repaint(plotArea());

@@ -2,12 +2,12 @@
 #include "editor/clip/panels/AnalysisPanel.h"
 
 #include "document/EncoderPresets.h"
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pacini::editor
 {
@@ -65,41 +65,39 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     spacing.setTooltip("Bands of equal width in octaves, as the ear and the skin have them, or in Hz");
     spacing.addItem("Octaves", logarithmic);
     spacing.addItem("Equal Hz", linear);
-    spacing.onChange = [this]
+    const auto edit = [this]
     {
         edited();
     };
-    normalise.setTooltip("Scales the loudest moment to full drive; off: full scale of the sound is full drive");
+    spacing.onChange = edit;
     normalise.setTitle("Scale to full drive");
-    normalise.onClick = [this]
-    {
-        edited();
-    };
-    resetButton.setTooltip("Back to the settings of the preset Standard");
-    resetButton.onClick = [this]
-    {
-        set({});
-        edited();
-    };
-    replaceButton.setTooltip("Uses another sound file for this clip; its edits are kept");
-    replaceButton.onClick = [this]
-    {
-        const auto item = model.item();
-        const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
-        view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
-                                 [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
-    };
-    findButton.setTooltip("Shows Pacini where the sound is now, or another missing sound beside it");
-    findButton.onClick = [this]
-    {
-        const auto item = model.item();
-        if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
-            view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
-                                     [this](const std::filesystem::path& file) { sounds.findSounds(file); });
-    };
-    for (juce::Component* one : std::initializer_list<juce::Component*>{&replaceButton, &findButton, &preset,
-                                                                        &resetButton, &spacing, &normalise, &edits})
-        addAndMakeVisible(one);
+    prepareButton(normalise, "Scales the loudest moment to full drive; off: full scale of the sound is full drive",
+                  edit);
+    prepareButton(resetButton, "Back to the settings of the preset Standard",
+                  [this]
+                  {
+                      set({});
+                      edited();
+                  });
+    prepareButton(
+        replaceButton, "Uses another sound file for this clip; its edits are kept",
+        [this]
+        {
+            const auto item = model.item();
+            const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
+            view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
+                                     [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
+        });
+    prepareButton(
+        findButton, "Shows Pacini where the sound is now, or another missing sound beside it",
+        [this]
+        {
+            const auto item = model.item();
+            if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
+                view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
+                                         [this](const std::filesystem::path& file) { sounds.findSounds(file); });
+        });
+    addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
 
     prepare(bands, "Bands", "", "How many frequency bands the sound is split into, 1 to 32");
     knob(bands).setRange(1.0, 32.0, 1.0);

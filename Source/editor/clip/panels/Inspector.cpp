@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/Inspector.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/lanes/LaneText.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pacini::editor
@@ -93,91 +93,78 @@ Inspector::Inspector(EditorView& shown)
           "Level in dB, or frequency in Hz, of the first thing selected; the others follow in proportion");
     field(sharpField, "Sharpness of what is selected",
           "0 % dull to 100 % crisp, of the first transient selected; the others follow");
-    timeField.onTextChange = [this]
+    // What is typed there moves the first thing selected, and the others with it.
+    const auto moves = [this](juce::Label& typed, const char* name, auto moveOf)
     {
-        const auto clip = model.clip();
-        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
-        if (!first)
-            return;
-        SelectionMove move;
-        move.time = timeField.getText().getDoubleValue() - first->time;
-        clipSelection.setEdited("Move points", moveSelected(*clip, clipSelection.selected(), move));
+        typed.onTextChange = [this, &typed, name, moveOf]
+        {
+            const auto clip = model.clip();
+            const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
+            const std::optional<SelectionMove> move =
+                first ? moveOf(*first, typed.getText().getDoubleValue()) : std::nullopt;
+            if (move)
+                clipSelection.setEdited(name, moveSelected(*clip, clipSelection.selected(), *move));
+        };
     };
-    valueField.onTextChange = [this]
-    {
-        const auto clip = model.clip();
-        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
-        if (!first)
-            return;
-        SelectionMove move;
-        const double number = valueField.getText().getDoubleValue();
-        if (first->hertz)
-            move.frequencyFactor = number > 0.0 && first->value > 0.0 ? number / first->value : 1.0;
-        else if (first->value > 0.0)
-            move.amplitudeFactor = std::pow(10.0, number / 20.0) / first->value;
-        else
-            move.amplitudeOffset = std::pow(10.0, number / 20.0);
-        clipSelection.setEdited("Change value", moveSelected(*clip, clipSelection.selected(), move));
-    };
-    sharpField.onTextChange = [this]
-    {
-        const auto clip = model.clip();
-        const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
-        if (!first || !first->sharpness)
-            return;
-        SelectionMove move;
-        move.sharpness = 0.01 * sharpField.getText().getDoubleValue() - *first->sharpness;
-        clipSelection.setEdited("Change sharpness", moveSelected(*clip, clipSelection.selected(), move));
-    };
-    const auto slider = [this](juce::Slider& one, const juce::String& title, const juce::String& help)
+    moves(timeField, "Move points",
+          [](const FirstThing& first, double time) { return std::optional(SelectionMove{.time = time - first.time}); });
+    moves(valueField, "Change value",
+          [](const FirstThing& first, double number)
+          {
+              SelectionMove move;
+              if (first.hertz)
+                  move.frequencyFactor = number > 0.0 && first.value > 0.0 ? number / first.value : 1.0;
+              else if (first.value > 0.0)
+                  move.amplitudeFactor = std::pow(10.0, number / 20.0) / first.value;
+              else
+                  move.amplitudeOffset = std::pow(10.0, number / 20.0);
+              return std::optional(move);
+          });
+    moves(sharpField, "Change sharpness",
+          [](const FirstThing& first, double percent)
+          {
+              return first.sharpness ? std::optional(SelectionMove{.sharpness = 0.01 * percent - *first.sharpness})
+                                     : std::nullopt;
+          });
+    const auto slider = [this](juce::Slider& one, double rest, const juce::String& title, const juce::String& help)
     {
         one.setSliderStyle(juce::Slider::LinearHorizontal);
         one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, inspectorRowHeight);
         one.setTitle(title);
         one.setTooltip(help);
         one.setWantsKeyboardFocus(true);
+        one.setDoubleClickReturnValue(true, rest);
         one.onDragStart = [this]
         {
             gesture = model.beginGesture();
         };
+        one.onDragEnd = [this, &one, rest]
+        {
+            gesture = 0;
+            one.setValue(rest, juce::dontSendNotification);
+        };
         addAndMakeVisible(one);
     };
-    slider(gain, "Gain",
+    slider(gain, 0.0, "Gain",
            "Changes the levels of the selection, the time range or the clip, in dB; returns to 0 when released");
     gain.setRange(-24.0, 24.0, 0.1);
     gain.setTextValueSuffix(" dB");
     gain.setNumDecimalPlacesToDisplay(1);
-    gain.setDoubleClickReturnValue(true, 0.0);
     gain.onValueChange = [this]
     {
         gainMoved();
     };
-    slider(keep, "Points to keep", "Simplifies the curves to this share of their points, in percent");
+    slider(keep, 100.0, "Points to keep", "Simplifies the curves to this share of their points, in percent");
     keep.setRange(2.0, 100.0, 1.0);
     keep.setTextValueSuffix(" %");
     keep.setValue(100.0, juce::dontSendNotification);
-    keep.setDoubleClickReturnValue(true, 100.0);
     keep.onValueChange = [this]
     {
         simplifyMoved();
     };
-    gain.onDragEnd = [this]
-    {
-        gesture = 0;
-        gain.setValue(0.0, juce::dontSendNotification);
-    };
-    keep.onDragEnd = [this]
-    {
-        gesture = 0;
-        keep.setValue(100.0, juce::dontSendNotification);
-    };
     const auto button = [this](juce::TextButton& one, Command command, const juce::String& help)
     {
-        one.setTooltip(help);
-        one.onClick = [this, command]
-        {
-            view.doCommand(command);
-        };
+        prepareButton(one, help, [this, command] { view.doCommand(command); });
         addAndMakeVisible(one);
     };
     button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/MeterPanel.h"
 
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 
 #include <cmath>
@@ -29,8 +30,7 @@ MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, Clip
 {
     setTitle("Meters");
     setOpaque(true);
-    for (juce::Component* meter : std::initializer_list<juce::Component*>{&output, &reduction, &felt})
-        addAndMakeVisible(meter);
+    addAll(*this, {&output, &reduction, &felt});
     felt.show(-std::numeric_limits<double>::infinity());
     subscriptions.on({&transport.changed, &actuators.changed}, [this] { follow(); });
     follow();

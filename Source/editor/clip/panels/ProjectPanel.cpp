@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/panels/ProjectPanel.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
-
-#include <algorithm>
 
 namespace pacini::editor
 {
@@ -48,15 +47,15 @@ ProjectPanel::ProjectPanel(EditorView& shown)
                    .showMenuAsync(juce::PopupMenu::Options().withTargetComponent(groupButton));
            });
     keepCopy.setTitle("Keep a copy of the sound inside the project");
-    keepCopy.setTooltip("The project file then holds the whole sound of this clip and can go anywhere without it");
-    keepCopy.onClick = [this]
-    {
-        const auto item = model.item();
-        const bool wanted = keepCopy.getToggleState();
-        show();
-        if (item)
-            sounds.keepSound(item->source, wanted);
-    };
+    prepareButton(keepCopy, "The project file then holds the whole sound of this clip and can go anywhere without it",
+                  [this]
+                  {
+                      const auto item = model.item();
+                      const bool wanted = keepCopy.getToggleState();
+                      show();
+                      if (item)
+                          sounds.keepSound(item->source, wanted);
+                  });
     addAndMakeVisible(keepCopy);
     const auto label = [this](juce::Label& one, const juce::String& text)
     {

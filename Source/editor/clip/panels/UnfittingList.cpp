@@ -2,6 +2,7 @@
 #include "editor/clip/panels/UnfittingList.h"
 
 #include "document/EditText.h"
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -22,16 +23,9 @@ class UnfittingList::Row final : public juce::Component
 public:
     explicit Row(UnfittingList& all)
     {
-        show.setTooltip("Goes to the time of this edit");
-        show.onClick = [this, &all]
-        {
-            all.showEdit(index);
-        };
-        remove.setTooltip("Removes this edit from the clip; undo brings it back");
-        remove.onClick = [this, &all]
-        {
-            all.removeEdit(index);
-        };
+        prepareButton(show, "Goes to the time of this edit", [this, &all] { all.showEdit(index); });
+        prepareButton(remove, "Removes this edit from the clip; undo brings it back",
+                      [this, &all] { all.removeEdit(index); });
         addAndMakeVisible(show);
         addAndMakeVisible(remove);
     }

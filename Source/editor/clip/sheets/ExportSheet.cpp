@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/ExportSheet.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace pacini::editor
 {
@@ -73,12 +72,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     all.setButtonText(count > 1 ? "All " + juce::String(static_cast<int>(count)) + " clips of the project"
                                 : juce::String("All clips of the project"));
     all.setTitle("Export all clips");
-    all.setTooltip("One file for each clip, named after it, into a folder");
     all.setEnabled(count > 1);
-    all.onClick = [this]
-    {
-        formatChanged();
-    };
+    prepareButton(all, "One file for each clip, named after it, into a folder", [this] { formatChanged(); });
     target.setTitle("File or folder to write");
     target.setFont(usualFont());
     target.setIndents(grid, 7);
@@ -90,19 +85,13 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     {
         close();
     };
-    browseButton.setTooltip("Chooses where to write");
-    browseButton.onClick = [this]
-    {
-        browse();
-    };
+    prepareButton(browseButton, "Chooses where to write", [this] { browse(); });
     losses.setMultiLine(true);
     losses.setReadOnly(true);
     losses.setCaretVisible(false);
     losses.setTitle("What is kept and what is lost");
     losses.setFont(smallFont());
-    for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&format, &rate, &all, &target, &browseButton, &losses})
-        addAndMakeVisible(child);
+    addAll(*this, {&format, &rate, &all, &target, &browseButton, &losses});
     int order = 1;
     for (juce::Component* child :
          std::initializer_list<juce::Component*>{&target, &format, &rate, &all, &browseButton, &losses})

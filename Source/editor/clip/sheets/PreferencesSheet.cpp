@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/sheets/PreferencesSheet.h"
 
+#include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
@@ -124,12 +125,12 @@ void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& h
 {
     auto button = std::make_unique<juce::ToggleButton>(on ? "On" : "Off");
     button->setToggleState(on, juce::dontSendNotification);
-    button->setTooltip(help);
-    button->onClick = [turn = std::move(turn), now = button.get()]
-    {
-        now->setButtonText(now->getToggleState() ? "On" : "Off");
-        turn(now->getToggleState());
-    };
+    prepareButton(*button, help,
+                  [turn = std::move(turn), now = button.get()]
+                  {
+                      now->setButtonText(now->getToggleState() ? "On" : "Off");
+                      turn(now->getToggleState());
+                  });
     add(name, std::move(button));
 }
 

@@ -2,8 +2,9 @@
 
 // FIR equalizer design, of linear or minimum phase.
 
+#include "cli/bench/EqualizerTarget.h"
+
 #include <pacini/linearize/EqualizerSearch.h>
-#include <pacini/linearize/EqualizerTarget.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -13,7 +14,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// Phase of a FIR equalizer.
@@ -126,14 +127,8 @@ namespace detail
             tap *= lower;
         fit.boost = params.maxBoost;
     }
-    std::vector<double> curve;
-    for (std::size_t i = 0; i < problem->points(); ++i)
-        curve.push_back(polynomialLevel(fit.taps, problem->frequency[i], problem->fs));
-    const Flatness flatness = flatnessOf(*problem, curve, problem->given);
-    fit.rms = flatness.rms;
-    fit.max = flatness.max;
-    fit.level = flatness.level;
+    setFlatness(fit, *problem, [&fit, fs = problem->fs](double f) { return polynomialLevel(fit.taps, f, fs); });
     return fit;
 }
 
-} // namespace pacini
+} // namespace pacini::cli

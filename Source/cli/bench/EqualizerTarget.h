@@ -4,6 +4,7 @@
 
 #include <pacini/foundation/Fft.h>
 #include <pacini/linearize/EqualizerFitProblem.h>
+#include <pacini/linearize/EqualizerSearch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// What flattens the points of a problem, drop-outs aside, between them by straight lines over the logarithm of the
@@ -121,6 +122,19 @@ private:
     return Decibels::fromGain(std::abs(sum)).value;
 }
 
+/// Sets rms, max and level of `fit` to what is left of the problem's response after a filter of levelAt(f) dB.
+template <typename Fit, typename LevelAt>
+void setFlatness(Fit& fit, const EqualizerFitProblem& problem, LevelAt levelAt)
+{
+    std::vector<double> curve;
+    for (std::size_t i = 0; i < problem.points(); ++i)
+        curve.push_back(levelAt(problem.frequency[i]));
+    const Flatness flatness = flatnessOf(problem, curve, problem.given);
+    fit.rms = flatness.rms;
+    fit.max = flatness.max;
+    fit.level = flatness.level;
+}
+
 /// The impulse response of that magnitude whose energy comes first: the cepstrum of a minimum-phase response is 0 at
 /// negative times (A. V. Oppenheim, R. W. Schafer, "Discrete-Time Signal Processing", 3rd ed. 2010, section 13.7).
 /// `amplitude` is symmetric as amplitudesOf() has it and above 0.
@@ -150,4 +164,4 @@ private:
     return h;
 }
 
-} // namespace pacini
+} // namespace pacini::cli

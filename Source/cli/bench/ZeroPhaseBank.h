@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// Implementation of the zero-phase filters.
@@ -52,22 +52,6 @@ using BandSignals = std::vector<std::vector<float>>;
     const double distance = std::log(f.value / centres[k].value) / std::log(neighbour / centres[k].value);
     const double root = std::cos(0.5 * std::numbers::pi * distance);
     return root * root;
-}
-
-/// The gain of band k at f of the forward-backward tree at the sample rate fs (Hz): at crossover j the squared
-/// magnitude of a second-order Butterworth low-pass, and what that leaves. Sums to 1.
-[[nodiscard]] inline double forwardBackwardWeight(const BandLayout& layout, std::size_t k, Hertz f, double fs) noexcept
-{
-    double rest = 1.0;
-    for (std::size_t j = 0; j < layout.crossovers.size() && j <= k; ++j)
-    {
-        const double ratio = std::tan(std::numbers::pi * f.value / fs) /
-                             std::tan(std::numbers::pi * clampedFrequency(layout.crossovers[j], fs) / fs);
-        const double fourth = ratio * ratio * ratio * ratio;
-        const double low = std::isinf(fourth) ? 0.0 : 1.0 / (1.0 + fourth);
-        rest *= j == k ? low : 1.0 - low;
-    }
-    return rest;
 }
 
 namespace detail
@@ -202,4 +186,4 @@ inline BandSignals splitRaisedCosine(std::span<const float> signal, double fs, c
                                                           : detail::splitForwardBackward(signal, fs, layout);
 }
 
-} // namespace pacini
+} // namespace pacini::cli

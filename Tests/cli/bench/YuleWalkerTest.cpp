@@ -1,13 +1,14 @@
-#include "EqualizerReference.h"
+#include "cli/bench/YuleWalker.h"
+
+#include "linearize/EqualizerReference.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
-
-#include <pacini/linearize/YuleWalker.h>
 
 #include <limits>
 #include <span>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace
@@ -41,13 +42,6 @@ int rootsOutside(const std::vector<double>& polynomial)
     }
     return static_cast<int>(std::lround(std::abs(turned) / (2.0 * std::numbers::pi)));
 }
-
-EqualizerFitParams at(double fs)
-{
-    EqualizerFitParams params;
-    params.sampleRate = fs;
-    return params;
-}
 } // namespace
 
 TEST_CASE("A Yule-Walker equaliser comes nearer to flat with its order at a decimated rate", "[linearize]")
@@ -57,7 +51,7 @@ TEST_CASE("A Yule-Walker equaliser comes nearer to flat with its order at a deci
     for (const int order : {4, 16, 64, 128})
     {
         CAPTURE(order);
-        const auto fit = fitYuleWalker(response, order, at(4000.0));
+        const auto fit = fitYuleWalker(response, order, fitParamsAt(4000.0));
         REQUIRE(fit.ok());
         FrequencyResponse sum = response;
         for (std::size_t i = 0; i < sum.size(); ++i)
@@ -78,7 +72,7 @@ TEST_CASE("A Yule-Walker equaliser is stable and of minimum phase, at high rates
         for (const int order : {2, 8, 32, 128})
         {
             CAPTURE(fs, order);
-            const auto fit = fitYuleWalker(spring(175.0, 20.0), order, at(fs));
+            const auto fit = fitYuleWalker(spring(175.0, 20.0), order, fitParamsAt(fs));
             REQUIRE(fit.ok());
             CHECK(fit->denominator.size() == static_cast<std::size_t>(order) + 1);
             CHECK(fit->numerator.size() == static_cast<std::size_t>(order) + 1);
@@ -90,8 +84,8 @@ TEST_CASE("A Yule-Walker equaliser is stable and of minimum phase, at high rates
 
 TEST_CASE("At 48 kHz the order of a Yule-Walker equaliser does not reach a resonance of an actuator", "[linearize]")
 {
-    const auto low = fitYuleWalker(spring(67.0, 4.0), 32, at(48000.0));
-    const auto decimated = fitYuleWalker(spring(67.0, 4.0), 32, at(4000.0));
+    const auto low = fitYuleWalker(spring(67.0, 4.0), 32, fitParamsAt(48000.0));
+    const auto decimated = fitYuleWalker(spring(67.0, 4.0), 32, fitParamsAt(4000.0));
     REQUIRE(low.ok());
     REQUIRE(decimated.ok());
     CHECK(low->rms > 5.0 * decimated->rms);
@@ -112,7 +106,7 @@ TEST_CASE("Levinson's predictor of an autoregressive process is its own polynomi
     for (std::size_t lag = 0; lag < r.size(); ++lag)
         for (std::size_t n = lag; n < h.size(); ++n)
             r[lag] += h[n] * h[n - lag];
-    const auto found = detail::levinson(r, 6);
+    const auto found = cli::detail::levinson(r, 6);
     REQUIRE(found.size() == 7);
     for (std::size_t k = 0; k < found.size(); ++k)
         CHECK(found[k] == Approx(k < wanted.size() ? wanted[k] : 0.0).margin(1e-9));
@@ -124,7 +118,7 @@ TEST_CASE("A Yule-Walker equaliser keeps the limit of the boost", "[linearize]")
         for (const int order : {4, 16, 64})
         {
             CAPTURE(most, order);
-            EqualizerFitParams params = at(8000.0);
+            EqualizerFitParams params = fitParamsAt(8000.0);
             params.maxBoost = most;
             const auto fit = fitYuleWalker(spring(90.0, 8.0), order, params);
             REQUIRE(fit.ok());

@@ -1,14 +1,16 @@
+#include "cli/bench/BodyIntegration.h"
+
 #include "actuator/BodyReference.h"
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
 
-#include <pacini/actuator/BodyFilter.h>
-#include <pacini/actuator/BodyIntegration.h>
+#include <pacini/actuator/BodyModel.h>
 
 #include <array>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace

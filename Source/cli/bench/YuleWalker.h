@@ -2,8 +2,9 @@
 
 // IIR equalizer design by the modified Yule-Walker equations: a recursive filter of any order, found without iteration.
 
+#include "cli/bench/EqualizerTarget.h"
+
 #include <pacini/linearize/EqualizerSearch.h>
-#include <pacini/linearize/EqualizerTarget.h>
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -14,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// Recursive filter numerator[0] + numerator[1] z^-1 + ... over 1 + denominator[1] z^-1 + ..., both with all roots
@@ -158,15 +159,10 @@ namespace detail
     for (double& b : fit.numerator)
         b *= Decibels(fit.boost - highest).gain();
 
-    std::vector<double> curve;
-    for (std::size_t i = 0; i < problem->points(); ++i)
-        curve.push_back(polynomialLevel(fit.numerator, problem->frequency[i], problem->fs) -
-                        polynomialLevel(fit.denominator, problem->frequency[i], problem->fs));
-    const Flatness flatness = flatnessOf(*problem, curve, problem->given);
-    fit.rms = flatness.rms;
-    fit.max = flatness.max;
-    fit.level = flatness.level;
+    setFlatness(fit, *problem,
+                [&fit, fs = problem->fs](double f)
+                { return polynomialLevel(fit.numerator, f, fs) - polynomialLevel(fit.denominator, f, fs); });
     return fit;
 }
 
-} // namespace pacini
+} // namespace pacini::cli

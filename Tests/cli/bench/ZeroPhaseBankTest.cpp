@@ -1,14 +1,15 @@
+#include "cli/bench/ZeroPhaseBank.h"
+
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
 
-#include <pacini/filters/ZeroPhaseBank.h>
-
 #include <algorithm>
 #include <cfenv>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace
@@ -22,6 +23,22 @@ ZeroPhaseBankParams withBands(std::size_t n, ZeroPhaseMethod method)
     params.layout.bands = n;
     params.method = method;
     return params;
+}
+
+// The gain of band k at f of the forward-backward tree at the sample rate fs (Hz): at crossover j the squared
+// magnitude of a second-order Butterworth low-pass, and what that leaves. Sums to 1.
+double forwardBackwardWeight(const BandLayout& layout, std::size_t k, Hertz f, double fs) noexcept
+{
+    double rest = 1.0;
+    for (std::size_t j = 0; j < layout.crossovers.size() && j <= k; ++j)
+    {
+        const double ratio = std::tan(std::numbers::pi * f.value / fs) /
+                             std::tan(std::numbers::pi * clampedFrequency(layout.crossovers[j], fs) / fs);
+        const double fourth = ratio * ratio * ratio * ratio;
+        const double low = std::isinf(fourth) ? 0.0 : 1.0 / (1.0 + fourth);
+        rest *= j == k ? low : 1.0 - low;
+    }
+    return rest;
 }
 
 double weight(const BandLayout& layout, ZeroPhaseMethod method, std::size_t k, double f, double fs)

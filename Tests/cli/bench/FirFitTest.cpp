@@ -1,13 +1,14 @@
-#include "EqualizerReference.h"
+#include "cli/bench/FirFit.h"
+
+#include "linearize/EqualizerReference.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
-
-#include <pacini/linearize/FirFit.h>
 
 #include <limits>
 #include <span>
 
 using namespace pacini;
+using namespace pacini::cli;
 using namespace pacini::test;
 
 namespace
@@ -42,13 +43,6 @@ FirFit fitOf(const FrequencyResponse& response, int taps, const EqualizerFitPara
     REQUIRE(fit.ok());
     return *fit;
 }
-
-EqualizerFitParams at(double fs)
-{
-    EqualizerFitParams params;
-    params.sampleRate = fs;
-    return params;
-}
 } // namespace
 
 TEST_CASE("A FIR equaliser comes nearer to flat the longer it is", "[linearize]")
@@ -58,7 +52,7 @@ TEST_CASE("A FIR equaliser comes nearer to flat the longer it is", "[linearize]"
     for (const int taps : {64, 128, 256, 512, 1024})
     {
         CAPTURE(taps);
-        const FirFit fit = fitOf(response, taps, at(4000.0));
+        const FirFit fit = fitOf(response, taps, fitParamsAt(4000.0));
         const Deviation deviation = deviationWith(response, fit, 4000.0);
         CHECK(deviation.rms < before);
         CHECK(fit.rms == Approx(deviation.rms).margin(1e-6));
@@ -71,7 +65,7 @@ TEST_CASE("A FIR equaliser comes nearer to flat the longer it is", "[linearize]"
 
 TEST_CASE("A linear-phase equaliser is symmetric and delays by half its length", "[linearize]")
 {
-    const FirFit fit = fitOf(coil(), 512, at(8000.0));
+    const FirFit fit = fitOf(coil(), 512, fitParamsAt(8000.0));
     REQUIRE(fit.taps.size() == 511); // odd
     for (std::size_t n = 0; n < fit.taps.size(); ++n)
         CHECK(fit.taps[n] == fit.taps[fit.taps.size() - 1 - n]);
@@ -81,7 +75,7 @@ TEST_CASE("A linear-phase equaliser is symmetric and delays by half its length",
 TEST_CASE("A minimum-phase equaliser has its energy at its start and the same magnitude", "[linearize]")
 {
     const FrequencyResponse response = coil();
-    const FirFit fit = fitOf(response, 2048, at(4000.0), FirPhase::minimum);
+    const FirFit fit = fitOf(response, 2048, fitParamsAt(4000.0), FirPhase::minimum);
     CHECK(fit.latency == 0.0);
     CHECK(deviationWith(response, fit, 4000.0).rms <= 0.1);
     double whole = 0.0, start = 0.0;
@@ -98,11 +92,11 @@ TEST_CASE("The least-squares taps cannot be improved by changing one of them", "
 {
     // The weighted sum of squares that is said to be least, by its definition.
     const double fs = 4000.0;
-    const auto problem = makeEqualizerFitProblem(coil(), at(fs));
+    const auto problem = makeEqualizerFitProblem(coil(), fitParamsAt(fs));
     REQUIRE(problem.ok());
     const std::size_t size = 4096;
     const std::vector<double> amplitude = amplitudesOf(EqualizerTarget(*problem), size, fs);
-    const std::vector<double> taps = detail::symmetricTaps(*problem, amplitude, 20);
+    const std::vector<double> taps = cli::detail::symmetricTaps(*problem, amplitude, 20);
     const auto costOf = [&](const std::vector<double>& half)
     {
         double sum = 0.0;
@@ -136,7 +130,7 @@ TEST_CASE("A FIR equaliser keeps the limit of the boost at every frequency", "[l
             for (const FirPhase phase : {FirPhase::linear, FirPhase::minimum})
             {
                 CAPTURE(most, taps);
-                EqualizerFitParams params = at(8000.0);
+                EqualizerFitParams params = fitParamsAt(8000.0);
                 params.maxBoost = most;
                 const FirFit fit = fitOf(coil(1.0), taps, params, phase);
                 for (const double f : logFrequencies(500, 5.0, 3999.0))

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <span>
 
-namespace pacini
+namespace pacini::cli
 {
 
 /// Method of numerical integration.
@@ -234,4 +234,4 @@ private:
     double previous = 0.0;
 };
 
-} // namespace pacini
+} // namespace pacini::cli
