@@ -36,10 +36,10 @@ double deviation(const nlohmann::json& data, const nlohmann::json& entry, const 
     return worst;
 }
 
-EnvelopeFollowerParams paramsOf(const nlohmann::json& entry)
+EnvelopeFollowerParams paramsOf(const nlohmann::json& entry, RisingSlope slope)
 {
     return {milliseconds(entry["attack_ms"]), milliseconds(entry["hold_ms"]), milliseconds(entry["release_ms"]),
-            decayOf(entry)};
+            decayOf(entry), slope};
 }
 
 } // namespace
@@ -75,14 +75,35 @@ TEST_CASE("Half a frame rounds up although milliseconds are not exact in binary"
     CHECK(roundedFrames(Seconds(std::numeric_limits<double>::infinity()), 48000.0) == std::size_t{1} << 53);
 }
 
-TEST_CASE("The envelope follower equals the reference", "[analysis][golden]")
+TEST_CASE("The envelope follower equals the reference in every reading", "[analysis][golden]")
 {
     const auto data = golden("envelope");
     const double tolerance = data["tol"];
     for (const auto& entry : data["cases"])
-        CHECK(deviation(data, entry, paramsOf(entry)) <= tolerance);
+        CHECK(deviation(data, entry, paramsOf(entry, RisingSlope::level)) <= tolerance);
     for (const auto& entry : data["plateau"])
-        CHECK(deviation(data, entry, paramsOf(entry)) <= tolerance);
+        CHECK(deviation(data, entry, paramsOf(entry, RisingSlope::level)) <= tolerance);
+    for (const auto& entry : data["alt_strict"])
+        CHECK(deviation(data, entry, paramsOf(entry, RisingSlope::strict)) <= tolerance);
+    for (const auto& entry : data["alt_dx"])
+        CHECK(deviation(data, entry, paramsOf(entry, RisingSlope::derivative)) <= tolerance);
+    for (const auto& entry : data["adaptive"])
+    {
+        EnvelopeFollowerParams params{milliseconds(entry["attack_max_ms"]), milliseconds(entry["hold_ms"]),
+                                      milliseconds(entry["release_max_ms"]), decayOf(entry)};
+        params.crestAdaptive = true;
+        params.crestMemory = milliseconds(entry["forget_ms"]);
+        CHECK(deviation(data, entry, params) <= tolerance);
+    }
+}
+
+TEST_CASE("The readings of the rising slope differ where they should", "[analysis]")
+{
+    const auto data = golden("envelope");
+    const auto& strict = data["alt_strict"][0];
+    CHECK(deviation(data, strict, paramsOf(strict, RisingSlope::level)) > 0.01);
+    const auto& derivative = data["alt_dx"][1];
+    CHECK(deviation(data, derivative, paramsOf(derivative, RisingSlope::level)) > 0.01);
 }
 
 TEST_CASE("The envelope of a step rises 99 or 63 % in the attack, holds, and falls as much in the release",
@@ -115,19 +136,53 @@ TEST_CASE("The envelope of a step rises 99 or 63 % in the attack, holds, and fal
         }
 }
 
+TEST_CASE("Crest-adaptive times are the longest ones for a steady sine and shorter for clicks", "[analysis]")
+{
+    const double fs = 8000.0;
+    EnvelopeFollowerParams params{80_ms, 0_s, 1_s, DecayDefinition::percent63};
+    params.crestAdaptive = true;
+    const auto halfLife = [&](const std::vector<float>& sound)
+    {
+        EnvelopeFollower follower;
+        follower.setParams(params);
+        follower.prepare({fs, sound.size()});
+        std::vector<float> y(sound.size());
+        follower.process(sound, y);
+        const float end = y.back();
+        std::size_t frames = 0;
+        while (follower.tick(0.0) > 0.5 * static_cast<double>(end))
+            ++frames;
+        return static_cast<double>(frames) / fs;
+    };
+    std::vector<float> clicks(16000, 0.0f);
+    for (std::size_t i = 0; i < clicks.size(); i += 400)
+        clicks[i] = 1.0f;
+    const double steady = halfLife(sine(16000, 200.0, fs));
+    CHECK(steady < 1.0);
+    CHECK(halfLife(clicks) < 0.5 * steady);
+}
+
 TEST_CASE("EnvelopeFollower keeps the contract of blocks", "[analysis][contract]")
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double inf = std::numeric_limits<double>::infinity();
+    EnvelopeFollowerParams adaptive{80_ms, 0_s, 1_s, DecayDefinition::percent99};
+    adaptive.crestAdaptive = true;
     const EnvelopeFollowerParams instant{0_s, 0_s, 0_s};
     const EnvelopeFollowerParams bad{Seconds(nan), Seconds(nan), Seconds(nan)};
-    const EnvelopeFollowerParams endless{Seconds(inf), Seconds(inf), Seconds(inf)};
+    EnvelopeFollowerParams endless{Seconds(inf), Seconds(inf), Seconds(inf)};
     checkBlockContract<EnvelopeFollower>({}, {.bound = 1.0, .delay = MeasuredDelay::firstFrame});
-    checkBlockContract<EnvelopeFollower>({1_ms, 0_s, 10_ms, DecayDefinition::percent63}, {.bound = 1.0});
+    checkBlockContract<EnvelopeFollower>({1_ms, 0_s, 10_ms, DecayDefinition::percent63, RisingSlope::derivative},
+                                         {.bound = 1.0});
+    checkBlockContract<EnvelopeFollower>(adaptive, {.bound = 1.0});
     checkBlockContract<EnvelopeFollower>(instant, {.bound = 1.0, .delay = MeasuredDelay::firstFrame});
     checkBlockContract<EnvelopeFollower>(bad, {.bound = 1.0});
     checkBlockContract<EnvelopeFollower>(endless, {.bound = 1.0});
-    checkModulation<EnvelopeFollower>({instant, bad, endless, {}}, 1.0);
+    checkModulation<EnvelopeFollower>({adaptive, instant, bad, endless, {}}, 1.0);
+    endless.crestAdaptive = true;
+    endless.crestMemory = Seconds(nan);
+    checkBlockContract<EnvelopeFollower>(endless, {.bound = 1.0});
     checkSilenceIsCheap<EnvelopeFollower>({});
     checkSilenceIsCheap<EnvelopeFollower>({}, 480000);
+    checkSilenceIsCheap<EnvelopeFollower>(adaptive);
 }
