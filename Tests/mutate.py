@@ -164,7 +164,7 @@ class Tests:
         if not names:
             return False
         listed = WORK / f"tests-{number}.txt"
-        listed.write_text("\n".join(names) + "\n")
+        listed.write_text("".join(re.sub(r'([\\,\[\]"~])', r"\\\1", name) + "\n" for name in names))
         timeout = 20 + 10 * sum(self.seconds[name] for name in names)
         caught = self.run(["--input-file", listed, "--abort", "--warn", "NoTests"], {"PACINI_MUTANT": str(number)}, timeout)
         listed.unlink()
