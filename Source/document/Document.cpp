@@ -19,6 +19,21 @@ namespace pacini
 
 namespace fs = std::filesystem;
 
+namespace
+{
+/// Puts `item` in the place of the clip with its id; false where there is none.
+bool replaceClip(Project& project, ClipItem item)
+{
+    for (auto& place : project.clips)
+        if (place->id == item.id)
+        {
+            place = std::make_shared<const ClipItem>(std::move(item));
+            return true;
+        }
+    return false;
+}
+} // namespace
+
 Document::Document(Project project, fs::path path, bool saved)
     : content(std::move(project)), file(std::move(path)), history(content), savedState(saved ? history.id() : 0)
 {
@@ -214,14 +229,11 @@ Result<int> Document::addSound(std::string name, AudioReference sound, const Enc
 Result<void> Document::replaceItem(ClipItem item, std::string name)
 {
     Project next = content;
-    for (auto& place : next.clips)
-        if (place->id == item.id)
-        {
-            place = std::make_shared<const ClipItem>(std::move(item));
-            commit(std::move(name), std::move(next));
-            return {};
-        }
-    return noSuchClip(item.id);
+    const int id = item.id;
+    if (!replaceClip(next, std::move(item)))
+        return noSuchClip(id);
+    commit(std::move(name), std::move(next));
+    return {};
 }
 
 Result<int> Document::duplicateClip(int id, std::string name)
@@ -359,9 +371,7 @@ Result<void> Document::change(int id, std::string name, std::vector<Edit> edits,
     item.edits = withEdits(item.edits, std::move(edits));
     item.clip = std::make_shared<const Clip>(std::move(edited));
     Project next = start;
-    for (auto& place : next.clips)
-        if (place->id == id)
-            place = std::make_shared<const ClipItem>(std::move(item));
+    replaceClip(next, std::move(item));
     commit(std::move(name), std::move(next), gesture);
     return {};
 }
@@ -413,9 +423,7 @@ Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& 
         item.source = placeSound(next, std::move(*sound));
     putReapplied(item, reapply(*old->analysis, analysis, listOf(old->edits)));
     item.analysis = std::make_shared<const Clip>(std::move(analysis));
-    for (auto& place : next.clips)
-        if (place == old)
-            place = std::make_shared<const ClipItem>(std::move(item));
+    replaceClip(next, std::move(item));
     commit(std::move(name), std::move(next));
     return {};
 }

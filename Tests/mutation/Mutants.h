@@ -1,8 +1,8 @@
 #pragma once
 
-// What a changed program is made of: every change that mutate.py draws stands in the source beside what was there before,
-// and the environment variable PACINI_MUTANT says which one is on. One build serves all of them (mutant schemata: Untch,
-// Offutt and Harrold 1993). Included before all else, in the changed copy of the sources alone.
+// What a changed program is made of: every change that mutate.py draws stands in the source beside what was there
+// before, and the environment variable PACINI_MUTANT says which one is on. One build serves all of them (mutant
+// schemata: Untch, Offutt and Harrold 1993). Included before all else, in the changed copy of the sources alone.
 
 #include <algorithm>
 #include <atomic>
@@ -81,8 +81,8 @@ inline constexpr Extreme<N, MinIsMeant> extreme{};
 template <int N>
 inline constexpr Clamp<N> clamp{};
 
-// `a + b` becomes `a + plus<N> + b`, which groups as before: the operator and a stand-in on its left make a pair, the pair
-// and the operator the result, of this operator or of the other one.
+// `a + b` becomes `a + plus<N> + b`, which groups as before: the operator and a stand-in on its left make a pair, the
+// pair and the operator the result, of this operator or of the other one.
 #define PACINI_MUTATED_OPERATOR(name, was, changed)                                                                    \
     template <int N>                                                                                                   \
     struct name##_t                                                                                                    \
