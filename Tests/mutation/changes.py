@@ -9,9 +9,9 @@ TOKEN = re.compile(r"""
   | (?P<word>[A-Za-z_]\w*)
   | (?P<operator>->|::|\+\+|--|<<=?|<=>|<=|>=|==|!=|&&|\|\||[-+*/%&|^]=|.)
 """, re.X | re.S | re.M)
-# Lines whose text the compiler needs as it is.
+# Lines whose text the compiler needs as it is, and those that change nothing but time or what a wrong program does.
 FIXED = re.compile(r"\b(template|static_assert|using|typedef|requires|concept|operator|case|enum|noexcept\(|alignas|extern)\b"
-                   r"|constexpr.*\(.*\)\s*(const)?\s*(noexcept)?\s*[{;]?\s*$|if constexpr")
+                   r"|^\s*assert\(|\.reserve\(|constexpr.*\(.*\)\s*(const)?\s*(noexcept)?\s*[{;]?\s*$|if constexpr")
 BINARY = {"+": ("plus", "-"), "-": ("minus", "+"), "*": ("times", "/"), "/": ("over", "*"), "<": ("less", "<="),
           "<=": ("lessOrEqual", "<"), ">": ("greater", ">="), ">=": ("greaterOrEqual", ">"), "==": ("equal", "!="),
           "!=": ("unequal", "==")}
@@ -141,7 +141,7 @@ def changes_of(path, text):
     for number, line in enumerate(lines):
         statement = STATEMENT.match(line)
         previous = lines[number - 1].split("//")[0].rstrip() if number else ""
-        if statement and line.count("(") == line.count(")") and previous.endswith((";", "{", "}", ")", "else")):
+        if statement and not FIXED.search(line) and line.count("(") == line.count(")") and previous.endswith((";", "{", "}", ")", "else")):
             start = starts[number] + statement.start(1)
             found.append(Change(path, number + 1, line.strip(), "without this statement",
                                 [(start, start, "{ if (!mutants::on<N>()) "),
