@@ -92,3 +92,59 @@ TEST_CASE("Amplitudes and parameters that make no sense do no harm", "[actuator]
             CHECK(std::isfinite(map(1e-300)));
         }
 }
+
+TEST_CASE("Ranges and peaks beyond what the curve takes count as the ends of what it takes", "[actuator]")
+{
+    // Halfway down a clip's range, in dB, is halfway down from its peak to the threshold.
+    const auto middle = [](double actuatorRange, double clipRange, double peakLevel)
+    {
+        const DynamicRangeMap map({Decibels(actuatorRange), Decibels(clipRange), amplitude(peakLevel)});
+        return level(map(amplitude(peakLevel - 0.5 * clipRange)));
+    };
+    CHECK(middle(20.0, 200.0, 120.0) == Approx(50.0));
+    CHECK(middle(199.0, 199.9, -120.0) == Approx(-159.5));
+    CHECK(middle(1.0, 100.0, 0.0) == Approx(-0.5));
+    CHECK(middle(0.999 * 200.0, 200.0, 0.0) == Approx(-99.9));
+
+    const auto same = [](const DynamicRangeParams& beyond, const DynamicRangeParams& end)
+    {
+        const DynamicRangeMap a(beyond), b(end);
+        for (double l = -400.0; l < 200.0; l += 0.37)
+            if (a(amplitude(l)) != b(amplitude(l)))
+                return false;
+        return true;
+    };
+    CHECK(same({20_dB, 200_dB, 1e9}, {20_dB, 200_dB, 1e6}));
+    CHECK(same({200_dB, 200_dB, 1e-9}, {200_dB, 200_dB, 1e-6}));
+    CHECK(same({0.1_dB, 60_dB, 1.0}, {1_dB, 60_dB, 1.0}));
+    CHECK(same({500_dB, 200_dB, 1e-3}, {200_dB, 200_dB, 1e-3}));
+    CHECK(same({20_dB, 500_dB, 1.0}, {20_dB, 200_dB, 1.0}));
+    CHECK(same({0.6_dB, 0.1_dB, 0.9}, {1_dB, 1_dB, 0.9}));
+}
+
+TEST_CASE("Below its floor a clip fades as smoothly as it began", "[actuator]")
+{
+    // A rise of half a period: what it lacks at one end it has at the other, and its ends are level.
+    const DynamicRangeMap map({20_dB, 60_dB, 1.0});
+    const double floor = amplitude(-60.0), threshold = amplitude(-20.0);
+    for (const double d : {0.05, 0.1, 0.2, 0.25})
+        CHECK(map((0.5 + d) * floor) + map((1.0 - d) * floor) == Approx(threshold));
+    CHECK(map(0.505 * floor) < 0.001 * threshold);
+    CHECK(map(0.505 * floor) > 0.0);
+    CHECK(map(0.499 * floor) == 0.0);
+}
+
+TEST_CASE("By default every amplitude stays, and any narrower actuator or wider clip is compressed", "[actuator]")
+{
+    CHECK(DynamicRangeMap().isIdentity());
+    CHECK(DynamicRangeMap()(0.25) == 0.25);
+    CHECK(DynamicRangeMap(DynamicRangeParams{}).isIdentity());
+    DynamicRangeParams params;
+    params.actuatorRange = 59.9_dB;
+    CHECK_FALSE(DynamicRangeMap(params).isIdentity());
+    params.clipPeak = 1.1;
+    CHECK(DynamicRangeMap(params).isIdentity());
+    params.clipPeak = 0.9;
+    params.actuatorRange = 60_dB;
+    CHECK_FALSE(DynamicRangeMap(params).isIdentity());
+}

@@ -193,3 +193,56 @@ TEST_CASE("Overdrive and braking make a motor at least twice as quick", "[actuat
     for (const float v : driven(unbraked, wanted, motorRate))
         REQUIRE(v >= 0.0f);
 }
+
+TEST_CASE("The inverse of a first-order lag starts at rest and is where it shall be with the next sample", "[actuator]")
+{
+    FirstOrderInverse inverse;
+    CHECK(inverse.value() == 0.0);
+    CHECK(inverse.tick(0.3, -1.0, 1.0) == 0.3); // without times there is nothing to undo
+    inverse.reset();
+    CHECK(inverse.value() == 0.0);
+    inverse.design({0.010, 0.005}, 1000.0);
+    // Ten frames of a lag of 10 ms make 1 - 1/e of a step that is held; here one frame shall make it all.
+    double speed = 0.0;
+    for (const double wanted : {0.05, 0.05, 0.08, 0.02, 0.0})
+    {
+        const double time = wanted > speed ? 0.010 : 0.005;
+        const double drive = inverse.tick(wanted, -1.0, 1.0);
+        speed = drive + (speed - drive) * std::exp(-0.001 / time);
+        CHECK(speed == Approx(wanted).margin(1e-12));
+        CHECK(inverse.value() == Approx(wanted).margin(1e-12));
+    }
+    for (int n = 0; n < 10; ++n)
+        CHECK(inverse.tick(0.9, -0.5, 0.5) == 0.5);
+    CHECK(inverse.value() == Approx(0.5 * (1.0 - std::exp(-1.0))));
+}
+
+TEST_CASE("Lags of a fraction of a frame and of minutes are undone", "[actuator]")
+{
+    for (const double time : {1e-4, 4e-4, 2.0, 900.0})
+    {
+        CAPTURE(time);
+        FirstOrderInverse inverse;
+        inverse.design({time, time}, 1000.0);
+        double state = 0.0;
+        for (const double wanted : {1.0, 0.25})
+        {
+            const double drive = inverse.tick(wanted, -1e9, 1e9);
+            state = drive + (state - drive) * std::exp(-0.001 / time);
+            CHECK(state == Approx(wanted).epsilon(1e-6));
+        }
+    }
+    // A thousand seconds is the slowest there is.
+    FirstOrderInverse slow, slowest;
+    slow.design({5e3, 5e3}, 1000.0);
+    slowest.design({1e3, 1e3}, 1000.0);
+    CHECK(slow.tick(0.5, -1e9, 1e9) == slowest.tick(0.5, -1e9, 1e9));
+    CHECK(FirstOrderInverse().tick(-0.5, -1.0, 1.0) == -0.5);
+    // And no time is none.
+    FirstOrderInverse quick;
+    quick.design({0.0, 0.0}, 1000.0);
+    CHECK(quick.tick(0.5, -1.0, 1.0) == 0.5);
+    CHECK(quick.value() == 0.5);
+    CHECK(quick.tick(0.1, -1.0, 1.0) == 0.1);
+    CHECK(quick.value() == Approx(0.1));
+}

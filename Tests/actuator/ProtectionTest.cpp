@@ -4,6 +4,7 @@
 #include "support/Catch.h"
 #include "support/Measure.h"
 
+#include <pacini/actuator/ExcursionGuard.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Random.h>
 
@@ -682,5 +683,210 @@ TEST_CASE("The held step is exact for any damping and rate", "[actuator][protect
             CHECK(step.vx == Approx(vx).epsilon(1e-9));
             CHECK(step.driveToX == Approx(-xx).epsilon(1e-9));
             CHECK(step.driveToV == Approx(-vx).epsilon(1e-9));
+        }
+}
+
+TEST_CASE("Parameters of the excursion limiter beyond their ranges count as the ends", "[actuator][protection]")
+{
+    const double fs = 48000.0;
+    const auto measures = [&](const ExcursionParams& params)
+    {
+        ExcursionGuard guard;
+        guard.design(params, fs);
+        Random random(5);
+        std::vector<double> numbers;
+        for (int n = 0; n < 400; ++n)
+        {
+            const double drive = n < 100 ? 1.0 : random.uniform(-1.0, 1.0);
+            numbers.push_back(guard.measure(drive));
+            numbers.push_back(guard.admit(drive));
+            guard.advance(numbers.back());
+        }
+        return numbers;
+    };
+    struct Range
+    {
+        double low, high;
+        std::function<void(ExcursionParams&, double)> set;
+    };
+    const Range ranges[] = {
+        {1.0, 20000.0,
+         [](ExcursionParams& p, double v)
+         {
+             p.frequency = Hertz(v);
+         }},
+        {0.01, 1000.0,
+         [](ExcursionParams& p, double v)
+         {
+             p.q = v;
+         }},
+        {1e-9, 10.0,
+         [](ExcursionParams& p, double v)
+         {
+             p.excursion = v;
+         }},
+        {1e-7, 0.1,
+         [](ExcursionParams& p, double v)
+         {
+             p.maxExcursion = v;
+         }},
+    };
+    for (const Range& range : ranges)
+    {
+        CAPTURE(range.low);
+        ExcursionParams params{Hertz(100.0), 2.0, 1e-3, 1e-3, {}};
+        const auto same = [&](double a, double b)
+        {
+            range.set(params, a);
+            const auto numbers = measures(params);
+            range.set(params, b);
+            return numbers == measures(params);
+        };
+        CHECK(same(0.3 * range.low, range.low));
+        CHECK(same(3.0 * range.high, range.high));
+        CHECK_FALSE(same(1.01 * range.low, range.low));
+        CHECK_FALSE(same(0.99 * range.high, range.high));
+    }
+    // A mass that hardly moves while the base is held still, so that only the worn one counts.
+    const auto worn = wornChain(onWristband(actuators().front().profile));
+    const auto wornMeasures = [&](double travel, double force)
+    {
+        ExcursionParams params{Hertz(100.0), 2.0, 1e-9, travel, worn};
+        params.worn->force *= force;
+        return measures(params);
+    };
+    CHECK((wornMeasures(1e-8, 1e-3) == wornMeasures(1e-7, 1e-3)));
+    CHECK((wornMeasures(1.01e-7, 1e-3) != wornMeasures(1e-7, 1e-3)));
+    CHECK((wornMeasures(1.0, 1000.0) == wornMeasures(0.1, 1000.0)));
+    CHECK((wornMeasures(0.099, 1000.0) != wornMeasures(0.1, 1000.0)));
+}
+
+TEST_CASE("An excursion limiter that nobody designed is that of the default parameters", "[actuator][protection]")
+{
+    ExcursionGuard fresh, designed;
+    designed.design({}, ProcessSpec{}.sampleRate);
+    for (int n = 0; n < 100; ++n)
+    {
+        REQUIRE(fresh.measure(0.5) == designed.measure(0.5));
+        REQUIRE(fresh.admit(0.5) == designed.admit(0.5));
+        fresh.advance(0.5);
+        designed.advance(0.5);
+    }
+}
+
+TEST_CASE("The excursion limiter admits all that it could, and its room between points is that of a turn",
+          "[actuator][protection]")
+{
+    for (const ExcursionParams& params :
+         {ExcursionParams{Hertz(100.0), 2.0, 3e-3, 1e-3, {}}, ExcursionParams{Hertz(90.0), 0.2, 5e-3, 1e-3, {}},
+          ExcursionParams{Hertz(700.0), 20.0, 1e-3, 1e-3, {}}, ExcursionParams{Hertz(3000.0), 5.0, 1.0, 1e-3, {}},
+          ExcursionParams{Hertz(15000.0), 5.0, 1.0, 1e-3, {}}})
+    {
+        const double frequency = params.frequency.value, fs = 8000.0;
+        CAPTURE(frequency);
+        ExcursionGuard guard;
+        guard.design(params, fs);
+        const auto& c = guard.coefficients();
+        const auto points = static_cast<double>(c.steps.size());
+        const double turn = 2.0 * std::numbers::pi * frequency / fs;
+        CHECK((turn <= 0.05 * points || points == 64.0));
+        CHECK((points == 1.0 || turn > 0.05 * (points - 1.0)));
+        CHECK(c.groupReach == Approx(4.0 * turn * params.excursion));
+        const double d = turn / points;
+        const double radius = std::sqrt(c.energyLimit);
+        const double rest = c.driveLimit * params.excursion;
+        CHECK(radius == Approx(params.maxExcursion - 0.5 * d * d * (params.maxExcursion + rest)).epsilon(1e-7));
+        CHECK(radius < params.maxExcursion);
+        if (c.driveLimit < 1.0)
+            CHECK(radius == Approx(0.95 * params.maxExcursion).epsilon(1e-6));
+        else
+            CHECK(radius >= 0.95 * params.maxExcursion * (1.0 - 1e-6));
+
+        Random random(3);
+        ResonatorState state;
+        bool held = false;
+        for (int n = 0; n < 600; ++n)
+        {
+            const double wanted = random.uniform(-1.0, 1.0) > 0.98 * std::cos(turn * n) ? 1.0 : -1.0;
+            const auto highest = [&](double drive)
+            {
+                double energy = 0.0;
+                for (const HeldStep& step : c.steps)
+                    energy = std::max(energy, step.next(state, drive).energy());
+                return energy;
+            };
+            // The end of what is admissible, by halving.
+            double low = 0.0, high = wanted * c.driveLimit;
+            for (int i = 0; i < 60; ++i)
+                (highest(0.5 * (low + high)) <= c.energyLimit ? low : high) = 0.5 * (low + high);
+            const double admitted = guard.admit(wanted);
+            REQUIRE(admitted == Approx(low).margin(1e-6));
+            held |= std::abs(admitted) < 0.99 * c.driveLimit;
+            guard.advance(admitted);
+            state = c.steps.back().next(state, admitted);
+        }
+        CHECK(held);
+    }
+}
+
+TEST_CASE("Where the excursion limiter goes ahead freely it would have admitted every frame", "[actuator][protection]")
+{
+    const auto body = wornChain(onWristband(actuators().front().profile));
+    for (const bool worn : {false, true})
+        for (const double excursion : {1e-7, 1.5e-3, 0.01})
+        {
+            CAPTURE(worn, excursion);
+            const double fs = 8000.0;
+            ExcursionParams params{Hertz(67.0), 3.97, excursion, 1.5e-3, {}};
+            if (worn)
+                params.worn = body;
+            ExcursionGuard guard;
+            guard.design(params, fs);
+            Random random(11);
+            int freely = 0;
+            for (int block = 0; block < 400; ++block)
+            {
+                std::vector<double> wanted(16), played(16);
+                const double level = std::pow(10.0, random.uniform(-4.0, 0.0));
+                double wantedPeak = 0.0, playedPeak = 0.0;
+                for (std::size_t n = 0; n < wanted.size(); ++n)
+                {
+                    const double swing = std::sin(2.0 * std::numbers::pi * 67.0 / fs * (16.0 * block + double(n)));
+                    wanted[n] = level * swing;
+                    played[n] = (block % 3 == 0 ? 0.5 : 1.0) * wanted[n];
+                    wantedPeak = std::max(wantedPeak, std::abs(wanted[n]));
+                    playedPeak = std::max(playedPeak, std::abs(played[n]));
+                }
+                const double most = block % 2 == 0 ? 1.0 : 0.25;
+                ExcursionGuard single = guard;
+                const ExcursionGuard before = guard;
+                double highest = 0.0;
+                bool admitted = true;
+                for (std::size_t n = 0; n < wanted.size(); ++n)
+                {
+                    highest = std::max(highest, single.measure(wanted[n]));
+                    const double drive = single.admit(played[n]);
+                    admitted = admitted && drive == played[n];
+                    single.advance(drive);
+                }
+                if (guard.advanceFreely(wanted, wantedPeak, played, playedPeak, most))
+                {
+                    ++freely;
+                    REQUIRE(highest <= most);
+                    REQUIRE(admitted);
+                }
+                else
+                {
+                    // Nothing happened.
+                    REQUIRE(guard.admit(1.0) == before.admit(1.0));
+                    REQUIRE(ExcursionGuard(guard).measure(0.0) == ExcursionGuard(before).measure(0.0));
+                    guard = single;
+                }
+                REQUIRE(guard.admit(1.0) == single.admit(1.0));
+                REQUIRE(guard.admit(-1.0) == single.admit(-1.0));
+                REQUIRE(ExcursionGuard(guard).measure(0.0) == ExcursionGuard(single).measure(0.0));
+            }
+            CHECK(freely > 10);
+            CHECK((freely < 400 || excursion < 1e-6));
         }
 }

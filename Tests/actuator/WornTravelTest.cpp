@@ -9,6 +9,7 @@
 
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
+#include <pacini/actuator/WornGuard.h>
 #include <pacini/foundation/Random.h>
 
 #include <algorithm>
@@ -252,4 +253,72 @@ TEST_CASE("Of two numbers for the force of a worn actuator the larger counts", "
     profile.technology = Technology::vca;
     profile.body.reset();
     CHECK_FALSE(excursionParams(profile)->worn.has_value());
+}
+
+TEST_CASE("The limit of the worn mass is below its travel by 5 % at most, however strong the force",
+          "[actuator][protection]")
+{
+    int bounded = 0;
+    for (auto& [name, profile] : shippedWithTravel())
+        for (const double strength : {0.01, 1.0, 10.0, 100.0, 1000.0})
+            for (const double fs : {8000.0, 48000.0})
+            {
+                CAPTURE(name, strength, fs);
+                auto chain = *wornChain(profile);
+                chain.force *= strength;
+                const double travel = *profile.drive.maxExcursion;
+                const auto guard = designWornGuard(chain, travel, fs);
+                CHECK(guard.limit < travel);
+                // 5 % between the points, 0.25 % of the worst for modes that are not followed
+                CHECK(guard.limit >= 0.949 * (travel - 0.0025 * worstTravel(chain)));
+                CHECK(guard.driveLimit <= 1.0);
+                bounded += guard.driveLimit < 1.0 ? 1 : 0;
+            }
+    CHECK(bounded > 0);
+}
+
+TEST_CASE("The worn mass has room between the points for what a chord and its curve may miss", "[actuator][protection]")
+{
+    for (auto& [name, profile] : shippedWithTravel())
+        for (const double strength : {0.01, 1.0, 30.0, 1000.0})
+            for (const double fs : {8000.0, 48000.0, 192000.0})
+            {
+                CAPTURE(name, strength, fs);
+                auto chain = *wornChain(profile);
+                chain.force *= strength;
+                const double travel = *profile.drive.maxExcursion;
+                const auto guard = designWornGuard(chain, travel, fs);
+                double unfollowed = 0.0, w = 0.0, curve = 0.0, push = 0.0, pushedCurve = 0.0;
+                std::size_t followed = 0;
+                for (const TravelMode& mode : travelModes(chain))
+                {
+                    if (unfollowed + mode.worst() <= 0.0025 * worstTravel(chain))
+                    {
+                        unfollowed += mode.worst();
+                        continue;
+                    }
+                    ++followed;
+                    w = std::max(w, mode.w);
+                    curve = std::max(curve, mode.single ? mode.w * mode.w : mode.w * mode.w * (1.0 + 1.0 / mode.q));
+                    push += mode.push();
+                    pushedCurve += mode.w * std::abs(mode.single ? mode.toX : mode.toV);
+                }
+                REQUIRE(guard.groups.size() == followed);
+                const auto points = static_cast<double>(guard.steps.size());
+                CHECK((w <= 0.05 * fs * points || points == 32.0));
+                CHECK((points == 1.0 || w > 0.05 * fs * (points - 1.0)));
+                CHECK(guard.groupReach == Approx(4.0 * push / fs));
+
+                const double h = 1.0 / (fs * points);
+                const double room = std::max(0.0, travel - unfollowed);
+                const auto missed = [&](double drive)
+                {
+                    return std::min(drive * h * push, h * h / 8.0 * (curve * room + drive * pushedCurve));
+                };
+                CHECK(guard.limit == Approx(room - missed(guard.driveLimit)).epsilon(1e-7));
+                if (guard.driveLimit == 1.0)
+                    CHECK(missed(1.0) <= 0.05 * room * (1.0 + 1e-12));
+                else
+                    CHECK(missed(guard.driveLimit) == Approx(0.05 * room));
+            }
 }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 using namespace pacini;
 
@@ -430,4 +432,31 @@ TEST_CASE("Wrong parameters are refused by name", "[analysis][encoder]")
     params.lowFrequency = 500.0;
     params.highFrequency = 100.0;
     CHECK_FALSE(validate(params).ok());
+}
+
+TEST_CASE("The ends of every range of the encoder are allowed and nothing beyond them", "[analysis][encoder]")
+{
+    const auto where = [](auto&& set)
+    {
+        EncoderParams params;
+        set(params);
+        const auto valid = validate(params);
+        return valid.ok() ? std::string() : valid.error().where;
+    };
+    for (const auto& [value, allowed] :
+         {std::pair(1.0, true), std::pair(32.0, true), std::pair(0.0, false), std::pair(33.0, false)})
+        CHECK(where([v = value](EncoderParams& p) { p.bands = static_cast<decltype(p.bands)>(v); }).empty() == allowed);
+    for (const auto& [value, allowed] :
+         {std::pair(4, true), std::pair(16, true), std::pair(3, false), std::pair(17, false)})
+        CHECK(where([v = value](EncoderParams& p) { p.quantise = v; }).empty() == allowed);
+    for (const auto& [value, allowed] :
+         {std::pair(0.5, true), std::pair(1000.0, true), std::pair(0.499, false), std::pair(1000.1, false)})
+        CHECK(where([v = value](EncoderParams& p) { p.breakpoints = v; }).empty() == allowed);
+    for (const auto& [value, allowed] :
+         {std::pair(0.25, true), std::pair(4.0, true), std::pair(0.249, false), std::pair(4.01, false)})
+        CHECK(where([v = value](EncoderParams& p) { p.onsets.sensitivity = v; }).empty() == allowed);
+    CHECK(where([](EncoderParams& p) { p.lowFrequency = 1.0, p.highFrequency = 1800.0; }).empty());
+    CHECK(where([](EncoderParams& p) { p.lowFrequency = 0.99; }) == "frequency range");
+    CHECK(where([](EncoderParams& p) { p.highFrequency = 1800.1; }) == "frequency range");
+    CHECK(where([](EncoderParams& p) { p.lowFrequency = p.highFrequency = 500.0; }) == "frequency range");
 }

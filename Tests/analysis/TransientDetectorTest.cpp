@@ -5,8 +5,11 @@
 
 #include <pacini/analysis/TransientDetector.h>
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -282,4 +285,39 @@ TEST_CASE("The transient detector makes no heap traffic", "[analysis][contract]"
     detector.reset();
     CHECK(guard.traffic() == 0);
     CHECK(count > 30);
+}
+
+TEST_CASE("The relative score is the fast envelope over the slow one, kept finite by a floor within its range",
+          "[analysis]")
+{
+    const auto scores = [](double floor)
+    {
+        TransientScoreParams params;
+        params.reading = TransientScoreReading::relative;
+        params.floor = floor;
+        TransientScore score;
+        score.setParams(params);
+        score.prepare({48000.0, 64});
+        std::vector<double> found;
+        for (int n = 0; n < 64; ++n)
+            found.push_back(score.tick(n < 5 ? 0.0 : 1e-7));
+        return found;
+    };
+    CHECK((scores(0.0) == scores(1e-9)));
+    CHECK((scores(-1.0) == scores(1e-9)));
+    CHECK((scores(1.1e-9) != scores(1e-9)));
+    CHECK((scores(1e12) == scores(1e9)));
+    CHECK((scores(0.9e9) != scores(1e9)));
+    // Where the floor is far above both envelopes the score is their difference in its unit.
+    TransientScoreParams absolute;
+    absolute.reading = TransientScoreReading::absolute;
+    TransientScore score;
+    score.setParams(absolute);
+    score.prepare({48000.0, 64});
+    const auto relative = scores(1.0);
+    for (int n = 0; n < 64; ++n)
+    {
+        const double difference = score.tick(n < 5 ? 0.0 : 1e-7);
+        CHECK(std::abs(relative[static_cast<std::size_t>(n)]) == Approx(difference).epsilon(1e-5).margin(1e-15));
+    }
 }

@@ -3,7 +3,14 @@
 #include "support/Golden.h"
 
 #include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/PowerEnvelope.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -130,4 +137,38 @@ TEST_CASE("Silence is similar to silence only, and nothing is ever not a number"
         CHECK(compare(silence, features(signals[2], HtsRole::candidate), mode).score == 100.0);
         CHECK(compare(silence, features(sound, HtsRole::candidate), mode).score == 0.0);
     }
+}
+
+TEST_CASE("Levels are similar within 1.5 dB, unlike from 12 dB on, and the louder ones count more", "[evaluate]")
+{
+    const auto similarity = [](std::initializer_list<std::pair<double, double>> levels)
+    {
+        detail::LevelSimilarity sum;
+        for (const auto& [reference, candidate] : levels)
+            sum.add(reference, candidate);
+        return sum.value();
+    };
+    CHECK(similarity({}) == 1.0);
+    CHECK(similarity({{0.0, 0.0}}) == 1.0); // nothing is felt of either
+    CHECK(similarity({{20.0, 21.5}}) == 1.0);
+    CHECK(similarity({{20.0, 13.25}}) == Approx(0.5));
+    CHECK(similarity({{13.25, 20.0}}) == Approx(0.5));
+    CHECK(similarity({{20.0, 8.0}}) == Approx(0.0).margin(1e-12));
+    CHECK(similarity({{20.0, 0.0}}) == Approx(0.0).margin(1e-12));
+    CHECK(similarity({{30.0, 30.0}, {10.0, 0.0}}) == Approx(1.0 - 10.0 * (8.5 / 10.5) / 40.0));
+}
+
+TEST_CASE("The envelope of a long steady tone is steady where its pieces meet", "[evaluate]")
+{
+    // Three transforms; a cut without a fade would ripple far into the pieces.
+    std::vector<float> tone(150000);
+    for (std::size_t n = 0; n < tone.size(); ++n)
+        tone[n] = static_cast<float>(0.5 * std::cos(2.0 * std::numbers::pi * 20.3 / 4000.0 * static_cast<double>(n)));
+    const PowerEnvelope found = PowerEnvelopeAnalyzer().analyze(tone);
+    REQUIRE(found.envelope.size() == 7500);
+    double worst = 0.0;
+    for (std::size_t t = 2900; t < 3250; ++t)
+        worst = std::max(worst, std::abs(static_cast<double>(found.envelope[t]) * std::sqrt(8.0) - 1.0));
+    INFO(worst);
+    CHECK(worst < 2e-4);
 }

@@ -469,3 +469,26 @@ TEST_CASE("What cannot be fitted is refused by name", "[linearize]")
     slow.sampleRate = 6000.0;
     CHECK(whereOf(high, slow) == "sampleRate");
 }
+
+TEST_CASE("By default a fit is content with half a decibel on the whole and two at the worst point", "[linearize]")
+{
+    // A bump of some neighbouring points on a flat response; both are below half a decibel RMS.
+    const auto bump = [](double height, double width)
+    {
+        FrequencyResponse response{logFrequencies(100, 20.0, 2000.0), {}};
+        for (int i = 0; i < 100; ++i)
+            response.level.push_back(height * std::exp(-0.5 * (i - 50.0) * (i - 50.0) / (width * width)));
+        return response;
+    };
+    const EqualizerFit small = fitOf(bump(1.7, 3.0), {});
+    CHECK(small.sections.empty());
+    CHECK(small.rms < 0.5);
+    CHECK(small.max > 1.5);
+    CHECK(small.reachedGoal);
+    const EqualizerFit high = fitOf(bump(2.6, 1.5), {});
+    CHECK_FALSE(high.sections.empty());
+    CHECK(high.max < 2.0);
+    const EqualizerFit wide = fitOf(bump(1.7, 12.0), {});
+    CHECK_FALSE(wide.sections.empty());
+    CHECK(wide.rms < 0.5);
+}

@@ -5,8 +5,11 @@
 #include <pacini/linearize/ResponseSmoothing.h>
 #include <pacini/linearize/SimulatedRig.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 using namespace pacini;
 
@@ -135,4 +138,50 @@ TEST_CASE("Placements that cannot be averaged are named", "[linearize]")
     params = {};
     params.lowFrequency = 5000.0;
     CHECK(averagePlacements(good, params).error().where == "lowFrequency");
+}
+
+TEST_CASE("A level counts as loose beyond two and a half deviations of the closest half", "[linearize]")
+{
+    // The closest three of five are 0, 1 and 2 dB. A normal distribution whose half is as wide as that has a deviation
+    // of 1 dB / 0.6745, so that up to 3.707 dB from 1 dB belong to it.
+    PlacementAverageParams params;
+    params.offsetLimit = 0.0;
+    const auto outliers = [&](const std::vector<double>& levels)
+    {
+        std::vector<FrequencyResponse> placements;
+        for (const double level : levels)
+            placements.push_back({logSpaced(20.0, 1000.0, 20), std::vector<double>(20, level)});
+        std::vector<std::size_t> out;
+        const auto average = averagePlacements(placements, params).value();
+        for (const PlacementOutlier& outlier : average.outliers)
+            out.push_back(outlier.index);
+        return out;
+    };
+    CHECK(outliers({4.69, 2.0, 50.0, 0.0, 1.0}) == std::vector<std::size_t>{2});
+    CHECK(outliers({4.72, 2.0, 50.0, 0.0, 1.0}) == std::vector<std::size_t>{0, 2});
+    CHECK(outliers({50.0, 0.0, 1.0, 2.0, -2.69}) == std::vector<std::size_t>{0});
+    CHECK(outliers({50.0, 0.0, 1.0, 2.0, -2.72}) == std::vector<std::size_t>{0, 4});
+    params.offsetLimit = 3.8;
+    CHECK(outliers({4.79, 2.0, 50.0, 0.0, 1.0}) == std::vector<std::size_t>{2});
+    CHECK(outliers({4.81, 2.0, 50.0, 0.0, 1.0}) == std::vector<std::size_t>{0, 2});
+}
+
+TEST_CASE("The order of the placements does not matter", "[linearize]")
+{
+    // Shapes and levels that all differ: what each of them adds is there whichever is the first.
+    std::vector<FrequencyResponse> placements = wearers(5, 9, BodyPoint::device);
+    for (double& level : placements[0].level)
+        level += 40.0;
+    const auto first = averagePlacements(placements).value();
+    std::rotate(placements.begin(), placements.begin() + 1, placements.end());
+    const auto last = averagePlacements(placements).value();
+    REQUIRE(first.outliers.size() == 1);
+    CHECK(first.outliers[0].index == 0);
+    REQUIRE(last.outliers.size() == 1);
+    CHECK(last.outliers[0].index == 4);
+    for (std::size_t i = 0; i < 5; ++i)
+        CHECK(first.offsets[(i + 1) % 5] == Approx(last.offsets[i]).margin(1e-9));
+    CHECK(first.outliers[0].shape == Approx(last.outliers[0].shape));
+    for (std::size_t k = 0; k < first.response.size(); ++k)
+        CHECK(first.response.level[k] == Approx(last.response.level[k]).margin(1e-9));
 }

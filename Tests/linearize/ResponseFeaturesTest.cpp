@@ -149,3 +149,27 @@ TEST_CASE("Features of nothing are errors that say why", "[linearize]")
         cut.push_back(std::sin(0.05 * n));
     CHECK(burstTimes({8000.0, 0, cut}, 63.7).error().code == ErrorCode::truncated);
 }
+
+TEST_CASE("A resonance seen through a smoothing has the mean power of its neighbourhood", "[linearize]")
+{
+    for (const double q : {0.7, 4.0, 40.0})
+        for (const int slope : {0, 1, 2})
+            for (const double f : {20.0, 66.0, 70.0, 300.0})
+            {
+                CAPTURE(q, slope, f);
+                ResonanceModel model;
+                model.q = q;
+                model.slope = slope;
+                model.gain = -7.0;
+                CHECK(model.level(f) == Approx(secondOrder(f, 67.0, q, slope) - 7.0));
+                const double octaves = 1.0 / 12.0;
+                double power = 0.0;
+                constexpr int pieces = 2000;
+                for (int i = 0; i < pieces; ++i)
+                {
+                    const double at = f * std::exp2(octaves * ((i + 0.5) / pieces - 0.5));
+                    power += std::pow(10.0, secondOrder(at, 67.0, q, slope) / 10.0) / pieces;
+                }
+                CHECK(model.level(f, octaves) == Approx(10.0 * std::log10(power) - 7.0).margin(0.01));
+            }
+}

@@ -90,3 +90,68 @@ TEST_CASE("Resonance, Q and burst times of measured actuators are those of their
         }
     }
 }
+
+TEST_CASE("The noise of a simulated rig is that of its density up to half of the sample rate", "[linearize]")
+{
+    RigParams rig;
+    rig.body.reset();
+    rig.axes = 1;
+    rig.bits = 0;
+    rig.range = 20.0;
+    for (const double sampleRate : {8000.0, 48000.0})
+    {
+        rig.sampleRate = sampleRate;
+        const std::vector<float> silence(20000);
+        const auto recorded = recordOnRig(silence, rig);
+        REQUIRE(recorded.size() == 1);
+        double power = 0.0;
+        for (const float v : recorded[0])
+            power += static_cast<double>(v) * static_cast<double>(v) / static_cast<double>(recorded[0].size());
+        CHECK(std::sqrt(power) == Approx(rig.noiseDensity * std::sqrt(sampleRate / 2.0) / 20.0).epsilon(0.02));
+    }
+}
+
+TEST_CASE("A simulated rig without a body is a delay by another clock, an amplifier and a converter", "[linearize]")
+{
+    RigParams rig;
+    rig.body.reset();
+    rig.axes = 1;
+    rig.noiseDensity = 0.0;
+    rig.range = 4.0;
+    rig.contact = 6.0205999;
+    rig.latency = 0.01;
+    rig.tail = 0.25;
+    rig.driftPpm = 0.0;
+    rig.sampleRate = 8000.0;
+    rig.polynomial = {0.1, 1.0, 0.5};
+    std::vector<float> drive(800);
+    for (std::size_t n = 0; n < drive.size(); ++n)
+        drive[n] = static_cast<float>(0.5 * std::sin(0.05 * static_cast<double>(n)));
+    for (const int bits : {0, 6})
+    {
+        rig.bits = bits;
+        const auto recorded = recordOnRig(drive, rig);
+        REQUIRE(recorded.size() == 1);
+        REQUIRE(recorded[0].size() == 800 + 80 + 2000);
+        for (std::size_t n = 0; n < drive.size(); ++n)
+        {
+            const auto x = static_cast<double>(drive[n]);
+            const double sample = 2.0 * (0.1 + x + 0.5 * x * x) / 4.0;
+            const double wanted = bits == 0 ? sample : std::round(sample * 32.0) / 32.0;
+            REQUIRE(static_cast<double>(recorded[0][n + 80]) == Approx(wanted).margin(1e-6));
+        }
+        CHECK(recorded[0][79] == 0.0f);
+        CHECK(recorded[0][880] == 0.0f);
+    }
+    // A recorder that is a thousandth quicker has as many more frames, and hears a lower tone.
+    rig.bits = 0;
+    rig.polynomial = {0.0, 1.0};
+    rig.driftPpm = 1000.0;
+    const auto recorded = recordOnRig(drive, rig)[0];
+    CHECK(recorded.size() == 2882);
+    for (std::size_t n = 200; n < 800; ++n)
+    {
+        const double played = static_cast<double>(n) / 1.001 - 80.0;
+        REQUIRE(static_cast<double>(recorded[n]) == Approx(0.25 * std::sin(0.05 * played)).margin(1e-4));
+    }
+}

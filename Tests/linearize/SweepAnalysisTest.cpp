@@ -366,3 +366,18 @@ TEST_CASE("A recording may begin before or after the playback", "[linearize]")
         CHECK(largestError(result.response(), rig) < 0.3);
     }
 }
+
+TEST_CASE("Times of playback and recording are converted there and back, lost frames included", "[linearize]")
+{
+    SweepTiming timing;
+    timing.start = 0.7;
+    timing.drift = 1e-3;
+    CHECK(timing.arrival(0.0) == 0.7);
+    CHECK(timing.arrival(100.0) == Approx(100.8));
+    timing.steps = {{10.0, -0.02}, {50.0, 0.5}};
+    CHECK(timing.arrival(9.0) == Approx(9.709));
+    CHECK(timing.arrival(10.0) == Approx(10.69));
+    CHECK(timing.arrival(100.0) == Approx(101.28));
+    for (const double played : {0.0, 9.9, 10.1, 49.9, 50.0, 77.0})
+        CHECK(timing.playTime(timing.arrival(played)) == Approx(played));
+}

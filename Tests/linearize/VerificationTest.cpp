@@ -3,7 +3,9 @@
 #include <pacini/linearize/Verification.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 
 using namespace pacini;
 
@@ -74,6 +76,12 @@ TEST_CASE("A response that cannot be judged is refused at its place")
     CHECK(judgeLinearity(flat, {900.0, 1000.0, 1.0}).error().where == "range");
     CHECK(judgeLinearity(flat, {0.0, 0.0, -1.0}).error().where == "tolerance");
     CHECK(judgeLinearity(flat, {0.0, 0.0, std::nan("")}).error().where == "tolerance");
+    CHECK(judgeLinearity(flat, {0.0, 0.0, 100.01}).error().where == "tolerance");
+    CHECK(judgeLinearity(flat, {0.0, 0.0, 0.0})->passed()); // the ends are in the range
+    CHECK(judgeLinearity(flat, {0.0, 0.0, 100.0})->passed());
+    const double eighth = flat.frequency[flat.size() - 8], seventh = flat.frequency[flat.size() - 7];
+    CHECK(judgeLinearity(flat, {eighth, 0.0, 1.0}).ok());
+    CHECK(judgeLinearity(flat, {seventh, 0.0, 1.0}).error().where == "range");
     auto broken = flat;
     broken.level[5] = std::numeric_limits<double>::infinity();
     CHECK(judgeLinearity(broken, {}).error().where == "points[5].level");
@@ -86,4 +94,54 @@ TEST_CASE("Between two points the level is on the line over the logarithm of fre
         CHECK(levelAt(slope, f) == Approx(20.0 * std::log10(f)));
     CHECK(levelAt(slope, 1.0) == slope.level.front());
     CHECK(levelAt(slope, 5000.0) == slope.level.back());
+}
+
+TEST_CASE("The worst point and each outlier's worst are named, wherever in it they are")
+{
+    FrequencyResponse response;
+    for (int i = 0; i < 40; ++i)
+    {
+        response.frequency.push_back(100.0 + i);
+        response.level.push_back(0.0);
+    }
+    for (const auto& [at, level] : {std::pair(10, 5.0), std::pair(11, 7.0), std::pair(12, 6.0), std::pair(20, -5.0),
+                                    std::pair(21, -9.0), std::pair(22, -9.0)})
+        response.level[static_cast<std::size_t>(at)] = level;
+    const auto judged = judgeLinearity(response, {101.0, 138.0, 4.5});
+    REQUIRE(judged);
+    CHECK(judged->lowFrequency == 101.0);
+    CHECK(judged->highFrequency == 138.0);
+    CHECK(judged->tolerance == 4.5);
+    CHECK(judged->worstFrequency == 121.0); // the first of two equal ones
+    CHECK(judged->worstDeviation == Approx(-9.0 - judged->level));
+    REQUIRE(judged->outliers.size() == 2);
+    CHECK(judged->outliers[0].lowFrequency == 110.0);
+    CHECK(judged->outliers[0].highFrequency == 112.0);
+    CHECK(judged->outliers[0].deviation == Approx(7.0 - judged->level));
+    CHECK(judged->outliers[1].deviation == Approx(-9.0 - judged->level));
+    // Where nothing deviates the first point of the range is as good as any.
+    const auto flat = judgeLinearity(responseOf([](double) { return 0.0; }), {50.0, 0.0, 1.0});
+    CHECK(flat->worstDeviation == 0.0);
+    CHECK(flat->worstFrequency == flat->lowFrequency);
+
+    // By default everything counts and 4 dB pass.
+    response.level.assign(40, 0.0);
+    response.level[0] = 4.2;
+    CHECK_FALSE(judgeLinearity(response, {})->passed());
+    response.level[0] = 3.9;
+    CHECK(judgeLinearity(response, {})->passed());
+    CHECK(judgeLinearity(response, {})->lowFrequency == 100.0);
+}
+
+TEST_CASE("A range below 1 Hz is kept to")
+{
+    FrequencyResponse slow;
+    for (int i = 1; i <= 40; ++i)
+    {
+        slow.frequency.push_back(0.1 * i);
+        slow.level.push_back(i < 5 || i > 30 ? 20.0 : 0.0);
+    }
+    CHECK(judgeLinearity(slow, {0.5, 3.0, 1.0})->passed());
+    CHECK(judgeLinearity(slow, {0.5, 3.0, 1.0})->lowFrequency == Approx(0.5));
+    CHECK(judgeLinearity(slow, {0.0, 0.9, 1.0}).value().highFrequency == Approx(0.9));
 }

@@ -41,9 +41,8 @@ public:
 
     void reset() noexcept
     {
-        for (float& v : history)
+        for (float& v : history) // of zeros it does not matter where the newest one is
             v = 0.0f;
-        write = 0;
     }
 
     /// `out` has factor() times as many frames as `in`.

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <variant>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -74,4 +76,31 @@ TEST_CASE("Channels that do not fit below 0.45 of the sample rate are left out",
         for (std::size_t k = 1; k < clip.bands.size(); ++k)
             CHECK(clip.bands[k].lowFrequency == Approx(clip.bands[k - 1].highFrequency));
     }
+}
+
+TEST_CASE("The gain that keeps the sum of the channels within full drive is told", "[methods]")
+{
+    const double fs = 16000.0;
+    const auto gainOf = [](const Clip& clip)
+    {
+        double gain = 0.0;
+        for (const auto& [key, value] : clip.encoder)
+            if (key == "channelGain")
+                gain = std::get<double>(value);
+        return gain;
+    };
+    // One tone is in one channel and in the skirts of its neighbours; noise is in all of them.
+    CHECK(gainOf(thirdOctaveVocoderClip(sine(16000, 400.0, fs), fs)) > 0.4);
+    const Clip clip = thirdOctaveVocoderClip(noise(16000, 7), fs);
+    CHECK(gainOf(clip) < 0.35);
+    CHECK(gainOf(clip) > 0.1);
+    double largest = 0.0;
+    for (double time = 0.0; time < 1.0; time += 0.001)
+    {
+        double sum = 0.0;
+        for (const Band& band : clip.bands)
+            sum += band.amplitude.empty() ? 0.0 : valueAt(band.amplitude, time);
+        largest = std::max(largest, sum);
+    }
+    CHECK(largest == Approx(1.0).margin(0.1));
 }
