@@ -47,9 +47,9 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
       closeButton("Close")
 {
     setOpaque(true);
-    const auto go = [this](int steps)
+    const auto go = [this](int by)
     {
-        show(static_cast<MeasureStep>(static_cast<int>(stepNow) + steps));
+        show(static_cast<MeasureStep>(static_cast<int>(stepNow) + by));
     };
     prepareButton(backButton, "To the step before", [go] { go(-1); });
     prepareButton(nextButton, "To the next step", [go] { go(1); });
