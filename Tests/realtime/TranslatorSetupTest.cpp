@@ -288,6 +288,99 @@ TEST_CASE("meters show each band, the peak and the distance from the threshold o
     CHECK(translator.meters().read().gainReduction > 6.0);
 }
 
+TEST_CASE("the meters show the strongest protection of a call", "[realtime]")
+{
+    const double fs = 48000.0;
+    GuardedTranslator translator;
+    translator.prepare({fs, 48000});
+    TranslatorParams loud;
+    loud.intensity = 12.0;
+    translator.setParams(loud);
+    auto in = sine(96000, 67.0, fs, 0.9);
+    std::fill(in.begin() + 48000, in.end(), 0.0f);
+    std::vector<float> out(in.size());
+    double strongest = 0.0;
+    for (std::size_t i = 0; i < in.size(); i += 256)
+    {
+        translator.process(std::span(in).subspan(i, 256), std::span(out).subspan(i, 256));
+        strongest = std::max(strongest, translator.meters().read().gainReduction);
+    }
+    CHECK(strongest > 6.0);
+    CHECK(translator.meters().read().gainReduction < 1.0); // silent for a second
+    translator.reset();
+    translator.process(in, out); // all of it at once
+    CHECK(translator.meters().read().gainReduction == Approx(strongest));
+}
+
+TEST_CASE("a design takes the pulses of events from the profile where it names them", "[realtime]")
+{
+    TranslatorSetup setup;
+    setup.maxBoost = 0_dB;
+    Profile& profile = setup.profile.emplace();
+    profile.technology = Technology::vca;
+    profile.range = {40.0, 400.0, 50.0};
+    profile.transient.frequency = 123.0;
+    profile.transient.cycles = 2.5;
+    const auto pulses = [&](TransientShape shape)
+    {
+        profile.transient.shape = shape;
+        return designTranslator(setup, 48000.0).pulses;
+    };
+    CHECK(pulses(TransientShape::adaptive) == PulseParams{.lowest = 40.0, .highest = 400.0});
+    CHECK(pulses(TransientShape::square) == PulseParams{PulseShape::square, 123.0, 2.5, 40.0, 400.0});
+    CHECK(pulses(TransientShape::sine) == PulseParams{PulseShape::sine, 123.0, 2.5, 40.0, 400.0});
+}
+
+TEST_CASE("bands with centres below 100 Hz are rumble, those from 100 Hz on texture", "[realtime]")
+{
+    TranslatorSetup setup;
+    setup.bands = {.bands = 3, .low = Hertz(100.0), .high = Hertz(400.0)};
+    const auto rumbles = [&]
+    {
+        std::vector<bool> result;
+        for (const TranslatorBand& band : designTranslator(setup, 48000.0).bands)
+            result.push_back(band.rumble);
+        return result;
+    };
+    REQUIRE(designBandLayout(setup.bands).centres[0].value == 100.0);
+    CHECK(rumbles() == std::vector<bool>{false, false, false});
+    setup.bands.low = Hertz(99.9);
+    CHECK(rumbles() == std::vector<bool>{true, false, false});
+    setup.bands.low = Hertz(20.0);
+    CHECK(rumbles() == std::vector<bool>{true, true, false});
+}
+
+TEST_CASE("a quiet sound behind a loud one is raised into the actuator's range within 60 ms", "[realtime]")
+{
+    const double fs = 8000.0;
+    TranslatorSetup setup;
+    setup.maxBoost = 0_dB;
+    Profile& profile = setup.profile.emplace();
+    profile.technology = Technology::vca;
+    profile.range = {40.0, 400.0, 20.0}; // of 35 dB that are felt of a sound
+    TranslatorParams params;
+    params.transients.muted = true;
+    Translator translator;
+    translator.setSetup(setup);
+    translator.prepare({fs, 256});
+    translator.setParams(params);
+    auto in = sine(16000, 200.0, fs, 1.0);
+    for (std::size_t n = 8000; n < in.size(); ++n)
+        in[n] *= 0.05f;
+    const auto out = runInBlocks(translator, in, 256);
+    const auto levelAt = [&](double seconds)
+    {
+        const auto begin = static_cast<std::size_t>((1.0 + seconds) * fs);
+        return rms(std::span<const float>(out).subspan(begin, 80)) * std::numbers::sqrt2; // two periods
+    };
+    // A straight line in dB: 0.05, 26 dB below the top, comes 26 * 20 / 35 dB below it.
+    CHECK(levelAt(0.9) == Approx(std::pow(0.05, 20.0 / 35.0)).epsilon(0.1));
+    // The peak of late is forgotten with 20 ms, which takes it to 0.05 after 60 ms; until then it decides.
+    CHECK(levelAt(0.075) == Approx(levelAt(0.9)).epsilon(0.05));
+    CHECK(levelAt(0.025) / levelAt(0.9) ==
+          Approx(std::pow(std::exp(-0.030 / 0.020) / 0.05, 20.0 / 35.0 - 1.0)).epsilon(0.1));
+}
+
 TEST_CASE("every preset is within its ranges and has a name of its own", "[realtime]")
 {
     std::set<std::string_view> names;

@@ -335,6 +335,33 @@ TEST_CASE("silence ends in exact silence soon after a sound", "[realtime]")
     checkSilenceIsCheap<Translator>(TranslatorParams{});
 }
 
+TEST_CASE("after a silence a sound is felt as if it were the first", "[realtime]")
+{
+    for (const double direct : {0.0, 0.5, 1.0})
+    {
+        CAPTURE(direct);
+        TranslatorParams params;
+        params.direct = direct;
+        params.transients.muted = true;
+        params.gateThreshold = -120.0;
+        Translator translator;
+        translator.prepare({48000.0, 256});
+        translator.setParams(params);
+        auto in = noise(48000, 11);
+        std::fill(in.begin() + 4800, in.end(), 0.0f);
+        const auto other = sine(48000, 620.0, 48000.0, 0.7);
+        (void)runInBlocks(translator, other, 256);
+        (void)runInBlocks(translator, std::vector<float>(2 * 48000, 0.0f), 256);
+        const auto asleep = translator.meters().read();
+        for (std::size_t k = 0; k < asleep.bands; ++k)
+            CHECK(asleep.bandLevels[k] == -std::numeric_limits<double>::infinity());
+        const auto after = runInBlocks(translator, in, 256);
+        translator.reset();
+        (void)runInBlocks(translator, std::vector<float>(3 * 48000, 0.0f), 256);
+        CHECK(after == runInBlocks(translator, in, 256));
+    }
+}
+
 TEST_CASE("what is below the gate is not felt", "[realtime]")
 {
     TranslatorParams params;
@@ -399,6 +426,37 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     CHECK(valid.intensity == 0.0);
     CHECK(valid.transposition == 0.0);
     CHECK(valid.direct == 0.0);
+    CHECK(valid.attack == 0.0);
+    struct Range
+    {
+        double TranslatorParams::*value;
+        double low, high;
+    };
+    for (const auto& [value, low, high] :
+         {Range{&TranslatorParams::inputGain, -60.0, 48.0}, Range{&TranslatorParams::intensity, -60.0, 24.0},
+          Range{&TranslatorParams::brightness, -60.0, 12.0}, Range{&TranslatorParams::transposition, -48.0, 48.0},
+          Range{&TranslatorParams::direct, 0.0, 1.0}, Range{&TranslatorParams::attack, 0.0, 200.0},
+          Range{&TranslatorParams::release, 0.0, 1000.0}, Range{&TranslatorParams::transientSensitivity, 0.0, 1.0},
+          Range{&TranslatorParams::transientSharpness, -1.0, 1.0}, Range{&TranslatorParams::gateThreshold, -120.0, 0.0},
+          Range{&TranslatorParams::gateRelease, 1.0, 2000.0}})
+    {
+        TranslatorParams wild;
+        wild.*value = -1e9;
+        CHECK(clamped(wild).*value == low);
+        wild.*value = 1e9;
+        CHECK(clamped(wild).*value == high);
+        wild.*value = 0.3 * low + 0.7 * high;
+        CHECK(clamped(wild).*value == wild.*value);
+    }
+    for (RoleParams TranslatorParams::*role :
+         {&TranslatorParams::rumble, &TranslatorParams::texture, &TranslatorParams::transients})
+    {
+        TranslatorParams wild;
+        (wild.*role).level = -1e9;
+        CHECK((clamped(wild).*role).level == -60.0);
+        (wild.*role).level = 1e9;
+        CHECK((clamped(wild).*role).level == 24.0);
+    }
     TranslatorParams before;
     before.intensity = -7.0;
     before.rumble.level = 3.0;

@@ -5,6 +5,7 @@
 #include <pacini/simplify/BudgetSpread.h>
 #include <pacini/simplify/Optimal.h>
 
+#include <algorithm>
 #include <limits>
 
 using namespace pacini;
@@ -140,6 +141,81 @@ TEST_CASE("Weights, minima and limits of the budget are kept", "[simplify]")
     for (const auto& kept : all)
         CHECK(kept == allPoints(500));
     CHECK(spread.spread({}, 0).value().kept.empty());
+}
+
+TEST_CASE("Points are removed as a search of all that are left would, one after the other", "[simplify]")
+{
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    {
+        CAPTURE(seed);
+        const std::vector<std::vector<double>> values{test::uniformNoise(24, seed), test::uniformNoise(17, seed + 100)};
+        auto curves = curvesOf(values);
+        curves[1].weight = 0.6;
+        curves[1].minimum = 7;
+        std::vector<KeptPoints> wanted{{}, {}};
+        for (std::size_t c = 0; c < 2; ++c)
+            for (std::size_t i = 0; i < values[c].size(); ++i)
+                wanted[c].push_back(i);
+        for (std::size_t budget = 40; budget >= 9; --budget)
+        {
+            double least = std::numeric_limits<double>::infinity();
+            std::size_t curve = 0, place = 0;
+            for (std::size_t c = 0; c < 2; ++c)
+                for (std::size_t k = 1; k + 1 < wanted[c].size() && wanted[c].size() > curves[c].leastPoints(); ++k)
+                {
+                    auto without = wanted;
+                    without[c].erase(without[c].begin() + static_cast<std::ptrdiff_t>(k));
+                    if (const double error = weightedError(curves, without); error < least)
+                    {
+                        least = error;
+                        curve = c;
+                        place = k;
+                    }
+                }
+            wanted[curve].erase(wanted[curve].begin() + static_cast<std::ptrdiff_t>(place));
+            std::vector<KeptPoints> kept{{}, {}};
+            for (std::size_t c = 0; c < 2; ++c)
+                for (std::size_t i = 0; i < values[c].size(); ++i)
+                    kept[c].push_back(i);
+            removeWorstPoints(curves, budget, kept);
+            REQUIRE(kept == wanted);
+        }
+    }
+}
+
+TEST_CASE("Points are added where a search of all would put the next one", "[simplify]")
+{
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    {
+        CAPTURE(seed);
+        const std::vector<std::vector<double>> values{test::uniformNoise(24, seed), test::uniformNoise(17, seed + 100)};
+        auto curves = curvesOf(values);
+        curves[0].weight = 0.6;
+        std::vector<KeptPoints> wanted{{0, 23}, {0, 16}};
+        for (std::size_t budget = 5; budget <= 20; ++budget)
+        {
+            double least = weightedError(curves, wanted);
+            auto best = wanted;
+            for (std::size_t c = 0; c < 2; ++c)
+                for (std::size_t i = 1; i + 1 < values[c].size(); ++i)
+                {
+                    auto with = wanted;
+                    const auto place = std::lower_bound(with[c].begin(), with[c].end(), i);
+                    if (*place == i)
+                        continue;
+                    with[c].insert(place, i);
+                    if (const double error = weightedError(curves, with); error < least)
+                    {
+                        least = error;
+                        best = with;
+                    }
+                }
+            wanted = best;
+            std::vector<KeptPoints> kept{{0, 23}, {0, 16}};
+            addBestPoints(curves, budget, kept);
+            REQUIRE(kept == wanted);
+        }
+    }
 }
 
 TEST_CASE("Curves that need no points leave them to the others", "[simplify]")

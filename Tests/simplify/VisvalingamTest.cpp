@@ -56,6 +56,13 @@ TEST_CASE("Visvalingam's removals are nested: fewer points are a subset of more 
     }
 }
 
+TEST_CASE("Visvalingam never removes the ends", "[simplify]")
+{
+    const auto dense = test::curveOfValues(test::uniformNoise(50, 3));
+    for (const std::size_t count : {0u, 1u, 2u})
+        CHECK(visvalingamToCount(dense, count) == KeptPoints{0, 49});
+}
+
 TEST_CASE("Visvalingam within a bound stops at points that it cannot remove", "[simplify]")
 {
     const Curve dense = test::curveOfValues(test::strikes(1500, 6));

@@ -186,6 +186,24 @@ TEST_CASE("The sum of bands follows the envelope where there is one", "[synthesi
     CHECK(worstPlain > 10.0);
 }
 
+TEST_CASE("A decoder says whether it levels the bands, and what it leaves out", "[synthesis]")
+{
+    Clip clip = toneClip(100.0, 0.3, 1.0);
+    clip.bands.push_back({180.0, 200.0, 220.0, 0, {{0.0, 0.0}, {1.0, 0.0}}, {}});
+    clip.transients = {{0.2, 0.5, 0.5}, {0.6, 0.0, 0.5}};
+    DecoderParams params;
+    CHECK_FALSE(Decoder(clip, params).report().levelled);
+    CHECK(Decoder(clip, params).report().carriers == 1);
+    CHECK(Decoder(clip, params).report().silentBands == 1);
+    CHECK(Decoder(clip, params).report().pulses == 1);
+    CHECK(Decoder(clip, params).report().maskedTransients == 1);
+    clip.envelope = {{0.0, 0.3}};
+    CHECK(Decoder(clip, params).report().levelled);
+    CHECK(Decoder(clip, params).report().maskedTransients == 2); // bands peak at twice the envelope
+    params.followEnvelope = false;
+    CHECK_FALSE(Decoder(clip, params).report().levelled);
+}
+
 TEST_CASE("An event tops the bands up to its amplitude and costs nothing where they reach it", "[synthesis]")
 {
     Clip clip;

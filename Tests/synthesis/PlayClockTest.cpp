@@ -4,10 +4,12 @@
 #include "support/Render.h"
 
 #include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/PlayTimeline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace pacini;
 using test::render;
@@ -51,6 +53,21 @@ TEST_CASE("Clock pieces join without gaps, and frameOf undoes clipAt", "[synthes
         CHECK(clock.frameOf(clock.clipAt(frame)) == Approx(frame).epsilon(1e-14));
     CHECK(clock.nextChange(0.0) == 100.0);
     CHECK(std::isinf(clock.nextChange(200.0)));
+}
+
+TEST_CASE("The clock of a play runs at the stretch of each of its changes", "[synthesis]")
+{
+    PlayTimeline timeline;
+    timeline.changes = {{1.0, 0.0, 0.5}, {2.0, 7.0, 4.0}};
+    const PlayClock clock = makeClock(2.0, timeline);
+    // Half a second of the clip in the first second, two in the next, a quarter of one in each after that.
+    for (const auto& [time, clipTime] :
+         {std::pair{0.0, 0.0}, {0.5, 0.25}, {1.0, 0.5}, {1.5, 1.5}, {2.0, 2.5}, {6.0, 3.5}})
+    {
+        CAPTURE(time);
+        CHECK(clock.clipAt(time) == Approx(clipTime));
+        CHECK(clock.frameOf(clipTime) == Approx(time));
+    }
 }
 
 TEST_CASE("A scheduled transposition comes on its sample and keeps the phase", "[synthesis]")

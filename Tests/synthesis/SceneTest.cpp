@@ -345,6 +345,11 @@ TEST_CASE("A plan names what it leaves out and why", "[scene]")
     for (const LeftOut& item : plan->leftOut)
         if (item.where == "plays[2]")
             CHECK(item.error == Approx(-90.0).margin(1.0));
+    CHECK(plan->predictedError == Approx(-90.0).margin(2.0));
+    const auto everything = compilePlan(scene, nullptr, playEverything());
+    REQUIRE(everything.ok());
+    CHECK(everything->plays.size() == 5);
+    CHECK(everything->predictedError == -std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("A scene says where it is wrong", "[scene]")

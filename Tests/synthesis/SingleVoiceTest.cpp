@@ -32,6 +32,16 @@ TEST_CASE("One voice has the power of all bands and the frequency of the stronge
     REQUIRE(valueAt(voice.displaced, 0.5) == Approx(0.3));
 }
 
+TEST_CASE("One voice keeps a frequency of 1 Hz", "[synthesis]")
+{
+    Clip clip = twoBands(0.4, 0.1);
+    clip.bands[0] = steadyBand(1.0, 0.4);
+    clip.bands[1] = steadyBand(1.0, 0.1);
+    const SingleVoice voice = singleVoiceOf(clip);
+    REQUIRE_FALSE(voice.frequency.empty());
+    CHECK(valueAt(voice.frequency, 0.5) == 1.0);
+}
+
 TEST_CASE("What one voice cannot play where it is counts less, by its distance", "[synthesis]")
 {
     // 400 Hz are 0.415 octaves above 300 Hz and count 8.3 dB less.

@@ -361,7 +361,7 @@ private:
             return;
         }
         const double missing = wanted - playedPeak;
-        if (!(missing > 0.05 * wanted) || !(wanted > 0.0))
+        if (!(missing > 0.05 * wanted))
             return;
         const double share = std::min(1.0, heardPeak / std::max(event.amplitude, 1e-9));
         const double sharpness = std::clamp(1.0 - share + params.transientSharpness, 0.0, 1.0);

@@ -51,7 +51,7 @@ public:
             ++later;
         if (later == 0)
             return {0, 0.0};
-        if (later == vertices.size() || vertices[later - 1].time == time)
+        if (later == vertices.size())
             return {later - 1, 0.0};
         return between(later - 1, time);
     }

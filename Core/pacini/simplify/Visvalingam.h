@@ -126,7 +126,7 @@ template <typename MayRemove>
     for (std::size_t i = 0; i < n; ++i)
         neighbours[i] = {i == 0 ? 0 : i - 1, i + 1};
     std::vector<bool> removed(n, false);
-    for (std::size_t left = n; left > std::max<std::size_t>(count, 2) && !heap.empty();)
+    for (std::size_t left = n; left > count && !heap.empty();) // the ends are not in the heap
     {
         const std::size_t point = heap.top();
         heap.pop();

@@ -289,19 +289,20 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
     if (adapts && params.adaptation.voices && profile->polyphony > 0 &&
         profile->polyphony < Profile::unlimitedPolyphony)
         detail::limitVoices(plan, scene, *profile, energies, outputFilter);
-    double lost = 0.0, whole = 0.0;
+    plan.predictedError = -std::numeric_limits<double>::infinity();
     if (params.leaveOut)
     {
         const double wholeError = detail::limitEnergies(plan, energies, profile);
+        double whole = 0.0;
         for (const PlayEnergy& energy : energies)
             whole += energy.least;
-        lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
+        double lost = detail::leaveOutWeak(plan, scene, energies, whole, params.tolerance);
         if (plan.profile)
             lost +=
                 whole * wholeError *
                 detail::leaveOutFlatSections(plan, params.tolerance - 10.0 * std::log10(wholeError), params.sampleRate);
+        plan.predictedError = detail::errorInDecibels(lost, whole);
     }
-    plan.predictedError = detail::errorInDecibels(lost, whole);
     std::stable_sort(plan.plays.begin(), plan.plays.end(),
                      [](const PlannedPlay& a, const PlannedPlay& b) { return a.start < b.start; });
     return plan;

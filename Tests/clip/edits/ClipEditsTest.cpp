@@ -272,6 +272,102 @@ TEST_CASE("What is copied and pasted at its own place changes nothing that is he
         CHECK_FALSE(pasteCurve(clip, {LaneKind::centroid, 0}, fragment.lanes[0], 0.0));
 }
 
+TEST_CASE("What is pasted stands in its place alone, and the curve goes on behind it as before")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.envelope = {{0.0, 0.0}, {1.0, 1.0}};
+    const Lane lane{LaneKind::envelope, 0};
+    const Fragment::LanePart part{lane, {{0.0, 0.9}, {0.1, 0.7}, {0.2, 0.9}}};
+    for (const double at : {0.0, 0.3, 0.8, 0.95})
+    {
+        const auto pasted = pasteCurve(clip, lane, part, at);
+        REQUIRE(pasted);
+        for (int i = 0; i < 200; ++i)
+        {
+            const double t = (i + 0.5) / 200.0;
+            CAPTURE(at, t);
+            const double expected = t < at || t > at + 0.2 ? t : valueAt(part.curve, t - at);
+            CHECK(valueAt(pasted->envelope, t) == Approx(expected));
+        }
+    }
+    clip.envelope.clear();
+    const auto onto = pasteCurve(clip, lane, part, 0.5);
+    REQUIRE(onto);
+    CHECK(onto->envelope.front().time == 0.5);
+    CHECK(onto->envelope.back().time == Approx(0.7));
+}
+
+TEST_CASE("A fade-out is the fade-in the other way round")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    clip.envelope = {{0.0, 0.8}};
+    clip.transients = {{0.7, 0.8, 0.5}};
+    for (const FadeShape shape : {FadeShape::linear, FadeShape::smooth, FadeShape::square})
+    {
+        const EditScope scope{{0.5, 1.3}};
+        const Clip out = fade(clip, scope, FadeDirection::out, shape);
+        const Clip in = fade(clip, scope, FadeDirection::in, shape);
+        for (int i = 1; i < 64; ++i)
+            CHECK(valueAt(out.envelope, 1.3 - i / 80.0) == Approx(valueAt(in.envelope, 0.5 + i / 80.0)));
+        CHECK(valueAt(out.envelope, 0.5) == Approx(0.8));
+        CHECK(out.transients[0].amplitude == Approx(0.8 * fadeGain(shape, 0.75)));
+        CHECK(in.transients[0].amplitude == Approx(0.8 * fadeGain(shape, 0.25)));
+    }
+}
+
+TEST_CASE("Turned upside down, amplitudes go about half of full drive and frequencies about their mean")
+{
+    Clip clip;
+    clip.duration = 3.0;
+    clip.envelope = {{0.0, 0.3}, {1.0, 0.1}, {1.5, 0.9}, {1.7, 1.2}, {3.0, 0.5}};
+    clip.centroid = {{0.0, 50.0}, {1.0, 100.0}, {1.5, 400.0}, {3.0, 900.0}};
+    clip.transients = {{0.5, 0.8, 0.3}, {1.2, 0.8, 0.3}};
+    const Clip turned = invert(clip, EditScope{{0.9, 2.0}});
+    CHECK(valueAt(turned.envelope, 0.5) == Approx(0.2));
+    CHECK(valueAt(turned.envelope, 1.0) == Approx(0.9));
+    CHECK(valueAt(turned.envelope, 1.25) == Approx(0.5));
+    CHECK(valueAt(turned.envelope, 1.5) == Approx(0.1));
+    CHECK(valueAt(turned.envelope, 1.7) == 0.0);
+    CHECK(valueAt(turned.envelope, 3.0) == Approx(0.5));
+    // 100 to 400 Hz are what the range holds: their geometric mean is 200 Hz.
+    CHECK(valueAt(turned.centroid, 0.5) == Approx(75.0));
+    CHECK(valueAt(turned.centroid, 0.9) == Approx(40000.0 / 95.0));
+    CHECK(valueAt(turned.centroid, 1.0) == Approx(400.0));
+    CHECK(valueAt(turned.centroid, 1.5) == Approx(100.0));
+    CHECK(valueAt(turned.centroid, 3.0) == Approx(900.0));
+    CHECK(turned.transients[0].sharpness == 0.3);
+    CHECK(turned.transients[1].sharpness == Approx(0.7));
+    // Without a point inside, about where the range begins.
+    const double begin = 400.0 + 500.0 * 0.1 / 1.5;
+    const Clip lines = invert(clip, EditScope{{1.6, 2.0}});
+    CHECK(valueAt(lines.centroid, 1.6) == Approx(begin));
+    CHECK(valueAt(lines.centroid, 2.0 - 1e-9) == Approx(begin * begin / (400.0 + 500.0 * 0.5 / 1.5)).epsilon(1e-6));
+    CHECK(valueAt(lines.envelope, 1.6) == 0.0); // 1.05 before
+}
+
+TEST_CASE("Transposition moves every frequency by its interval, within the range")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{50.0, 60.0, 70.0, 0, {{0.0, 0.3}}, {{0.0, 61.0}}}};
+    clip.noise = {{100.0, 200.0, {{0.0, 0.1}}}};
+    clip.centroid = {{0.0, 90.0}};
+    const Clip higher = transpose(clip, 12.0);
+    CHECK(higher.bands[0].lowFrequency == Approx(100.0));
+    CHECK(higher.bands[0].centreFrequency == Approx(120.0));
+    CHECK(higher.bands[0].highFrequency == Approx(140.0));
+    CHECK(higher.bands[0].pitch[0].value == Approx(122.0));
+    CHECK(higher.noise[0].lowFrequency == Approx(200.0));
+    CHECK(higher.noise[0].highFrequency == Approx(400.0));
+    CHECK(higher.centroid[0].value == Approx(180.0));
+    CHECK(higher.bands[0].amplitude == clip.bands[0].amplitude);
+    CHECK(transpose(clip, -7.0).bands[0].centreFrequency == Approx(60.0 / std::pow(2.0, 7.0 / 12.0)));
+    CHECK(transpose(clip, 500.0).bands[0].centreFrequency == Approx(60.0 * 256.0)); // 96 semitones at most
+    CHECK(transpose(clip, -500.0).bands[0].centreFrequency == Approx(60.0 / 256.0));
+}
+
 TEST_CASE("Simplified lanes report the error that they have")
 {
     Clip clip;
