@@ -1,8 +1,8 @@
 #pragma once
 
-// What a changed program is made of: every change that mutate.py draws stands in the source beside what was there before,
-// and the environment variable PACINI_MUTANT says which one is on. One build serves all of them (mutant schemata: Untch,
-// Offutt and Harrold 1993). Included before all else, in the changed copy of the sources alone.
+// What a changed program is made of: every change that mutate.py draws stands in the source beside what was there
+// before, and the environment variable PACINI_MUTANT says which one is on. One build serves all of them (mutant
+// schemata: Untch, Offutt and Harrold 1993). Included before all else, in the changed copy of the sources alone.
 
 #include <algorithm>
 #include <atomic>
@@ -27,13 +27,15 @@ inline int number()
 }
 
 /// Whether change N is on, and a note that it was asked. While compiling, never: a constant expression stays as it was.
+/// N + most is the same change in what must not be known while compiling: the value of a constant.
 template <int N>
 constexpr bool on()
 {
-    if (std::is_constant_evaluated())
-        return false;
-    reached[N].store(true, std::memory_order_relaxed);
-    return number() == N;
+    if constexpr (N < most)
+        if (std::is_constant_evaluated())
+            return false;
+    reached[N % most].store(true, std::memory_order_relaxed);
+    return number() == N % most;
 }
 
 /// A literal, or another one.
@@ -81,8 +83,8 @@ inline constexpr Extreme<N, MinIsMeant> extreme{};
 template <int N>
 inline constexpr Clamp<N> clamp{};
 
-// `a + b` becomes `a + plus<N> + b`, which groups as before: the operator and a stand-in on its left make a pair, the pair
-// and the operator the result, of this operator or of the other one.
+// `a + b` becomes `a + plus<N> + b`, which groups as before: the operator and a stand-in on its left make a pair, the
+// pair and the operator the result, of this operator or of the other one.
 #define PACINI_MUTATED_OPERATOR(name, was, changed)                                                                    \
     template <int N>                                                                                                   \
     struct name##_t                                                                                                    \

@@ -1,5 +1,5 @@
-// Tells mutate.py which tests reach which changes: a line for each test case, with its seconds, the numbers of the changes
-// and its name, in the file that the environment variable PACINI_MUTANTS_REACHED names.
+// Tells mutate.py which tests reach which changes: a line for each test case, with its seconds, the numbers of the
+// changes and its name, in the file that the environment variable PACINI_MUTANTS_REACHED names.
 
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
 #include "support/Catch.h"
