@@ -245,6 +245,9 @@ TEST_CASE("AHAP: a raised curve is named as a loss of what it adds to the vibrat
     for (double time = 0.4; time < 0.6; time += 0.0001)
         most = std::max(most, std::abs(playedAmplitude(played, time) - valueAt(clip.bands[0].amplitude, time)));
     CHECK(most > 0.1);
+    REQUIRE(played.events.size() == 4); // before, around and after the event, and itself
+    CHECK(played.events[1].time == Approx(0.499));
+    CHECK(played.events[1].duration == Approx(0.016)); // 15 ms from the event on
     CHECK(losses[0].error == Approx(most).epsilon(0.01));
     CHECK(losses[0].time == Approx(0.499));
     CHECK(losses[0].duration == Approx(0.006));
