@@ -67,6 +67,20 @@ TEST_CASE("A file in a format that is only written is named as that", "[io][form
     CHECK_FALSE(looksLikeClip(folder / "other.h"));
 }
 
+TEST_CASE("A file looks like a clip by the ending of a format that is read, or by how it begins", "[io][formats]")
+{
+    const TempFolder folder;
+    for (const ClipFormat& format : clipFormats())
+        if (format.isRead() && !format.isOwn())
+        {
+            CAPTURE(format.name);
+            CHECK(looksLikeClip(put(folder / ("broken" + std::string(format.extension)), "neither here nor there")));
+        }
+    CHECK(looksLikeClip(put(folder / "clip.wav", writeClipJson(randomFullClip(3)))));
+    CHECK_FALSE(looksLikeClip(put(folder / "sound.wav", "RIFF....WAVEfmt ")));
+    CHECK_FALSE(looksLikeClip(folder / "missing.wav"));
+}
+
 TEST_CASE("A clip that breaks a rule is not written", "[io]")
 {
     const TempFolder folder;

@@ -27,13 +27,15 @@ inline int number()
 }
 
 /// Whether change N is on, and a note that it was asked. While compiling, never: a constant expression stays as it was.
+/// N + most is the same change in what must not be known while compiling: the value of a constant.
 template <int N>
 constexpr bool on()
 {
-    if (std::is_constant_evaluated())
-        return false;
-    reached[N].store(true, std::memory_order_relaxed);
-    return number() == N;
+    if constexpr (N < most)
+        if (std::is_constant_evaluated())
+            return false;
+    reached[N % most].store(true, std::memory_order_relaxed);
+    return number() == N % most;
 }
 
 /// A literal, or another one.

@@ -95,6 +95,8 @@ def changes_of(path, text):
             indent = re.match(r"\s*", lines[line]).group()
             inline = "inline " if "inline" in constant.group() else "static inline " if "static" in constant.group() else ""
             extra = [(start, start + constant.end(), f"{indent}{inline}const ")]
+            # Else the compiler would work it out all the same, as it does for every constant that it can.
+            edits = [(start, end, new.replace("<N", "<mutants::most + N")) for start, end, new in edits]
         elif FIXED.search(lines[line]):
             return
         found.append(Change(path, line + 1, lines[line].strip(), what, [*extra, *edits]))

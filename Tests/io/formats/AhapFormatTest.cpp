@@ -11,8 +11,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace pacini;
 
@@ -102,6 +107,7 @@ TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and shar
 {
     const Json file = Json::parse(writtenFiles(moving(3.0, 200, 5))[0]);
     std::map<std::string, std::pair<double, double>> ends;
+    std::map<std::string, std::size_t> curves;
     for (const Json& entry : file["Pattern"])
     {
         if (!entry.contains("ParameterCurve"))
@@ -112,6 +118,7 @@ TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and shar
         REQUIRE(points.size() <= 16);
         REQUIRE(points.front()["Time"] == 0.0);
         const auto id = curve["ParameterID"].get<std::string>();
+        ++curves[id];
         const double start = curve["Time"].get<double>();
         if (ends.contains(id))
         {
@@ -121,6 +128,7 @@ TEST_CASE("AHAP: curves have at most 16 points, begin at their own time and shar
         ends[id] = {start + points.back()["Time"].get<double>(), points.back()["ParameterValue"].get<double>()};
     }
     REQUIRE(ends.size() == 2);
+    CHECK(curves["HapticSharpnessControl"] == 14); // 200 points, 15 more with each: as few curves as there can be
 }
 
 TEST_CASE("AHAP: continuous events last at most 30 s and leave no gap", "[io][formats]")
@@ -175,6 +183,81 @@ TEST_CASE("AHAP: in one file transients feel as if there were no curves", "[io][
                 1e-4);
     }
     REQUIRE(next == clip.transients.size());
+}
+
+TEST_CASE("AHAP: events in a row that are too near for curves of their own share one that weakens none",
+          "[io][formats]")
+{
+    const auto strengthsIn = [](const Clip& clip)
+    {
+        const test::AhapPattern played = test::parseAhap(writtenFiles(clip)[0]);
+        std::vector<double> strengths;
+        for (const test::AhapEvent& event : played.events)
+            if (event.transient)
+                strengths.push_back(event.intensity * test::controlAt(played.intensity, event.time, 1.0));
+        const auto isContinuous = [](const test::AhapEvent& event)
+        {
+            return !event.transient;
+        };
+        REQUIRE(std::count_if(played.events.begin(), played.events.end(), isContinuous) == 3); // before, in, after it
+        return strengths;
+    };
+    Clip clip;
+    clip.duration = 1.0;
+    // The level rises by a lot within the time that the events need.
+    clip.bands = {{65.0, 182.5, 300.0, 0, {{0.0, 0.01}, {0.11, 0.01}, {0.11, 0.64}, {1.0, 0.64}}, {}}};
+    clip.transients = {{0.1, 0.25, 0.5}, {0.1019, 0.81, 0.5}, {0.1021, 0.25, 0.5}};
+    const std::vector<double> strengths = strengthsIn(clip);
+    REQUIRE(strengths.size() == 3);
+    CHECK(strengths[0] == Approx(0.5).margin(1e-4));
+    CHECK(strengths[1] == Approx(0.9).margin(1e-4));
+    CHECK(strengths[2] == Approx(0.5).margin(1e-4));
+
+    clip.transients.clear();
+    for (int i = 0; i < 12; ++i) // the last is the strongest
+        clip.transients.push_back({0.085 + 0.0019 * i, 0.09 + 0.05 * i, 0.5});
+    const std::vector<double> longer = strengthsIn(clip);
+    REQUIRE(longer.size() == clip.transients.size());
+    for (std::size_t i = 0; i < longer.size(); ++i)
+        CHECK(longer[i] == Approx(std::sqrt(clip.transients[i].amplitude)).margin(1e-4));
+}
+
+TEST_CASE("AHAP: a raised curve is named as a loss of what it adds to the vibration", "[io][formats]")
+{
+    const auto raised = [](const Clip& clip)
+    {
+        const auto exported = writeAhap(clip, {});
+        REQUIRE(exported.ok());
+        std::vector<FormatLoss> found;
+        for (const FormatLoss& loss : exported->losses)
+            if (loss.message.find("raised around events") != std::string::npos)
+                found.push_back(loss);
+        return found;
+    };
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{65.0, 182.5, 300.0, 0, {{0.0, 0.04}, {0.505, 0.04}, {0.505, 0.64}, {1.0, 0.64}}, {}}};
+    clip.transients = {{0.5, 0.81, 0.5}};
+    const std::vector<FormatLoss> losses = raised(clip);
+    REQUIRE(losses.size() == 1);
+    const test::AhapPattern played = test::parseAhap(writtenFiles(clip)[0]);
+    double most = 0.0;
+    for (double time = 0.4; time < 0.6; time += 0.0001)
+        most = std::max(most, std::abs(playedAmplitude(played, time) - valueAt(clip.bands[0].amplitude, time)));
+    CHECK(most > 0.1);
+    REQUIRE(played.events.size() == 4); // before, around and after the event, and itself
+    CHECK(played.events[1].time == Approx(0.499));
+    CHECK(played.events[1].duration == Approx(0.016)); // 15 ms from the event on
+    CHECK(losses[0].error == Approx(most).epsilon(0.01));
+    CHECK(losses[0].time == Approx(0.499));
+    CHECK(losses[0].duration == Approx(0.006));
+
+    clip.bands[0].amplitude = {{0.0, 0.25}, {1.0, 0.25}}; // as it is, the curve is high enough for any event
+    CHECK(raised(clip).empty());
+    clip.bands[0].amplitude = {{0.0, 0.0}, {0.6, 0.0}, {0.7, 0.5}, {1.0, 0.5}}; // silence is not made to sound
+    CHECK(raised(clip).empty());
+    clip.bands[0].amplitude = {{0.0, 1e-6}, {0.4, 1e-6}, {0.6, 2e-6}, {1.0, 0.5}}; // nor what is too weak to be felt
+    CHECK(raised(clip).empty());
 }
 
 TEST_CASE("AHAP: two files keep events out of the curves' way", "[io][formats]")
@@ -291,6 +374,27 @@ TEST_CASE("AHAP: parameters step, curves move, and both scale and shift events",
     REQUIRE(clip.transients[0].sharpness == 1.0);
 }
 
+TEST_CASE("AHAP: nothing sounds before, between and after continuous events", "[io][formats]")
+{
+    const auto event = [](const char* time, const char* duration, const char* intensity)
+    {
+        return R"({"Event": {"EventType": "HapticContinuous", "Time": )" + std::string(time) +
+               R"(, "EventDuration": )" + duration +
+               R"(, "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": )" + intensity + "}]}}";
+    };
+    const auto read =
+        readAhap(pattern(event("0.2", "0.3", "0.8") + ", " + event("1", "0.5", "1") + ", " +
+                         event("1.5", "0.5", "0.6") + R"(, {"Event": {"EventType": "HapticTransient", "Time": 3}})"));
+    REQUIRE((read.ok() ? "" : read.error().text()) == "");
+    REQUIRE(read->clip.bands.size() == 1); // they take turns
+    for (double time = 0.005; time < 3.0; time += 0.01)
+    {
+        CAPTURE(time);
+        const double wanted = time < 0.2 ? 0.0 : time < 0.5 ? 0.64 : time < 1.0 ? 0.0 : time < 1.5 ? 1.0 : 0.36;
+        REQUIRE(valueAt(read->clip.bands[0].amplitude, time) == Approx(time < 2.0 ? wanted : 0.0).margin(1e-9));
+    }
+}
+
 TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refused with its place", "[io][formats]")
 {
     const auto event = [](const std::string& members)
@@ -331,6 +435,8 @@ TEST_CASE("AHAP: what Core Haptics mends is mended with a warning, the rest refu
               .starts_with("Pattern[0].ParameterCurve.ParameterCurveControlPoints[1].Time: is earlier"));
     CHECK(errorOf(pattern(R"({"Parameter": {"ParameterID": "HapticIntensityControl", "Time": 0}})"))
               .starts_with("Pattern[0].Parameter.ParameterValue: is missing"));
+    CHECK(errorOf(R"({"Pattern": [], "Pattern": []})").starts_with("Pattern: is given twice"));
+    CHECK(errorOf(event(good + R"(, "Time": 0.5)")).starts_with("Pattern[0].Event.Time: is given twice"));
     CHECK_FALSE(errorOf("\xEF\xBB\xBF{}").empty());
     CHECK_FALSE(errorOf(R"({"Pattern": [],})").empty());
     CHECK_FALSE(errorOf(std::string(50'000, '[')).empty());
@@ -448,4 +554,35 @@ TEST_CASE("Overlapping slopes are limited where they pass the limit, not before"
     REQUIRE_FALSE(*limitSum(quiet, 1.0, 1000));
     REQUIRE(quiet == kept);
     REQUIRE_FALSE(limitSum(bands = before, 0.5, 3).ok());
+}
+
+TEST_CASE("Slopes that pass the limit between their points stay as they are until there", "[io][formats]")
+{
+    for (const double most : {0.5, 1.0})
+        for (const bool falls : {false, true})
+        {
+            CAPTURE(most, falls);
+            std::vector<Band> bands(2);
+            bands[0].amplitude = {{3.0, 0.1 * most}, {5.0, 1.2 * most}};
+            bands[1].amplitude = {{3.0, 0.3 * most}, {5.0, 0.8 * most}};
+            if (falls)
+                for (Band& band : bands)
+                    std::swap(band.amplitude[0].value, band.amplitude[1].value);
+            const std::vector<Band> before = bands;
+            REQUIRE(*limitSum(bands, most, 1000));
+            for (double time = 3.0; time <= 5.0; time += 0.01)
+            {
+                CAPTURE(time);
+                double sum = 0.0, wanted = 0.0;
+                for (std::size_t i = 0; i < bands.size(); ++i)
+                {
+                    sum += valueAt(bands[i].amplitude, time);
+                    wanted += valueAt(before[i].amplitude, time);
+                }
+                REQUIRE(sum == Approx(std::min(wanted, most)).margin(1e-9));
+                for (std::size_t i = 0; i < bands.size() && wanted < most; ++i)
+                    REQUIRE(valueAt(bands[i].amplitude, time) ==
+                            Approx(valueAt(before[i].amplitude, time)).margin(1e-9));
+            }
+        }
 }

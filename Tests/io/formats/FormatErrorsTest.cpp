@@ -82,6 +82,10 @@ TEST_CASE("Broken HJIF is refused with its place", "[formats]")
                  {R"("perception_modality": "Vibrotactile", )", "", "perceptions[0].perception_modality"},
                  {R"("gain": 1)", R"("gain": "1")", channel + ".gain"},
                  {R"("gain": 1)", R"("gain": 1e300)", channel + ".gain"},
+                 {R"("avatar_id": 0, )", R"("avatar_id": 0, "perception_unit_exponent": 13, )",
+                  "perceptions[0].perception_unit_exponent"},
+                 {R"("avatar_id": 0, )", R"("avatar_id": 0, "perception_unit_exponent": -13, )",
+                  "perceptions[0].perception_unit_exponent"},
                  {R"("band_type": "VectorialWave")", R"("band_type": "Wave")", channel + ".bands[0].band_type"},
                  {R"("lower_frequency_limit": 40)", R"("lower_frequency_limit": 140)", channel + ".bands[0]"},
                  {R"("position": 600)", R"("position": -1)", channel + ".bands[0].effects[1].position"},
@@ -106,6 +110,10 @@ TEST_CASE("Broken wavelet bands of HJIF are refused with their place", "[formats
         "upper_frequency_limit": 8000, "block_length": 2, "effects": [)" +
                                               block + "]}");
     REQUIRE(readHjif(sample));
+    std::string shortest = sample; // a block of 16 samples in one tick
+    shortest.replace(shortest.find(R"("block_length": 2)"), 17, R"("block_length": 1)");
+    shortest.replace(shortest.find(R"("timescale": 1000)"), 17, R"("timescale": 500)");
+    CHECK(readHjif(shortest));
     std::string longest = block;
     for (int i = 0; i < 600; ++i)
         longest += ", " + block;

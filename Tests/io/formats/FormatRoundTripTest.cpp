@@ -134,6 +134,46 @@ TEST_CASE("A drawn curve of HJIF becomes the sinusoid that it draws", "[formats]
     CHECK(read.clip.bands[0].centreFrequency == Approx(100.0));
 }
 
+TEST_CASE("Steps and points within a millisecond stay what they are in HJIF", "[formats]")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    clip.bands = {{90.0, 100.0, 110.0, 0, {}, {{0.0, 100.0}}}};
+    clip.bands[0].amplitude = {{0.0, 0.2},    {0.5, 0.2},    {0.5, 0.6},    {1.0, 0.6},    {1.0, 0.1}, {1.2, 0.1},
+                               {1.2001, 0.4}, {1.2002, 0.3}, {1.2003, 0.8}, {1.2011, 0.5}, {1.6, 0.5}, {2.0, 0.0}};
+    const ImportedClip read = readBack(*clipFormatNamed("hjif"), written(*clipFormatNamed("hjif"), clip));
+    REQUIRE(read.clip.bands.size() == 1);
+    for (double time = 0.0; time < 2.0; time += 0.01)
+    {
+        CAPTURE(time);
+        double nearest = 1.0;
+        for (const double moved : {-0.0021, -0.0011, 0.0, 0.0011, 0.0021}) // points of one millisecond take turns
+            nearest = std::min(nearest, std::abs(valueAt(read.clip.bands[0].amplitude, time + moved) -
+                                                 valueAt(clip.bands[0].amplitude, time)));
+        CHECK(nearest < 0.005);
+    }
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.499) == Approx(0.2).margin(0.001));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 0.502) == Approx(0.6).margin(0.001));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 1.1) == Approx(0.1).margin(0.001));
+    CHECK(valueAt(read.clip.bands[0].amplitude, 1.4) == Approx(0.5).margin(0.001));
+}
+
+TEST_CASE("The names in a C array are those of the clip, as C has names", "[formats]")
+{
+    Clip clip;
+    clip.duration = 0.1;
+    clip.name = "2 Azure-buzz!";
+    const auto exported = writeCArray(clip, {});
+    REQUIRE(exported);
+    const std::string& text = exported->files.at(0).bytes;
+    CAPTURE(text.substr(0, 300));
+    CHECK(text.starts_with("#ifndef HAPTIC_CLIP_2_AZURE_BUZZ_H\n#define HAPTIC_CLIP_2_AZURE_BUZZ_H\n"));
+    CHECK(text.find("#define HAPTIC_CLIP_2_AZURE_BUZZ_SAMPLE_RATE 8000\n") != std::string::npos);
+    CHECK(text.find("#define HAPTIC_CLIP_2_AZURE_BUZZ_LENGTH 800\n") != std::string::npos);
+    CHECK(text.find("int8_t haptic_clip_2_azure_buzz[HAPTIC_CLIP_2_AZURE_BUZZ_LENGTH]") != std::string::npos);
+    CHECK(isCArray(text));
+}
+
 TEST_CASE("Channels of HJIF are merged with a warning", "[formats]")
 {
     std::string text = test::hjifSample();

@@ -95,6 +95,28 @@ TEST_CASE("Keyframes of HJIF are more where they are needed more, and fewer at a
     CHECK(pointsBetween(more, 0.0, 0.9) <= pointsBetween(few, 0.0, 0.9) + 3);
 }
 
+TEST_CASE("Keyframes of HJIF are the same ones for a clip of any strength", "[formats]")
+{
+    const Clip clip = swellingBands();
+    constexpr double stronger = 512.0;
+    Clip strong = clip;
+    for (Band& band : strong.bands)
+        for (Breakpoint& point : band.amplitude)
+            point.value *= stronger;
+    const HjifFit fit(clip, 0.01, true), strongFit(strong, 0.01 * stronger, true);
+    const std::vector<double> need(fit.steps(), 1.0);
+    const auto curves = fit.curves(60.0, need), strongCurves = strongFit.curves(60.0, need);
+    for (std::size_t band = 0; band < curves.size(); ++band)
+    {
+        REQUIRE(strongCurves[band].size() == curves[band].size());
+        for (std::size_t i = 0; i < curves[band].size(); ++i)
+        {
+            CHECK(strongCurves[band][i].time == curves[band][i].time);
+            CHECK(strongCurves[band][i].value / stronger == Approx(curves[band][i].value).margin(1e-6));
+        }
+    }
+}
+
 TEST_CASE("Silent and very short bands have keyframes, too, or none", "[formats]")
 {
     for (const double duration : {0.0, 0.001, 0.006, 0.011})

@@ -156,6 +156,12 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     CHECK(errorOf("hasp", "{}").starts_with("clips: is missing"));
     CHECK(errorOf("hasp", hasp(haspClip("Door", -1.0)))
               .starts_with("clips[0].haptic.signals.continuous.envelopes.amplitude[1].time: is before 0"));
+    // What the clip warns of is said with its place in the project.
+    std::string author = haspClip("Door");
+    author.insert(author.find("\"signals\""), R"("metadata": {"author": "someone"}, )");
+    const auto warned = readAs("hasp", hasp("{}, " + author));
+    REQUIRE(warned.warnings.size() == 1);
+    CHECK(warned.warnings[0].starts_with("clips[1].haptic.metadata: author"));
     // By its content it is told from a clip whatever it is called.
     CHECK(clipFormatOf(".json", hasp(haspClip("Door")))->name == "hasp");
     CHECK(clipFormatOf(".haptic", hasp(haspClip("Door")))->name == "hasp");

@@ -23,13 +23,13 @@ std::set<std::int64_t> stepTimes(const SingleVoice& voice, std::int64_t end, std
 {
     std::set<std::int64_t> times{0, end};
     if (keepsPoints)
-        for (std::size_t i = 0; i < voice.amplitude.size(); ++i)
+        for (std::size_t i = 1; i < voice.amplitude.size(); ++i) // the first point is at 0
         {
-            const Breakpoint& point = voice.amplitude[i];
+            const Breakpoint &before = voice.amplitude[i - 1], &point = voice.amplitude[i];
             times.insert(std::clamp<std::int64_t>(androidTick(point.time), 0, end));
-            if (i > 0 && voice.amplitude[i - 1].value != point.value)
-                for (std::int64_t t = androidTick(voice.amplitude[i - 1].time) + step;
-                     t + shortestStep <= androidTick(point.time); t += step)
+            if (before.value != point.value)
+                for (std::int64_t t = androidTick(before.time) + step; t + shortestStep <= androidTick(point.time);
+                     t += step)
                     times.insert(t);
         }
     else

@@ -55,9 +55,9 @@ double putOnTicks(const Curve& curve, Put put)
         const bool isLastHere = i + 1 == curve.size() || tickOf(curve[i + 1].time) > tick;
         if (tick <= last)
         {
-            if (!isLastHere && last > tick)
+            if (!isLastHere) // what comes before the step ends with the first point here
                 continue;
-            tick = last + (isLastHere ? 1 : 0);
+            tick = last + 1;
         }
         put(tick, curve[i].value);
         moved = std::max(moved, std::abs(static_cast<double>(tick) / ticksPerSecond - curve[i].time));

@@ -1,0 +1,59 @@
+// How far an HJIF file is from its clip, in points.
+
+#include "io/formats/hjif/HjifLikeness.h"
+
+#include "support/Catch.h"
+
+#include <cmath>
+
+using namespace pacini;
+
+namespace
+{
+Clip hum(double amplitude)
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {{90.0, 100.0, 110.0, 0, {{0.0, amplitude}, {1.0, amplitude}}, {{0.0, 100.0}}}};
+    return clip;
+}
+
+Clip tap()
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.transients = {{0.5, 0.8, 0.0}};
+    return clip;
+}
+
+Clip silence()
+{
+    Clip clip;
+    clip.duration = 1.0;
+    return clip;
+}
+} // namespace
+
+TEST_CASE("A file of the same waves is no distance from its clip, silence none from silence", "[formats]")
+{
+    const HjifDistance same = HjifLikeness(hum(0.5), {}).distanceTo(hum(0.5));
+    CHECK(std::abs(same.value) < 1e-6);
+    CHECK(same.events.empty());
+    const HjifDistance nothing = HjifLikeness(silence(), {}).distanceTo(silence());
+    CHECK(nothing.value == 0.0);
+    CHECK(nothing.events.empty());
+}
+
+TEST_CASE("An event that only one of clip and file has is far and told with its time", "[formats]")
+{
+    const HjifDistance lost = HjifLikeness(tap(), {}).distanceTo(silence());
+    REQUIRE(lost.events.size() == 1);
+    CHECK(lost.events[0] == Approx(0.5).margin(0.02));
+    CHECK(lost.value >= 100.0); // as something else altogether
+    const HjifDistance added = HjifLikeness(silence(), {}).distanceTo(tap());
+    REQUIRE(added.events.size() == 1);
+    CHECK(added.events[0] == Approx(0.5).margin(0.02));
+    const HjifDistance kept = HjifLikeness(tap(), {}).distanceTo(tap());
+    CHECK(kept.events.empty());
+    CHECK(kept.value < 0.5 * lost.value);
+}
