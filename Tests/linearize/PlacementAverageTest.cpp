@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -184,4 +186,35 @@ TEST_CASE("The order of the placements does not matter", "[linearize]")
     CHECK(first.outliers[0].shape == Approx(last.outliers[0].shape));
     for (std::size_t k = 0; k < first.response.size(); ++k)
         CHECK(first.response.level[k] == Approx(last.response.level[k]).margin(1e-9));
+}
+
+TEST_CASE("Medians, their deviations and Huber's mean are those of their definitions", "[linearize]")
+{
+    CHECK(detail::medianOf({3.0, 1.0, 2.0}) == 2.0);
+    CHECK(detail::medianOf({4.0, 1.0, 3.0, 2.0}) == 2.5);
+    CHECK(detail::medianOf({7.0}) == 7.0);
+    CHECK(detail::robustDeviation({1.0, 2.0, 4.0, 9.0, -3.0}, 2.0) == Approx(1.4826 * 2.0));
+    // Nothing stands out: the plain mean. One of five is far: it counts as if it were 6 dB from the mean m of all, so
+    // that the other four, which are at 0, balance it: 4 m = 6.
+    CHECK(detail::huberMean({0.0, 1.0, 2.0, 5.0}) == Approx(2.0));
+    CHECK(detail::huberMean({0.0, 0.0, 0.0, 0.0, 100.0}) == Approx(1.5).epsilon(1e-3));
+}
+
+TEST_CASE("The limits of the average may be 0 to 60 dB, and only its range is compared", "[linearize]")
+{
+    const auto good = wearers(3, 1, BodyPoint::device);
+    for (const auto& [limit, allowed] :
+         {std::pair(0.0, true), std::pair(60.0, true), std::pair(-0.01, false), std::pair(60.01, false)})
+    {
+        PlacementAverageParams params;
+        params.offsetLimit = limit;
+        CHECK(averagePlacements(good, params).ok() == allowed);
+        params = {};
+        params.shapeLimit = limit;
+        CHECK(averagePlacements(good, params).ok() == allowed);
+    }
+    const std::vector<FrequencyResponse> many(1001,
+                                              FrequencyResponse{logSpaced(20.0, 1000.0, 8), std::vector<double>(8)});
+    CHECK(averagePlacements(std::span(many).first(1000)).ok());
+    CHECK(averagePlacements(many).error().where == "placements");
 }
