@@ -306,7 +306,8 @@ TEST_CASE("A fade-out is the fade-in the other way round")
     clip.transients = {{0.7, 0.8, 0.5}};
     for (const FadeShape shape : {FadeShape::linear, FadeShape::smooth, FadeShape::square})
     {
-        const EditScope scope{{0.5, 1.3}};
+        EditScope scope;
+        scope.range = {0.5, 1.3};
         const Clip out = fade(clip, scope, FadeDirection::out, shape);
         const Clip in = fade(clip, scope, FadeDirection::in, shape);
         for (int i = 1; i < 64; ++i)
@@ -324,7 +325,9 @@ TEST_CASE("Turned upside down, amplitudes go about half of full drive and freque
     clip.envelope = {{0.0, 0.3}, {1.0, 0.1}, {1.5, 0.9}, {1.7, 1.2}, {3.0, 0.5}};
     clip.centroid = {{0.0, 50.0}, {1.0, 100.0}, {1.5, 400.0}, {3.0, 900.0}};
     clip.transients = {{0.5, 0.8, 0.3}, {1.2, 0.8, 0.3}};
-    const Clip turned = invert(clip, EditScope{{0.9, 2.0}});
+    EditScope scope;
+    scope.range = {0.9, 2.0};
+    const Clip turned = invert(clip, scope);
     CHECK(valueAt(turned.envelope, 0.5) == Approx(0.2));
     CHECK(valueAt(turned.envelope, 1.0) == Approx(0.9));
     CHECK(valueAt(turned.envelope, 1.25) == Approx(0.5));
@@ -341,7 +344,8 @@ TEST_CASE("Turned upside down, amplitudes go about half of full drive and freque
     CHECK(turned.transients[1].sharpness == Approx(0.7));
     // Without a point inside, about where the range begins.
     const double begin = 400.0 + 500.0 * 0.1 / 1.5;
-    const Clip lines = invert(clip, EditScope{{1.6, 2.0}});
+    scope.range = {1.6, 2.0};
+    const Clip lines = invert(clip, scope);
     CHECK(valueAt(lines.centroid, 1.6) == Approx(begin));
     CHECK(valueAt(lines.centroid, 2.0 - 1e-9) == Approx(begin * begin / (400.0 + 500.0 * 0.5 / 1.5)).epsilon(1e-6));
     CHECK(valueAt(lines.envelope, 1.6) == 0.0); // 1.05 before
