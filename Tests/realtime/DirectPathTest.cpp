@@ -14,12 +14,12 @@ using namespace pacini;
 
 namespace
 {
-constexpr double fs = 6000.0;
+constexpr double pathRate = 6000.0;
 constexpr Hertz low(20.0), border(100.0), high(1000.0);
 
 std::complex<double> warped(double f, Hertz corner)
 {
-    return {0.0, std::tan(std::numbers::pi * f / fs) / std::tan(std::numbers::pi * corner.value / fs)};
+    return {0.0, std::tan(std::numbers::pi * f / pathRate) / std::tan(std::numbers::pi * corner.value / pathRate)};
 }
 
 /// Gains below and above the border as the header states them: a shelf whose poles, those of Butterworth's fourth
@@ -73,14 +73,15 @@ TEST_CASE("the direct path is a range between Butterworth slopes with a Butterwo
          {std::pair{1.0, 1.0}, {0.5, 0.5}, {1.0, 0.25}, {0.1, 0.8}, {2.0, 0.0}, {0.0, 1.5}, {0.9, 1.0}})
     {
         DirectPath path;
-        path.design(low, border, high, fs);
+        path.design(low, border, high, pathRate);
         path.jump(below, above);
         CHECK_FALSE(path.silent());
         const auto out = run(path, impulse, below, above, 1.0);
         for (const double f : {10.0, 20.0, 60.0, 100.0, 140.0, 400.0, 1000.0, 2000.0})
         {
             CAPTURE(below, above, f);
-            CHECK(std::abs(test::spectrumAt(std::span<const double>(out), f, fs) - expected(f, below, above)) < 1e-6);
+            CHECK(std::abs(test::spectrumAt(std::span<const double>(out), f, pathRate) - expected(f, below, above)) <
+                  1e-6);
         }
     }
 }
@@ -94,7 +95,7 @@ TEST_CASE("gains of the direct path move in straight lines from hop to hop", "[r
     DirectPath plain, moved;
     for (DirectPath* path : {&plain, &moved})
     {
-        path->design(low, border, high, fs);
+        path->design(low, border, high, pathRate);
         path->jump(1.0, 1.0);
     }
     const auto whole = run(plain, in, 1.0, 1.0, 1.0);
@@ -115,9 +116,9 @@ TEST_CASE("the shelf of the direct path moves, comes and goes without a jump", "
         for (const bool lowerMoves : {false, true})
         {
             CAPTURE(f, lowerMoves);
-            const double turn = 2.0 * std::numbers::pi * f / fs;
+            const double turn = 2.0 * std::numbers::pi * f / pathRate;
             DirectPath path;
-            path.design(low, border, high, fs);
+            path.design(low, border, high, pathRate);
             path.jump(1.0, 1.0);
             double largest = 0.0, before = 0.0, steepest = 0.0;
             for (std::size_t hop = 0; hop < 600; ++hop)
@@ -147,7 +148,7 @@ TEST_CASE("the direct path has forgotten all after a reset", "[realtime]")
     std::vector<double> in(controlHop * 20, 0.7);
     DirectPath path, fresh;
     for (DirectPath* one : {&path, &fresh})
-        one->design(low, border, high, fs);
+        one->design(low, border, high, pathRate);
     for (const auto& [below, above] : {std::pair{1.0, 1.0}, {0.3, 0.8}})
     {
         (void)run(path, in, 0.5, 1.0, 0.7);

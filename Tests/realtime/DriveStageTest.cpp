@@ -11,7 +11,7 @@ using namespace pacini;
 
 namespace
 {
-constexpr double fs = 6000.0;
+constexpr double stageRate = 6000.0;
 
 /// A hop of the stage, every sample of it `value`.
 std::vector<float> hop(DriveStage& stage, double value, double gate = 1.0)
@@ -31,7 +31,7 @@ TranslatorDesign motorDesign(double riseTime)
     motor.polyphony = 0;
     motor.range = {133.0, 200.0, 60.0};
     motor.response = {riseTime, riseTime};
-    return designTranslator(setup, fs);
+    return designTranslator(setup, stageRate);
 }
 } // namespace
 
@@ -54,14 +54,14 @@ TEST_CASE("an event drives a motor for its rise time, 12 ms at least, and then n
             const auto out = hop(stage, 0.0);
             if (stage.bursting())
                 CHECK(out.back() > 0.0f);
-            driven += stage.bursting() ? static_cast<double>(controlHop) / fs : 0.0;
+            driven += stage.bursting() ? static_cast<double>(controlHop) / stageRate : 0.0;
             lastWanted = static_cast<double>(out.back());
         }
         CHECK_FALSE(stage.bursting());
         CHECK(lastWanted == 0.0);
         const double wanted = std::max(rise, 0.012);
         CHECK(driven <= wanted + 1e-9);
-        CHECK(driven > wanted - 1.01 * static_cast<double>(controlHop) / fs);
+        CHECK(driven > wanted - 1.01 * static_cast<double>(controlHop) / stageRate);
         // Forgotten by a reset.
         stage.beginBurst(0.6);
         stage.reset();
@@ -71,7 +71,7 @@ TEST_CASE("an event drives a motor for its rise time, 12 ms at least, and then n
 
 TEST_CASE("the drive fades in a straight line of four hops, and says when it has", "[realtime]")
 {
-    const TranslatorDesign design = designTranslator({}, fs);
+    const TranslatorDesign design = designTranslator({}, stageRate);
     DriveStage stage;
     stage.adopt(design);
     stage.jump(0.5);
@@ -100,7 +100,7 @@ TEST_CASE("the drive fades in a straight line of four hops, and says when it has
 
 TEST_CASE("without limits to keep, the drive stage limits at full scale and says how much", "[realtime]")
 {
-    const TranslatorDesign design = designTranslator({}, fs);
+    const TranslatorDesign design = designTranslator({}, stageRate);
     DriveStage stage;
     stage.adopt(design);
     stage.jump(1.0);

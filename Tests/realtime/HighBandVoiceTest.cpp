@@ -12,7 +12,7 @@ using namespace pacini;
 
 namespace
 {
-constexpr double fs = 6000.0;
+constexpr double voiceRate = 6000.0;
 
 /// What the voice plays of a tone of `amplitude`, as a sinusoid of a quarter of the rate: every second frame is its
 /// amplitude.
@@ -23,8 +23,8 @@ std::vector<double> played(HighBandVoice& voice, double f, double amplitude, dou
     {
         std::vector<double> in(controlHop), out(controlHop, 0.0);
         for (std::size_t i = 0; i < controlHop; ++i)
-            in[i] =
-                amplitude * std::sin(2.0 * std::numbers::pi * f * static_cast<double>(hop * controlHop + i) / fs + 0.3);
+            in[i] = amplitude *
+                    std::sin(2.0 * std::numbers::pi * f * static_cast<double>(hop * controlHop + i) / voiceRate + 0.3);
         voice.aim(gain, 1.0, 0.25);
         voice.process(in, out, 0);
         for (std::size_t i = 0; i < controlHop; i += 2)
@@ -39,7 +39,7 @@ struct Parts
 {
     explicit Parts(double f)
     {
-        const double r = std::tan(std::numbers::pi * f / fs) / std::tan(std::numbers::pi * 320.0 / fs);
+        const double r = std::tan(std::numbers::pi * f / voiceRate) / std::tan(std::numbers::pi * 320.0 / voiceRate);
         below = 1.0 / (1.0 + r * r * r * r);
         above = 1.0 - below;
     }
@@ -54,7 +54,7 @@ TEST_CASE("the high-band voice is as strong as what lies above the border, less 
         {
             CAPTURE(f, gain);
             HighBandVoice voice;
-            voice.design(fs);
+            voice.design(voiceRate);
             voice.jump(gain);
             const auto sounds = played(voice, f, 0.5, gain, 400);
             double mean = 0.0;
@@ -69,7 +69,7 @@ TEST_CASE("the high-band voice is as strong as what lies above the border, less 
 TEST_CASE("the high-band voice follows within 4 ms, and is silent soon after its sound", "[realtime]")
 {
     HighBandVoice voice;
-    voice.design(fs);
+    voice.design(voiceRate);
     CHECK(voice.silent());
     voice.jump(1.0);
     // 1.5 kHz: every hop has two whole periods, so that nothing ripples.
@@ -79,9 +79,9 @@ TEST_CASE("the high-band voice follows within 4 ms, and is silent soon after its
     // is played as it rises.
     const auto at = [&](double seconds)
     {
-        return sounds[static_cast<std::size_t>(std::lround(seconds * fs / 2.0)) - 1] / whole;
+        return sounds[static_cast<std::size_t>(std::lround(seconds * voiceRate / 2.0)) - 1] / whole;
     };
-    const double hop = static_cast<double>(controlHop) / fs;
+    const double hop = static_cast<double>(controlHop) / voiceRate;
     CHECK(at(hop) == 0.0);
     for (const double k : {4.0, 6.0, 8.0}) // before, the filters still begin
         CHECK(at((k + 1.0) * hop) == Approx(std::sqrt(1.0 - std::exp(-k * hop / 0.004))).epsilon(0.03));
