@@ -17,7 +17,7 @@ from pathlib import Path
 
 from check_warnings import LONE_HEADER, ROOT
 
-NEWEST = 24
+NEWEST = 16
 
 
 def newest_first():

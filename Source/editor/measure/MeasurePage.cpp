@@ -199,7 +199,7 @@ void MeasurePage::askForFile(const juce::String& title, const juce::String& patt
     using Browser = juce::FileBrowserComponent;
     chooser->launchAsync(Browser::canSelectFiles |
                              (saving ? Browser::saveMode | Browser::warnAboutOverwriting : Browser::openMode),
-                         [chosen](const juce::FileChooser& done)
+                         [chosen = std::move(chosen)](const juce::FileChooser& done)
                          {
                              if (done.getResult() != juce::File())
                                  chosen(done.getResult());
