@@ -63,10 +63,9 @@ def write_sources(chosen):
     for number, change in enumerate(chosen):
         if not change.dropped:
             by_path[change.path].append((number, change))
-    files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True,
-                           check=True).stdout.splitlines()
     kept = set()
-    for name in files:
+    for name in (str(path.relative_to(ROOT)) for top in sorted(ROOT.iterdir()) if top.name not in ("build", ".git")
+                 for path in ([top] if top.is_file() else sorted(top.rglob("*")))):
         source, target = ROOT / name, WORK / "source" / name
         if not source.is_file():
             continue

@@ -23,7 +23,10 @@ NEWEST = 16
 def newest_first():
     """Paths below the checkout, by the last commit that changed them; those that no commit has yet come first."""
     def lines(*command):
-        return subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+        done = subprocess.run(["git", "-c", f"safe.directory={ROOT}", *command], cwd=ROOT, capture_output=True, text=True)
+        return done.stdout.splitlines() if done.returncode == 0 else []
+    if lines("rev-list", "--count", "-n", "2", "HEAD") != ["2"]:
+        return None  # a copy, or a clone without its history
     return dict.fromkeys([*lines("diff", "--name-only", "HEAD"), *lines("ls-files", "-o", "--exclude-standard"),
                           *(line for line in lines("log", "--no-merges", "--format=", "--name-only") if line)])
 
@@ -56,7 +59,11 @@ def main():
     database.mkdir(exist_ok=True)
     (database / "compile_commands.json").write_text(json.dumps(list(known.values())))
 
-    chosen = [path for path in newest_first() if path in known and path.startswith(("Core/", "Source/"))]
+    newest = known if options.all else newest_first()
+    if newest is None:
+        print("check_tidy: without the history nobody knows what changed last; --all looks at all of it")
+        return 0
+    chosen = [path for path in newest if path in known and path.startswith(("Core/", "Source/"))]
     chosen = [path for path in chosen if re.search(options.only, path)]
     if not options.all:
         chosen = chosen[:options.newest]
