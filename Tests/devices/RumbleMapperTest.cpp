@@ -1,6 +1,7 @@
 #include "devices/RumbleMapper.h"
 
 #include "devices/BandTones.h"
+#include "devices/DecodeRumble.h"
 #include "support/Catch.h"
 
 #include <algorithm>
