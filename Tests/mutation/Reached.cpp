@@ -1,5 +1,5 @@
-// Tells mutate.py which tests reach which changes: a line for each test case, with its seconds, the numbers of the
-// changes and its name, in the file that the environment variable PACINI_MUTANTS_REACHED names.
+// Tells mutate.py which tests reach which changes: a line for each test case that passes, with its seconds, the numbers
+// of the changes and its name, in the file that the environment variable PACINI_MUTANTS_REACHED names.
 
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
 #include "support/Catch.h"
@@ -35,7 +35,9 @@ public:
     void testCaseEnded(const Catch::TestCaseStats& test) override
     {
         TestEventListenerBase::testCaseEnded(test);
-        write(std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(), test.testInfo.name);
+        if (test.totals.testCases.failed == 0)
+            write(std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(),
+                  test.testInfo.name);
     }
 
 private:
