@@ -73,12 +73,13 @@ TEST_CASE("a whole decimator passes what is asked for, and about 60 dB down lies
         std::size_t factor;
         double fs, pass;
     };
-    for (const auto& [factor, fs, pass] : {Rate{2, 12000.0, 1000.0},
-                                           {7, 44100.0, 1000.0},
-                                           {8, 48000.0, 1000.0},
-                                           {3, 22050.0, 500.0},
-                                           {128, 768000.0, 1000.0}})
+    for (const auto& [factor, rate, pass] : {Rate{2, 12000.0, 1000.0},
+                                             {7, 44100.0, 1000.0},
+                                             {8, 48000.0, 1000.0},
+                                             {3, 22050.0, 500.0},
+                                             {128, 768000.0, 1000.0}})
     {
+        const double fs = rate;
         CAPTURE(factor, fs, pass);
         const auto taps = decimatorTaps(factor, fs, pass);
         const std::size_t n = taps.size();
