@@ -20,14 +20,39 @@
 
 using namespace pacini;
 
+namespace
+{
+bool alike(double a, double b)
+{
+    return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+}
+
+bool alike(const BiquadCoefficients& a, const BiquadCoefficients& b)
+{
+    return alike(a.b0, b.b0) && alike(a.b1, b.b1) && alike(a.b2, b.b2) && alike(a.a1, b.a1) && alike(a.a2, b.a2);
+}
+
+bool alike(const StateVariableCoefficients& a, const StateVariableCoefficients& b)
+{
+    return alike(a.loop.g, b.loop.g) && alike(a.loop.k, b.loop.k) && alike(a.high, b.high) && alike(a.band, b.band) &&
+           alike(a.low, b.low);
+}
+
+bool alike(const BiquadCascadeCoefficients& a, const BiquadCascadeCoefficients& b)
+{
+    return std::equal(a.sections.begin(), a.sections.end(), b.sections.begin(), b.sections.end(),
+                      [](const auto& x, const auto& y) { return alike(x, y); });
+}
+} // namespace
+
 TEST_CASE("Filters are designed within their limits, and at the lower one for what is no number", "[filters]")
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double fs = 50000.0;
     CHECK(clampedFrequency(1000_Hz, fs) == 1000.0);
-    CHECK(clampedFrequency(0_Hz, fs) == 1e-7 * fs);
-    CHECK(clampedFrequency(Hertz(nan), fs) == 1e-7 * fs);
-    CHECK(clampedFrequency(1_kHz, 1000.0) == 0.4999 * 1000.0);
+    CHECK(alike(clampedFrequency(0_Hz, fs), 1e-7 * fs));
+    CHECK(alike(clampedFrequency(Hertz(nan), fs), 1e-7 * fs));
+    CHECK(alike(clampedFrequency(1_kHz, 1000.0), 499.9));
     CHECK(clampedQ(3.0) == 3.0);
     CHECK(clampedQ(0.0) == 1e-6);
     CHECK(clampedQ(1e9) == 1e5);
@@ -40,12 +65,12 @@ TEST_CASE("Filters are designed within their limits, and at the lower one for wh
     {
         const BiquadParams beyond{type, Hertz(1e9), 1e9, Decibels(1e3)};
         const BiquadParams at{type, Hertz(0.4999 * fs), 1e5, Decibels(120.0)};
-        CHECK(designBiquad(beyond, fs) == designBiquad(at, fs));
-        CHECK(designStateVariable(beyond, fs) == designStateVariable(at, fs));
+        CHECK(alike(designBiquad(beyond, fs), designBiquad(at, fs)));
+        CHECK(alike(designStateVariable(beyond, fs), designStateVariable(at, fs)));
         const BiquadParams below{type, Hertz(-1.0), -1.0, Decibels(-1e3)};
         const BiquadParams lowest{type, Hertz(1e-7 * fs), 1e-6, Decibels(-120.0)};
-        CHECK(designBiquad(below, fs) == designBiquad(lowest, fs));
-        CHECK(designStateVariable(below, fs) == designStateVariable(lowest, fs));
+        CHECK(alike(designBiquad(below, fs), designBiquad(lowest, fs)));
+        CHECK(alike(designStateVariable(below, fs), designStateVariable(lowest, fs)));
     }
 }
 
@@ -109,12 +134,12 @@ TEST_CASE("A band-pass of no width is as narrow as is allowed, and a band-pass e
     {
         return designButterworth({ButterworthType::bandpass, 3, Hertz(low), Hertz(high)}, fs);
     };
-    CHECK(bandpass(1000.0, 500.0) == bandpass(1000.0, 1000.0 * (1.0 + 1e-4)));
-    CHECK(bandpass(1000.0, 1000.0) == bandpass(1000.0, 1000.0 * (1.0 + 1e-4)));
-    CHECK_FALSE(bandpass(1000.0, 1000.2) == bandpass(1000.0, 1000.0));
-    CHECK(bandpass(1000.0, 1e6) == bandpass(1000.0, 0.4999 * fs));
-    CHECK(bandpass(1e6, 1e6) == bandpass(0.4999 * fs / (1.0 + 1e-4), 0.4999 * fs));
-    CHECK(bandpass(-5.0, 100.0) == bandpass(1e-7 * fs, 100.0));
+    CHECK(alike(bandpass(1000.0, 500.0), bandpass(1000.0, 1000.0 * (1.0 + 1e-4))));
+    CHECK(alike(bandpass(1000.0, 1000.0), bandpass(1000.0, 1000.0 * (1.0 + 1e-4))));
+    CHECK_FALSE(alike(bandpass(1000.0, 1000.2), bandpass(1000.0, 1000.0)));
+    CHECK(alike(bandpass(1000.0, 1e6), bandpass(1000.0, 0.4999 * fs)));
+    CHECK(alike(bandpass(1e6, 1e6), bandpass(0.4999 * fs / (1.0 + 1e-4), 0.4999 * fs)));
+    CHECK(alike(bandpass(-5.0, 100.0), bandpass(1e-7 * fs, 100.0)));
     CHECK(designButterworth({ButterworthType::bandpass, 99, 100_Hz, 200_Hz}, fs).sections.size() == 16);
     CHECK(designButterworth({ButterworthType::lowpass, 99, 100_Hz, 200_Hz}, fs).sections.size() == 8);
     CHECK(designButterworth({ButterworthType::highpass, 0, 100_Hz, 200_Hz}, fs).sections.size() == 1);
