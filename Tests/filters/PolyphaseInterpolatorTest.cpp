@@ -1,8 +1,17 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/filters/PolyphaseInterpolator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -107,5 +116,30 @@ TEST_CASE("Pieces of any size and a reset do not show, and processing makes no h
         interpolator.process(x, out);
         interpolator.reset();
         CHECK(guard.traffic() == 0);
+    }
+}
+
+TEST_CASE("The taps of an interpolator are Kaiser's for 80 dB and as they were before", "[filters]")
+{
+    struct Design
+    {
+        std::size_t factor;
+        double pass;
+    };
+    for (const auto& [factor, pass] : {Design{2, 0.1}, {3, 0.3}, {8, 1.0 / 6.0}, {5, 0.44}})
+    {
+        CAPTURE(factor, pass);
+        PolyphaseInterpolator interpolator(factor, pass);
+        // (A - 7.95) / (14.36 width) + 1, made even; half of it is the delay.
+        const double least = (80.0 - 7.95) / (14.36 * (1.0 - 2.0 * pass)) + 1.0;
+        const auto taps = static_cast<double>(2 * interpolator.latencyFrames() / factor);
+        CHECK(taps >= least);
+        CHECK(taps < least + 2.0);
+        const auto h = raised(interpolator, impulse(static_cast<std::size_t>(taps) + 3));
+        CHECK(h[interpolator.latencyFrames()] == Approx(1.0).epsilon(1e-3));
+        for (std::size_t n = static_cast<std::size_t>(taps) * factor; n < h.size(); ++n)
+            CHECK(h[n] == 0.0f);
+        checkPinned("filters/interpolator by " + std::to_string(factor) + ", pass " + std::to_string(pass).substr(0, 4),
+                    std::vector<double>(h.begin(), h.end()), 2e-6);
     }
 }

@@ -1,12 +1,18 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
+#include "support/Pinned.h"
 
 #include <pacini/filters/Resampler.h>
 #include <pacini/foundation/Random.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -137,4 +143,68 @@ TEST_CASE("Rates outside 2 to 768 kHz are refused", "[filters]")
         CHECK(result.error().where == "sampleRate");
     }
     CHECK(resample(std::span<const float>(x), 2000, 768000).ok());
+}
+
+TEST_CASE("A resampler knows which inputs an output needs", "[filters]")
+{
+    const Resampler<double> same(8000, 8000);
+    CHECK(same.firstInput(5) == 5);
+    CHECK(same.lastInput(5) == 5);
+    CHECK(same.outputFrames(7) == 7);
+    // Half the rate: 41 taps around every second input, and one of padding before them.
+    const Resampler<double> half(8000, 4000);
+    CHECK(half.outputFrames(0) == 0);
+    CHECK(half.outputFrames(1) == 1);
+    CHECK(half.outputFrames(2) == 1);
+    CHECK(half.outputFrames(3) == 2);
+    std::vector<double> numbers;
+    for (const auto& [from, to] :
+         {std::pair(44100, 8000), std::pair(8000, 44100), std::pair(48000, 44100), std::pair(2000, 768000)})
+    {
+        const Resampler<float> resampler(from, to);
+        for (const std::size_t n : {0u, 1u, 50u})
+        {
+            numbers.push_back(static_cast<double>(resampler.firstInput(n)));
+            numbers.push_back(static_cast<double>(resampler.lastInput(n)));
+        }
+        numbers.push_back(static_cast<double>(resampler.outputFrames(1001)));
+    }
+    checkPinned("filters/resampler, inputs of outputs 1", std::span(numbers).first(14));
+    checkPinned("filters/resampler, inputs of outputs 2", std::span(numbers).subspan(14));
+}
+
+TEST_CASE("Outside a window a resampler reads zeros, at equal rates too", "[filters]")
+{
+    const std::vector<double> window{1.0, 2.0, 3.0};
+    const Resampler<double> same(4000, 4000);
+    std::vector<double> out(6, 9.0);
+    same.process(window, 2, 0, out);
+    CHECK(out == std::vector<double>{0.0, 0.0, 1.0, 2.0, 3.0, 0.0});
+    same.process(window, 2, 3, std::span(out).first(2));
+    CHECK(out[0] == 2.0);
+    CHECK(out[1] == 3.0);
+
+    const Resampler<double> other(3000, 4000);
+    std::vector<double> padded(40, 0.0), expected(50), found(50);
+    std::copy(window.begin(), window.end(), padded.begin() + 12);
+    other.process(padded, 0, 0, expected);
+    other.process(window, 12, 0, found);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK(found[i] == Approx(expected[i]).margin(1e-15));
+}
+
+TEST_CASE("A rate that cannot be resampled is named with its limits", "[filters]")
+{
+    CHECK(checkResamplerRate(2000).ok());
+    CHECK(checkResamplerRate(768000).ok());
+    for (const int rate : {1999, 768001, 0, -48000})
+    {
+        const auto checked = checkResamplerRate(rate);
+        REQUIRE_FALSE(checked.ok());
+        CHECK(checked.error().code == ErrorCode::invalidArgument);
+        CHECK(checked.error().text() == "sampleRate: is " + std::to_string(rate) + " Hz, outside 2000 to 768000 Hz");
+        const std::vector<double> x(10, 1.0);
+        CHECK(resample(std::span<const double>(x), rate, 8000).error().text() == checked.error().text());
+        CHECK(resample(std::span<const double>(x), 8000, rate).error().text() == checked.error().text());
+    }
 }

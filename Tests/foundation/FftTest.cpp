@@ -58,3 +58,51 @@ TEST_CASE("Fast transform sizes are even, large enough and smooth", "[foundation
         CHECK(size == 1);
     }
 }
+
+TEST_CASE("A fast transform size is the smallest that there is", "[foundation]")
+{
+    const auto isFast = [](std::size_t n)
+    {
+        if (n % 2 != 0)
+            return false;
+        for (const std::size_t p : {2u, 3u, 5u})
+            while (n % p == 0)
+                n /= p;
+        return n == 1;
+    };
+    std::size_t expected = 2;
+    for (std::size_t n = 0; n < 5000; ++n)
+    {
+        while (expected < n || !isFast(expected))
+            ++expected;
+        REQUIRE(nextFastFftSize(n) == expected);
+    }
+}
+
+TEST_CASE("Transforms know their sizes, and complex ones equal the definition in both directions", "[foundation]")
+{
+    const std::size_t n = 12;
+    ComplexFft<double> fft(n);
+    CHECK(fft.size() == n);
+    RealFft<float> real(n);
+    CHECK(real.size() == n);
+    CHECK(real.bins() == n / 2 + 1);
+    Random random(8);
+    std::vector<std::complex<double>> x(n), forward(n), inverse(n);
+    for (auto& v : x)
+        v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    fft.forward(x, forward);
+    fft.inverse(x, inverse);
+    for (std::size_t k = 0; k < n; ++k)
+    {
+        std::complex<double> down = 0.0, up = 0.0;
+        for (std::size_t m = 0; m < n; ++m)
+        {
+            const double turn = 2.0 * std::numbers::pi * static_cast<double>(k * m % n) / static_cast<double>(n);
+            down += x[m] * std::polar(1.0, -turn);
+            up += x[m] * std::polar(1.0, turn);
+        }
+        CHECK(std::abs(forward[k] - down) < 1e-14);
+        CHECK(std::abs(inverse[k] - up) < 1e-14);
+    }
+}

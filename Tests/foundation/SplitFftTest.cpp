@@ -121,3 +121,54 @@ TEST_CASE("Dot products of every length equal the plain sum", "[foundation]")
         sum += static_cast<double>(a[n]) * static_cast<double>(b[n]);
     }
 }
+
+TEST_CASE("The ends of a real signal's spectrum are real, whatever stood there before", "[foundation]")
+{
+    for (const std::size_t n : {2u, 4u, 10u, 64u})
+    {
+        CAPTURE(n);
+        SplitRealFft<float> fft(n);
+        CHECK(fft.size() == n);
+        CHECK(fft.bins() == n / 2 + 1);
+        const auto x = noise<float>(n, 3);
+        std::vector<float> re(n / 2 + 1, 7.0f), im(n / 2 + 1, 7.0f), back(n);
+        fft.forward(x.data(), re.data(), im.data());
+        CHECK(im.front() == 0.0f);
+        CHECK(im.back() == 0.0f);
+        im.front() = im.back() = 5.0f; // they count as 0
+        fft.inverse(re.data(), im.data(), back.data());
+        for (std::size_t i = 0; i < n; ++i)
+            CHECK(back[i] / static_cast<float>(n) == Approx(x[i]).margin(1e-5));
+    }
+}
+
+TEST_CASE("Roots of unity are right to a few units in the last place at any order", "[foundation]")
+{
+    for (const std::size_t n : {1u, 2u, 3u, 5u, 16u, 17u, 60u, 65u, 1000u})
+    {
+        const detail::RootsOfUnity roots(n);
+        for (std::size_t k = 0; k < n; ++k)
+            REQUIRE(std::abs(roots[k] - std::complex<double>(root(k, n, -1.0L))) < 1e-15);
+    }
+}
+
+TEST_CASE("Lanes are numbers side by side", "[foundation]")
+{
+    using Four = Lanes<float, 4>;
+    const float numbers[] = {1.0f, -2.0f, 3.0f, 0.5f, 99.0f};
+    const auto a = Four::load(numbers);
+    const auto b = Four::all(2.0f);
+    const auto stored = [](const Four& x)
+    {
+        std::vector<float> out(5, -1.0f);
+        x.store(out.data());
+        CHECK(out.back() == -1.0f);
+        out.pop_back();
+        return out;
+    };
+    CHECK(stored(a) == std::vector<float>{1.0f, -2.0f, 3.0f, 0.5f});
+    CHECK(stored(a + b) == std::vector<float>{3.0f, 0.0f, 5.0f, 2.5f});
+    CHECK(stored(a - b) == std::vector<float>{-1.0f, -4.0f, 1.0f, -1.5f});
+    CHECK(stored(a * b) == std::vector<float>{2.0f, -4.0f, 6.0f, 1.0f});
+    CHECK(stored(-a) == std::vector<float>{-1.0f, 2.0f, -3.0f, -0.5f});
+}

@@ -74,3 +74,29 @@ TEST_CASE("the band meter has forgotten all after a reset", "[realtime]")
     for (std::size_t k = 0; k < 6; ++k)
         CHECK(meter.takePower(k) == 0.0);
 }
+
+TEST_CASE("a band meter as designed anew hears nothing of what it heard, and of a fade no denormal number is left",
+          "[realtime]")
+{
+    BandMeter meter, fresh;
+    meter.design(designBandLayout({.bands = 3}), 6000.0);
+    meter.process(tone(500, 300.0, 6000.0, 1.0));
+    for (BandMeter* one : {&meter, &fresh})
+    {
+        one->design(designBandLayout({.bands = 9}), 8000.0);
+        one->process(tone(700, 150.0, 8000.0, 0.7));
+    }
+    for (std::size_t k = 0; k < 9; ++k)
+        CHECK(meter.takePower(k) == fresh.takePower(k));
+    // What is flushed every frame falls to exact zeros.
+    for (int n = 0; n < 200000; ++n)
+    {
+        meter.process(std::vector<double>(1, 0.0));
+        meter.flush();
+    }
+    for (std::size_t k = 0; k < 9; ++k)
+        (void)meter.takePower(k);
+    meter.process(std::vector<double>(100, 0.0));
+    for (std::size_t k = 0; k < 9; ++k)
+        CHECK(meter.takePower(k) == 0.0);
+}

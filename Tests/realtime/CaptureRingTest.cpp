@@ -89,3 +89,35 @@ TEST_CASE("copies made while the ring is written hold no torn frame", "[realtime
     CHECK(torn == 0);
     CHECK(races == wantedRaces);
 }
+
+TEST_CASE("a capture ring has room for one frame at least, and counts from its reset", "[realtime]")
+{
+    CaptureRing ring;
+    CHECK(ring.capacityFrames() == 0);
+    ring.push(counted(0, 3)); // nowhere to go yet
+    CHECK(ring.newest(3).samples.empty());
+    CHECK(ring.newest(3).firstFrame == 0);
+    ring.prepare(0);
+    CHECK(ring.capacityFrames() == 1);
+    ring.push(counted(7, 1));
+    CHECK(ring.newest(5).samples == counted(7, 1));
+    ring.prepare(50);
+    CHECK(ring.capacityFrames() == 50);
+    CHECK(ring.newest(50).samples.empty());
+    for (int round = 0; round < 3; ++round)
+    {
+        ring.push(counted(100, 30));
+        ring.push(counted(130, 49));
+        const auto capture = ring.newest(50);
+        CHECK(capture.firstFrame == 29);
+        CHECK(capture.samples == counted(129, 50));
+        ring.reset();
+        CHECK(ring.newest(50).samples.empty());
+        CHECK(ring.newest(50).firstFrame == 0);
+        ring.push(counted(3, 4));
+        CHECK(ring.newest(50).firstFrame == 0);
+        CHECK(ring.newest(50).samples == counted(3, 4));
+        CHECK(ring.newest(3).firstFrame == 1);
+        ring.reset();
+    }
+}

@@ -160,3 +160,44 @@ TEST_CASE("the direct path has forgotten all after a reset", "[realtime]")
         CHECK(run(path, in, below, above, 1.0) == run(fresh, in, below, above, 1.0));
     }
 }
+
+TEST_CASE("a jump of the direct path's gains leaves nothing of a way that was begun", "[realtime]")
+{
+    std::vector<double> in(controlHop), expected(controlHop), found(controlHop);
+    for (std::size_t i = 0; i < controlHop; ++i)
+        in[i] = std::cos(0.3 * static_cast<double>(i));
+    for (const auto& [below, above] : {std::pair{0.5, 0.5}, {0.2, 0.9}, {0.0, 0.7}})
+    {
+        DirectPath path, plain;
+        for (DirectPath* one : {&path, &plain})
+            one->design(low, border, high, pathRate);
+        CHECK(path.silent());
+        path.aim(1.0, 0.3, 0.5);
+        path.jump(below, above);
+        CHECK_FALSE(path.silent());
+        plain.jump(below, above);
+        path.process(in, found, 0);
+        plain.process(in, expected, 0);
+        CHECK(found == expected);
+        // The same as aiming there at once.
+        DirectPath aimed;
+        aimed.design(low, border, high, pathRate);
+        aimed.jump(below, above);
+        aimed.aim(below, above, 1.0);
+        aimed.process(in, found, 0);
+        for (std::size_t i = 0; i < controlHop; ++i)
+            CHECK(found[i] == Approx(expected[i]).margin(1e-12));
+    }
+}
+
+TEST_CASE("one gain of the direct path keeps it from being silent", "[realtime]")
+{
+    DirectPath path;
+    path.design(low, border, high, pathRate);
+    path.jump(0.0, 0.1);
+    CHECK_FALSE(path.silent());
+    path.jump(0.1, 0.0);
+    CHECK_FALSE(path.silent());
+    path.jump(0.0, 0.0);
+    CHECK(path.silent());
+}

@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/realtime/DriveStage.h>
 
@@ -120,4 +121,64 @@ TEST_CASE("without limits to keep, the drive stage limits at full scale and says
     stage.reset();
     stage.aim(1.0, 1.0, 0.0, 0.0);
     CHECK(static_cast<double>(hop(stage, 0.85).front()) == Approx(0.85));
+}
+
+TEST_CASE("the drive stage raises what is weak by the map of levels, but not what is below 180 dB", "[realtime]")
+{
+    TranslatorSetup setup;
+    setup.maxBoost = Decibels(0.0);
+    Profile& profile = setup.profile.emplace();
+    profile.technology = Technology::vca;
+    profile.range = {40.0, 400.0, 20.0};
+    profile.drive.overdrive = 1.25;
+    const TranslatorDesign design = designTranslator(setup, stageRate);
+    REQUIRE_FALSE(design.levels.isIdentity());
+    REQUIRE(design.filter.sections.empty());
+    for (const double peak : {0.0, 1e-10, 1e-9, 1.5e-9, 1e-3, 0.1, 1.0})
+    {
+        CAPTURE(peak);
+        DriveStage stage;
+        stage.adopt(design);
+        stage.jump(0.5);
+        stage.aim(0.5, 1.0, peak, 0.0);
+        const double gain = peak > 1e-9 ? design.levels(peak) / peak : 1.0;
+        const double value = 1e-3 / std::max(1.0, gain);
+        const auto out = hop(stage, value, 0.8);
+        for (std::size_t i = 0; i < controlHop; ++i)
+        {
+            const double way = static_cast<double>(i + 1) / static_cast<double>(controlHop);
+            CHECK(static_cast<double>(out[i]) ==
+                  Approx(0.5 * 0.8 / 1.25 * value * (1.0 + way * (gain - 1.0))).epsilon(1e-5).margin(1e-10));
+        }
+    }
+}
+
+TEST_CASE("a motor's drive stage follows the strength of a sound as before", "[realtime]")
+{
+    const TranslatorDesign design = motorDesign(0.03);
+    DriveStage stage;
+    stage.adopt(design);
+    stage.jump(0.9);
+    std::vector<double> drive;
+    const auto run = [&]
+    {
+        for (std::size_t n = 0; n < 150; ++n)
+        {
+            const double energy = n < 60 ? 2.0 : n < 90 ? 0.02 : 0.0;
+            if (n == 20 || n == 110)
+                stage.beginBurst(n == 20 ? 0.3 : 0.5);
+            stage.aim(n < 40 ? 0.9 : 0.6, 0.3, 0.0, energy);
+            for (const float y : hop(stage, 0.1, n % 10 == 9 ? 0.5 : 1.0))
+                drive.push_back(static_cast<double>(y));
+        }
+    };
+    run();
+    checkPinned("realtime/motor stage", drive, 2e-6);
+    // Nothing of it is left after a reset.
+    const auto first = drive;
+    drive.clear();
+    stage.reset();
+    stage.jump(0.9);
+    run();
+    CHECK(drive == first);
 }

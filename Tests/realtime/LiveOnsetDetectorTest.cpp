@@ -1,9 +1,13 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
+#include <pacini/foundation/Random.h>
 #include <pacini/realtime/LiveOnsetDetector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 using namespace pacini;
@@ -95,4 +99,77 @@ TEST_CASE("a level that stays is no onset, nor is one that comes slowly", "[real
     for (std::size_t n = 0; n < slow.size(); ++n)
         slow[n] = static_cast<double>(n) / static_cast<double>(slow.size());
     CHECK(reports(detector, slow).empty());
+}
+
+TEST_CASE("the onsets of an uneven level are where they were before, at every threshold", "[realtime]")
+{
+    for (const double fs : {6000.0, 11025.0})
+    {
+        // Rises of many heights and slopes above a ground that moves.
+        Random random(31);
+        std::vector<double> levels(static_cast<std::size_t>(2.0 * fs));
+        double rise = 0.0, ground = 0.1, slope = 0.0;
+        for (std::size_t n = 0; n < levels.size(); ++n)
+        {
+            if (n % static_cast<std::size_t>(0.023 * fs) == 0)
+            {
+                rise = random.uniform(0.0, 1.0);
+                slope = std::exp(-1.0 / (fs * std::exp(random.uniform(std::log(0.0003), std::log(0.02)))));
+                ground = random.uniform(0.001, 0.1);
+            }
+            const double before = n > 0 ? levels[n - 1] : 0.0;
+            const double to =
+                n % static_cast<std::size_t>(0.023 * fs) < static_cast<std::size_t>(0.009 * fs) ? rise : ground;
+            levels[n] = to + slope * (before - to);
+        }
+        LiveOnsetDetector detector;
+        detector.prepare(fs);
+        std::vector<double> all;
+        for (const double threshold : {0.15, 0.3, 0.5, 0.8, 1.2, 2.0, 3.5, 6.0, 10.0})
+        {
+            detector.reset();
+            HeardEvent event;
+            for (std::size_t n = 0; n < levels.size(); ++n)
+            {
+                if (detector.tick(levels[n], threshold, event))
+                {
+                    all.push_back(static_cast<double>(n));
+                    all.push_back(1000.0 * event.amplitude);
+                    all.push_back(1000.0 * std::min(event.gap, 1.0));
+                }
+                if (n % 8 == 7)
+                    detector.flush();
+            }
+        }
+        CHECK(all.size() > 300);
+        checkPinned("realtime/onsets at " + std::to_string(static_cast<int>(fs)) + " Hz", all, 1e-7);
+    }
+}
+
+TEST_CASE("a reset onset detector is a new one", "[realtime]")
+{
+    std::vector<double> levels(2000);
+    for (std::size_t n = 0; n < levels.size(); ++n)
+        levels[n] = n % 170 < 20 ? 0.6 : 0.02;
+    LiveOnsetDetector fresh;
+    fresh.prepare(6000.0);
+    const auto expected = reports(fresh, levels);
+    REQUIRE(expected.size() > 5);
+    for (const std::size_t before : {1u, 3u, 8u, 25u, 171u, 500u})
+    {
+        LiveOnsetDetector used;
+        used.prepare(6000.0);
+        (void)reports(used, std::vector<double>(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(before)));
+        used.reset();
+        const auto found = reports(used, levels);
+        REQUIRE(found.size() == expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+        {
+            CHECK(found[i].frame == expected[i].frame);
+            CHECK(found[i].event.amplitude == expected[i].event.amplitude);
+            CHECK(found[i].event.gap == expected[i].event.gap);
+        }
+    }
+    CHECK(LiveOnsetDetector::peakWait == 0.001);
+    CHECK(LiveOnsetDetector::deadTime == 0.010);
 }

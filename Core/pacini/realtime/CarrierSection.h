@@ -54,9 +54,9 @@ public:
         bool anyWanted = false;
         for (std::size_t k = 0; k < bands; ++k)
             anyWanted = anyWanted || gains[k] > 0.0;
-        if (level && anyWanted && !levelling)
+        const bool levelled = std::exchange(levelling, level && anyWanted);
+        if (levelling && !levelled)
             wide.reset();
-        levelling = level && anyWanted;
         for (std::size_t k = 0; k < bands; ++k)
         {
             const bool wanted = gains[k] > 0.0 || levelling;

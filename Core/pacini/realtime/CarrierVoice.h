@@ -101,9 +101,6 @@ public:
             state.flush();
         for (double& average : slow)
             flushTiny(average);
-        flushTiny(mean);
-        flushTiny(difference);
-        flushTiny(before);
     }
 
 private:
