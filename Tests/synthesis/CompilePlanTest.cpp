@@ -59,19 +59,24 @@ std::string adaptationsOf(const RenderPlan& plan)
 /// All that a plan has in numbers.
 void pinPlan(const std::string& name, const RenderPlan& plan)
 {
-    std::vector<double> all = {plan.duration, std::max(plan.predictedError, -1000.0),
-                               static_cast<double>(plan.plays.size()), static_cast<double>(plan.leftOut.size())};
+    const auto decibels = [](double error)
+    {
+        return std::isfinite(error) ? error : 0.0;
+    };
+    std::vector<double> errors = {plan.duration, decibels(plan.predictedError)};
     for (const LeftOut& item : plan.leftOut)
-        all.push_back(std::max(item.error, -1000.0));
+        errors.push_back(decibels(item.error));
+    checkPinned("synthesis/errors of a plan of " + name, errors, 1e-6);
+    std::vector<double> all;
     for (const PlannedPlay& play : plan.plays)
     {
         for (const double v : {static_cast<double>(play.play), play.start, play.decoder.transposition,
-                               play.decoder.stretch, play.decoder.reach, play.decoder.pulses.frequency,
-                               play.decoder.pulses.lowest, static_cast<double>(play.clip.bands.size())})
+                               play.decoder.stretch, play.decoder.reach / 100.0, play.decoder.pulses.frequency / 100.0,
+                               play.decoder.pulses.lowest / 100.0, static_cast<double>(play.clip.bands.size())})
             all.push_back(v);
         for (const Band& band : play.clip.bands)
         {
-            all.push_back(band.centreFrequency);
+            all.push_back(band.centreFrequency / 100.0);
             for (const Breakpoint& point : band.amplitude)
                 all.push_back(point.time + 10.0 * point.value);
         }

@@ -191,6 +191,18 @@ TEST_CASE("A sinusoid carries half its squared amplitude, noise its squared leve
     CHECK(energy.bandErrors == Approx(4.0 * 0.5 / 0.17));
     params.followEnvelope = false;
     CHECK_FALSE(playEnergy(clip, params, plain, 0.5, 10.0, flat).levelled);
+    // However weak it is; and what is silent has no say in the gains of an equaliser.
+    Clip weak;
+    weak.duration = 2.0;
+    weak.bands = {{80.0, 100.0, 120.0, 0, {{0.0, 0.04}}, {}}};
+    weak.envelope = {{0.0, 0.02}};
+    CHECK(playEnergy(weak, {}, plain, 0.0, 10.0, flat).least == Approx(0.5 * 0.0004 * 2.0));
+    weak.envelope.clear();
+    weak.noise = {{150.0, 250.0, {{0.0, 0.0}}}};
+    const auto equalizer = someEqualizer(48000.0);
+    const double at100 = std::norm(equalizer.response(Hertz(100.0), 48000.0));
+    CHECK(playEnergy(weak, {}, plain, 0.0, 10.0, equalizer).most == Approx(0.5 * 0.0016 * 2.0 * at100));
+    CHECK(playEnergy(weak, {}, plain, 0.0, 10.0, equalizer).least == Approx(0.5 * 0.0016 * 2.0 * at100));
 }
 
 TEST_CASE("An event carries at most 3 / 16 of its square for 20 ms and at least for 4 ms where it is not masked",

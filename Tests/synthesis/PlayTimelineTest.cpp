@@ -163,7 +163,9 @@ TEST_CASE("Bends are those of both curves, and pieces where the second moves", "
     const Curve a = {{0.0, 1.0}, {0.5, 1.0}, {3.0, 2.0}};
     const Curve b = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}, {2.0, 0.5}};
     CHECK(detail::bends(a, b, 4) == std::vector<double>{0.0, 0.5, 1.0, 1.25, 1.5, 1.75, 2.0, 3.0});
+    CHECK(detail::bends({}, {{1.0, 0.0}, {2.0, 0.0}}, 2) == std::vector<double>{1.0, 2.0});
     CHECK(detail::bends(a, b, 1) == std::vector<double>{0.0, 0.5, 1.0, 2.0, 3.0});
+    CHECK(detail::bends({}, {{0.0, 0.0}, {1.0, 2.0}}, 2) == std::vector<double>{0.0, 0.5, 1.0});
     CHECK(detail::bends(a, {}, 4) == std::vector<double>{0.0, 0.5, 3.0});
 }
 
@@ -290,6 +292,7 @@ TEST_CASE("A variation draws one factor for each point or each band, the same on
         CHECK(vary(clip, {-0.5, scope, 77}) == clip);
         CHECK(vary(clip, {3.0, scope, 77}) == vary(clip, {1.0, scope, 77}));
         CHECK_FALSE(vary(clip, {1.0, scope, 77}) == vary(clip, {0.9, scope, 77}));
+        CHECK_FALSE(vary(clip, {1.0, scope, 77}) == clip);
     }
     const VariationParams usual;
     CHECK(usual.amount == 0.0);

@@ -71,8 +71,9 @@ std::vector<float> aloneAt(const PlannedPlay& play, double fs)
 
 TEST_CASE("A curve is read in straight pieces that begin on the first frame at or after its points", "[scene]")
 {
-    const double fs = 1000.0;
-    const Curve curve = {{0.0102, 1.0}, {0.0202, 3.0}, {0.030, 3.0}, {0.030, 5.0}, {0.040, 1.0}};
+    const double fs = 1024.0;
+    const Curve curve = {
+        {0.0102, 1.0}, {0.0202, 3.0}, {30.0 / 1024.0, 3.0}, {30.0 / 1024.0, 5.0}, {40.0 / 1024.0, 1.0}};
     std::size_t next = 0;
     const auto pieces = piecesOf(curve, next, 0, 60, fs);
     const std::size_t ends[] = {11, 21, 30, 40, 60};
@@ -92,7 +93,7 @@ TEST_CASE("A curve is read in straight pieces that begin on the first frame at o
     CHECK(pieces[1].piece.origin == 0.0102);
     CHECK(pieces[2].piece.slope == 0.0);
     CHECK(pieces[2].piece.origin == 0.0);
-    CHECK(pieces[3].piece.slope == Approx(-400.0));
+    CHECK(pieces[3].piece.slope == Approx(-409.6));
     CHECK(pieces[4].piece.slope == 0.0);
     CHECK(pieces[4].piece.value == 1.0);
     CHECK(next == curve.size());
@@ -293,11 +294,33 @@ TEST_CASE("A voice adds its levels towards each actuator, and only a lone plain 
     CHECK(over(plain, false, 1.0) == alone[0] + 5.0f);
     CHECK(over(plain, true, 0.5) == alone[0] + 5.0f);
     CHECK(over(steadyPlay(0.5, 0.0, 2), true, 1.0) == alone[0] + 5.0f);
+    {
+        // One span for a play on two actuators.
+        const PlannedPlay two = steadyPlay(0.5, 0.0, 2);
+        PlayVoice voice(two, 2, fs);
+        voice.prepare(two);
+        const auto buffers = std::make_unique<MixBuffers>();
+        std::vector<float> out(160, 5.0f);
+        const std::span<float> span(out);
+        voice.mix(two, {std::span(&span, 1), 0, 160, 0}, true, *buffers);
+        CHECK(out[0] == alone[0] + 5.0f);
+    }
     PlannedPlay quieter = plain;
     quieter.timeline.gains = {{{0.0, 0.5}}};
     CHECK(over(quieter, true, 1.0) == 0.5f * alone[0] + 5.0f);
     quieter.timeline.gains = {{{0.0, 1.0}, {1.0, 0.0}}};
     CHECK(over(quieter, true, 1.0) == alone[0] + 5.0f);
+    // A gain that rises by 1 a second, and where a block is mixed to unless told otherwise.
+    PlannedPlay rising = plain;
+    rising.timeline.gains = {{{0.0, 0.0}, {1.0, 1.0}}};
+    const auto slow = mixed(rising, 1, 160, 160)[0];
+    for (std::size_t n = 0; n < 160; ++n)
+        CHECK(static_cast<double>(slow[n]) ==
+              Approx(static_cast<double>(n) / fs * static_cast<double>(alone[n])).margin(1e-8));
+    const MixTarget target;
+    CHECK(target.at == 0);
+    CHECK(target.frames == 0);
+    CHECK(target.now == 0);
 }
 
 TEST_CASE("A delayed voice comes later by its delays and a frame, sounds longer, and never comes early", "[scene]")
@@ -305,7 +328,7 @@ TEST_CASE("A delayed voice comes later by its delays and a frame, sounds longer,
     const double fs = 8000.0;
     PlannedPlay play = steadyPlay(0.5, 10.0 / fs, 2);
     play.timeline.gains = {{{0.0, 1.0}}, {{0.0, 1.0}}};
-    play.timeline.delays = {{{0.0, 5.0 / fs}}, {{0.0, 0.0}, {0.01, -0.001}}};
+    play.timeline.delays = {{{0.0, 4.999999999 / fs}}, {{0.0, 0.0}, {0.01, -0.001}}};
     const auto alone = aloneAt(play, fs);
     for (const std::size_t block : {std::size_t(1), std::size_t(16), std::size_t(300)})
     {
@@ -342,6 +365,8 @@ TEST_CASE("A delayed voice comes later by its delays and a frame, sounds longer,
                 std::vector<double>(moving[1].begin(), moving[1].end()), 1e-5);
     CHECK(mixed(play, 2, 1000, 1000) == moving);
     CHECK(mixed(play, 2, 1000, 17) == moving);
+    play.clip.duration = 0.2;
+    CHECK(mixed(play, 2, 1500, 1024) == mixed(play, 2, 1500, 64)); // blocks as long as the memory
 }
 
 TEST_CASE("A live change of a voice is that of its decoder", "[scene]")

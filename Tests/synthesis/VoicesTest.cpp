@@ -211,6 +211,9 @@ TEST_CASE("The band of the highest priority number joins first, then the weakest
     // What has joined is as strong as both: the next to join is the 500 Hz.
     CHECK(centres({voiceBand(100.0, 0.4), voiceBand(110.0, 0.4), voiceBand(1000.0, 0.5), voiceBand(2000.0, 9.0)}, 2) ==
           std::vector<double>{105.0, 1414.0});
+    // And what has not joined keeps its own energy.
+    CHECK(centres({voiceBand(100.0, 0.1), voiceBand(110.0, 0.1), voiceBand(1000.0, 3.0), voiceBand(2000.0, 1.0)}, 2) ==
+          std::vector<double>{324.0, 2000.0});
 }
 
 TEST_CASE("A pass of a loop begins and ends with the values of the curve there", "[scene]")
