@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -57,7 +58,7 @@ Scene playerScene(std::size_t plays, double seconds = 0.1, double level = 0.4)
     return scene;
 }
 
-ScenePlayerParams at(double fs)
+ScenePlayerParams playingAt(double fs)
 {
     ScenePlayerParams params;
     params.sampleRate = fs;
@@ -109,7 +110,7 @@ TEST_CASE("A player has the frames of its plan, rounded, and none at a rate that
     const auto frames = [&](double duration, double fs)
     {
         scene.duration = duration;
-        return ScenePlayer(planOf(scene), at(fs)).totalFrames();
+        return ScenePlayer(planOf(scene), playingAt(fs)).totalFrames();
     };
     CHECK(frames(0.1, 8000.0) == 800);
     CHECK(frames(10.4 / 8000.0, 8000.0) == 10);
@@ -125,7 +126,7 @@ TEST_CASE("Decoders are made as plays come near and freed when they have ended",
     Scene scene = playerScene(4);
     for (std::size_t i = 0; i < 4; ++i)
         scene.plays[i].start = 0.05 * static_cast<double>(3 - i); // backwards: the plan puts them in order
-    ScenePlayerParams params = at(8000.0);
+    ScenePlayerParams params = playingAt(8000.0);
     params.builtUntil = Seconds(0.05);
     ScenePlayer player(planOf(scene), params);
     const auto starts = [&]
@@ -173,7 +174,7 @@ TEST_CASE("A player mixes its plays, is silent after its end, and fills as many 
     scene.plays[2].pan = 1.0;
     scene.plays[2].gain = -6.0;
     scene.duration = 0.11;
-    ScenePlayerParams params = at(8000.0);
+    ScenePlayerParams params = playingAt(8000.0);
     params.protect = false;
     const RenderPlan plan = planOf(scene);
     ScenePlayer player(plan, params);
@@ -205,7 +206,7 @@ TEST_CASE("A player mixes its plays, is silent after its end, and fills as many 
     nobody.process({});
     CHECK(nextFrames(nobody, 3, 1000, 7) == all);
     // Protected, it looks ahead before its first frame and has a meter for each actuator.
-    ScenePlayer guarded(plan, at(8000.0));
+    ScenePlayer guarded(plan, playingAt(8000.0));
     CHECK(guarded.protectionMeter(0) != nullptr);
     CHECK(guarded.protectionMeter(2) != nullptr);
     CHECK(guarded.protectionMeter(3) == nullptr);
@@ -219,7 +220,7 @@ TEST_CASE("Live gains end at 60 dB, and go to the play that is meant", "[scene]"
     scene.plays[0].pan = 0.0;
     scene.plays[1].pan = 1.0;
     scene.plays[0].start = 0.01; // the second in the plan
-    ScenePlayerParams params = at(8000.0);
+    ScenePlayerParams params = playingAt(8000.0);
     params.protect = false;
     const RenderPlan plan = planOf(scene);
     const auto with = [&](std::size_t play, double gain)
@@ -344,7 +345,7 @@ TEST_CASE("Scenes on actuators of all kinds are played as they were", "[scene]")
         {
             CAPTURE(name, protect);
             const RenderPlan plan = planOf(scene, profile);
-            ScenePlayerParams params = at(8000.0);
+            ScenePlayerParams params = playingAt(8000.0);
             params.protect = protect;
             ScenePlayer player(plan, params);
             const auto frames = static_cast<std::size_t>(player.totalFrames()) + 100;
