@@ -535,3 +535,19 @@ TEST_CASE("One voice of bands that come and go, with noise and without an envelo
         pinVoice("two bands apart" + what, singleVoiceOf(near));
     }
 }
+
+TEST_CASE("One voice of a lone band has its centre at both ends, however low, and silent bands displace nothing",
+          "[synthesis]")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    clip.bands = {{0.1, 0.5, 1.0, 0, {{0.0, 0.5}}, {}}};
+    CHECK(singleVoiceOf(clip).frequency == Curve{{0.0, 0.5}, {2.0, 0.5}});
+    clip.bands = {fittedBand(100.0, 0.0), fittedBand(400.0, 0.0)};
+    clip.noise = {{50.0, 100.0, {{0.0, 0.3}}}};
+    const SingleVoice voice = singleVoiceOf(clip);
+    REQUIRE_FALSE(voice.displaced.empty());
+    for (const Breakpoint& point : voice.displaced)
+        CHECK(point.value == 0.0);
+    CHECK(voice.frequency.empty());
+}

@@ -209,3 +209,14 @@ TEST_CASE("What is skipped is as if it had been played", "[synthesis]")
             }
         }
 }
+
+TEST_CASE("A frequency of its own may be above 0.45 of the rate, and an amplitude may rise by 1 a frame", "[synthesis]")
+{
+    CarrierBank bank({{{{0.0, 0.0}, {8.0, 8.0}}, {{0.0, 0.48}}, 0.1}});
+    std::vector<double> re(12, 0.0), im(12, 0.0);
+    addCarriers(bank, re, im, 0, 12);
+    for (std::size_t n = 0; n < 12; ++n)
+        CHECK(im[n] == Approx(static_cast<double>(std::min<std::size_t>(n, 8)) *
+                              std::sin(2.0 * std::numbers::pi * (0.1 + 0.48 * static_cast<double>(n))))
+                           .margin(1e-10));
+}

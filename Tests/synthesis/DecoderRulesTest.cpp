@@ -475,3 +475,19 @@ TEST_CASE("Live changes move the end, drop scheduled ones, and sound as they did
         CHECK(again == heard(clip, params, {{0.08, -7.0, 3.0}}));
     }
 }
+
+TEST_CASE("Two events that stand near each other are both shortened, and one before a change is as it was",
+          "[synthesis]")
+{
+    Clip clip;
+    clip.duration = 0.1;
+    clip.transients = {{0.01, 0.5, 0.5}, {0.03, 0.5, 0.5}};
+    DecoderParams params;
+    const auto y = heard(clip, params);
+    for (std::size_t n = 0; n < 900; ++n)
+        REQUIRE(y[480 + n] == y[1440 + n]);
+    const auto changed = heard(clip, params, {{0.025, 12.0, 1.0}});
+    for (std::size_t n = 0; n < 1200; ++n)
+        REQUIRE(changed[n] == y[n]);
+    CHECK_FALSE(changed == y);
+}

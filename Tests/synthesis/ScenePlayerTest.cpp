@@ -355,5 +355,7 @@ TEST_CASE("Scenes on actuators of all kinds are played as they were", "[scene]")
                         {player.maxReduction()}, 1e-3);
             ScenePlayer cut(plan, params);
             CHECK(nextFrames(cut, 2, frames, 17) == y);
+            ScenePlayer whole(plan, params);
+            CHECK(nextFrames(whole, 2, frames, frames) == y);
         }
 }
