@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -135,4 +136,111 @@ TEST_CASE("Silence stays silence and gains stay bounded", "[synthesis]")
         CHECK(v <= 1e-4 * 1.5 * EnvelopeLeveller::largestGain * EnvelopeLeveller::largestGain);
     for (double v : level([](std::size_t n) { return std::pair(n == 200 ? 1e100 : 1.0, 0.0); }, 1.0, 10))
         CHECK(std::isfinite(v));
+}
+
+namespace
+{
+/// Means of the last `window` values, by the definition.
+std::vector<double> meansOf(const std::vector<double>& x, std::size_t window)
+{
+    std::vector<double> y(x.size(), 0.0);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        for (std::size_t k = 0; k < window && k <= n; ++k)
+            y[n] += x[n - k] / static_cast<double>(window);
+    return y;
+}
+} // namespace
+
+TEST_CASE("A moving average is the mean of the newest values, never below 0, and starts over after reset",
+          "[synthesis]")
+{
+    for (const std::size_t window : {std::size_t(1), std::size_t(2), std::size_t(7), std::size_t(25)})
+    {
+        CAPTURE(window);
+        MovingAverage average(window, 10);
+        std::vector<double> x(60);
+        for (std::size_t n = 0; n < x.size(); ++n)
+            x[n] = static_cast<double>((n * 37) % 11);
+        const auto wanted = meansOf(x, window);
+        for (int run = 0; run < 2; ++run)
+        {
+            auto y = x;
+            for (std::size_t n = 0; n < y.size(); n += 10)
+                average.process(std::span(y).subspan(n, 10));
+            for (std::size_t n = 0; n < y.size(); ++n)
+                CHECK(y[n] == Approx(wanted[n]).margin(1e-12));
+            average.reset();
+        }
+        std::vector<double> below(10, -1.0);
+        average.process(below);
+        for (const double v : below)
+            CHECK(v == 0.0);
+    }
+}
+
+TEST_CASE("The leveller divides by the triangle's mean twice, by no more than 18 dB, a window late", "[synthesis]")
+{
+    for (const double fs : {10.0, 4000.0, 5000.0})
+        for (const double wantedLevel : {0.0, 0.5, 20.0})
+        {
+            CAPTURE(fs, wantedLevel);
+            EnvelopeLeveller leveller(fs, hop);
+            const std::size_t box = fs < 1000.0 ? 1 : fs < 4500.0 ? 21 : 25; // odd frames in 5 ms
+            CHECK(leveller.latencyFrames() == 2 * (box - 1));
+            CHECK(leveller.delayOfPass(0) == box - 1);
+            CHECK(leveller.delayOfPass(1) == 2 * (box - 1));
+            const std::size_t frames = 6 * hop;
+            std::vector<double> re(frames), im(frames);
+            for (std::size_t n = 0; n < frames; ++n)
+            {
+                const double a = n < 100 ? 0.0 : n < 200 ? 0.9 : 0.003 * static_cast<double>(n % 50);
+                re[n] = a * std::cos(0.4 * static_cast<double>(n));
+                im[n] = a * std::sin(0.4 * static_cast<double>(n)) + 0.1 * a;
+            }
+            const auto target = [&](std::size_t pass, std::size_t n)
+            {
+                return wantedLevel * (1.0 + 0.3 * static_cast<double>(pass) + 0.001 * static_cast<double>(n));
+            };
+            auto x = re, y = im;
+            for (std::size_t pass = 0; pass < 2; ++pass)
+            {
+                std::vector<double> magnitude(frames);
+                for (std::size_t n = 0; n < frames; ++n)
+                    magnitude[n] = std::hypot(x[n], y[n]);
+                magnitude = meansOf(meansOf(magnitude, box), box);
+                auto lateX = x, lateY = y;
+                for (std::size_t n = 0; n < frames; ++n)
+                {
+                    const double gain = std::min((target(pass, n) + 1e-5) / (magnitude[n] + 1e-5), 8.0);
+                    lateX[n] = n >= box - 1 ? gain * x[n - (box - 1)] : 0.0;
+                    lateY[n] = n >= box - 1 ? gain * y[n - (box - 1)] : 0.0;
+                }
+                x = lateX;
+                y = lateY;
+            }
+            for (int run = 0; run < 2; ++run)
+            {
+                auto u = re, v = im;
+                for (std::size_t from = 0; from < frames; from += hop)
+                {
+                    std::vector<double> wanted(hop);
+                    leveller.process(std::span(u).subspan(from, hop), std::span(v).subspan(from, hop),
+                                     [&](std::size_t pass)
+                                     {
+                                         for (std::size_t n = 0; n < hop; ++n)
+                                             wanted[n] = target(pass, from + n);
+                                         return std::span<const double>(wanted);
+                                     });
+                }
+                for (std::size_t n = 0; n < frames; ++n)
+                {
+                    REQUIRE(u[n] == Approx(x[n]).margin(1e-9));
+                    REQUIRE(v[n] == Approx(y[n]).margin(1e-9));
+                }
+                leveller.reset();
+            }
+        }
+    CHECK(EnvelopeLeveller::window == 0.01);
+    CHECK(EnvelopeLeveller::largestGain == 8.0);
+    CHECK(EnvelopeLeveller::passCount == 2);
 }

@@ -5,7 +5,13 @@
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/NoiseBank.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <vector>
 
 using namespace pacini;
 
@@ -92,4 +98,71 @@ TEST_CASE("The decoder plays a clip's noise at its level and makes no heap traff
     decoder.reset();
     CHECK(guard.traffic() == 0);
     CHECK(test::rms(out) == Approx(0.2).epsilon(0.05));
+}
+
+TEST_CASE("Noise is white noise through two poles, turned to its centre, as the seeds of its bands say",
+          "[synthesis][noise]")
+{
+    const std::vector<NoiseCarrier> bands = {
+        {{{0.0, 0.1}, {200.0, 1.0}, {300.0, 0.0}}, 0.1, 0.02}, {{{50.0, 0.3}}, 0.3, 0.0}, {{{0.0, 0.7}}, 0.02, 0.3}};
+    const std::vector<ClockPiece> pieces = {{0.0, 0.0, 1.0, 1.0}, {120.0, 120.0, 2.0, 2.0}, {250.0, 380.0, 0.5, 0.25}};
+    NoiseBank bank(bands, 11);
+    Sum found{std::vector<double>(400, 1.0), std::vector<double>(400, 2.0)};
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+    {
+        bank.follow(pieces[k]);
+        const auto from = static_cast<std::size_t>(pieces[k].from);
+        const std::size_t n = (k + 1 < pieces.size() ? static_cast<std::size_t>(pieces[k + 1].from) : 400) - from;
+        bank.process(std::span(found.re).subspan(from, n), std::span(found.im).subspan(from, n));
+    }
+    Sum wanted{std::vector<double>(400, 1.0), std::vector<double>(400, 2.0)};
+    for (std::size_t i = 0; i < bands.size(); ++i)
+    {
+        Random random(11 + i);
+        const double unit = std::sqrt(1.5);
+        const double pole =
+            std::exp(-2.0 * std::numbers::pi * std::max(bands[i].halfWidth / std::sqrt(std::sqrt(2.0) - 1.0), 1e-6));
+        const double square = pole * pole;
+        const double gain = std::sqrt((1.0 - square) * (1.0 - square) * (1.0 - square) / (1.0 + square));
+        std::complex<double> first = 0.0, second = 0.0;
+        double phase = 0.0;
+        for (std::size_t n = 0; n < 400; ++n)
+        {
+            const ClockPiece& piece = pieces[n < 120 ? 0 : n < 250 ? 1 : 2];
+            double parts[2];
+            for (double& part : parts)
+            {
+                part = random.uniform(-unit, unit);
+                part += random.uniform(-unit, unit);
+            }
+            first = pole * first + std::complex<double>(parts[0], parts[1]);
+            second = pole * second + first;
+            const double level =
+                valueAt(bands[i].amplitude, piece.clip + (static_cast<double>(n) - piece.from) * piece.rate);
+            const auto z = gain * level * second * std::polar(1.0, 2.0 * std::numbers::pi * phase);
+            wanted.re[n] += z.real();
+            wanted.im[n] += z.imag();
+            phase += std::min(bands[i].centre * piece.pitch, 0.45);
+        }
+    }
+    for (std::size_t n = 0; n < 400; ++n)
+    {
+        CAPTURE(n);
+        REQUIRE(found.re[n] == Approx(wanted.re[n]).margin(1e-9));
+        REQUIRE(found.im[n] == Approx(wanted.im[n]).margin(1e-9));
+    }
+    // From the start it is the same noise at its own speed.
+    bank.reset();
+    NoiseBank fresh(bands, 11);
+    const Sum again = play(bank, 100, 64), first = play(fresh, 100, 100);
+    CHECK(again.re == first.re);
+    CHECK(again.im == first.im);
+    CHECK_FALSE(bank.empty());
+    CHECK(NoiseBank().empty());
+    const NoiseCarrier usual;
+    CHECK(usual.centre == 0.1);
+    CHECK(usual.halfWidth == 0.01);
+    // A bank of no bands and no seed adds nothing.
+    NoiseBank none;
+    CHECK(play(none, 10, 10).re == std::vector<double>(10, 0.0));
 }

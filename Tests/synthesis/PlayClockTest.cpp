@@ -156,3 +156,90 @@ TEST_CASE("A live change is heard within 40 ms and needs no memory", "[synthesis
     CHECK(frequencyIn(y, 48000.0, 0.5, 1.0) == Approx(100.0).epsilon(1e-3));
     CHECK(frequencyIn(y, 48000.0, 1.04, 2.5) == Approx(200.0).epsilon(1e-3));
 }
+
+TEST_CASE("A clock runs as it is until it is told otherwise", "[synthesis]")
+{
+    const ClockPiece piece;
+    CHECK(piece.from == 0.0);
+    CHECK(piece.clip == 0.0);
+    CHECK(piece.rate == 1.0);
+    CHECK(piece.pitch == 1.0);
+    const ClockPiece fast{10.0, 4.0, 2.0, 1.0};
+    CHECK(fast.clipAt(13.0) == 10.0);
+    CHECK(fast.frameOf(10.0) == 13.0);
+    PlayClock clock;
+    CHECK(clock.untouched());
+    CHECK(clock.clipAt(5.0) == 5.0);
+    CHECK(clock.clipAt(-5.0) == -5.0);
+    CHECK(clock.frameOf(-5.0) == -5.0);
+    CHECK(std::isinf(clock.nextChange(0.0)));
+    clock.change(0.0, 1.0, 1.0); // that is what it does already
+    CHECK(clock.untouched());
+    clock.change(0.0, 1.0, 2.0);
+    CHECK_FALSE(clock.untouched());
+    CHECK(clock.pieceAt(0.0).pitch == 2.0);
+    clock.reset();
+    CHECK(clock.untouched());
+    clock.change(7.0, 1.0, 1.0);
+    CHECK_FALSE(clock.untouched());
+}
+
+TEST_CASE("A clock has room for scheduled changes and 64 more, then the last one is replaced", "[synthesis]")
+{
+    for (const std::size_t scheduled : {std::size_t(0), std::size_t(5)})
+    {
+        PlayClock clock(scheduled);
+        const std::size_t room = scheduled + 64;
+        for (std::size_t i = 1; i <= room; ++i)
+            clock.change(static_cast<double>(i), 1.0, 1.0 + static_cast<double>(i));
+        for (std::size_t i = 0; i <= room; ++i)
+            CHECK(clock.pieceAt(static_cast<double>(i)).pitch == 1.0 + static_cast<double>(i));
+        clock.change(1000.0, 1.0, 0.5);
+        CHECK(clock.pieceAt(static_cast<double>(room)).pitch == static_cast<double>(room));
+        CHECK(clock.pieceAt(1000.0).pitch == 0.5);
+        CHECK(clock.clipAt(2000.0) == 2000.0);
+        // What is forgotten makes room.
+        clock.forgetBefore(3.0);
+        CHECK(clock.pieceAt(0.0).pitch == 4.0);
+        clock.change(1500.0, 1.0, 9.0);
+        CHECK(clock.pieceAt(1499.0).pitch == 0.5);
+        CHECK(clock.pieceAt(1500.0).pitch == 9.0);
+    }
+}
+
+TEST_CASE("Changes after a frame are dropped, those on it stay", "[synthesis]")
+{
+    const auto withThree = []
+    {
+        PlayClock clock(3);
+        clock.change(10.0, 2.0, 1.0);
+        clock.change(20.0, 0.5, 2.0);
+        clock.change(30.0, 4.0, 3.0);
+        return clock;
+    };
+    PlayClock clock = withThree();
+    CHECK(clock.nextChange(-1.0) == 0.0);
+    CHECK(clock.nextChange(0.0) == 10.0);
+    CHECK(clock.nextChange(9.9) == 10.0);
+    CHECK(clock.nextChange(10.0) == 20.0);
+    CHECK(clock.clipAt(30.0) == 35.0);
+    CHECK(clock.frameOf(35.0) == 30.0);
+    CHECK(clock.frameOf(39.0) == 31.0);
+    clock.dropAfter(30.0);
+    CHECK(clock.nextChange(20.0) == 30.0);
+    clock.dropAfter(29.9);
+    CHECK(std::isinf(clock.nextChange(20.0)));
+    clock.dropAfter(-5.0);
+    CHECK(clock.untouched());
+    clock = withThree();
+    clock.forgetBefore(20.0);
+    CHECK(clock.pieceAt(0.0).from == 20.0);
+    CHECK(clock.clipAt(20.0) == 30.0);
+    clock.forgetBefore(0.0);
+    CHECK(clock.pieceAt(0.0).from == 20.0);
+    // A change on the frame of the last one takes its place.
+    clock.change(30.0, 1.0, 7.0);
+    CHECK(clock.pieceAt(30.0).pitch == 7.0);
+    CHECK(clock.pieceAt(30.0).clip == 35.0);
+    CHECK(clock.pieceAt(29.9).pitch == 2.0);
+}

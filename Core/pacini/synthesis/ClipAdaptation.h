@@ -183,7 +183,7 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
     if (params.dynamicRange)
     {
-        constexpr Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
+        const Decibels felt(35.0); // that a sound's loudest part stands above what is just felt beside it
         DynamicRangeParams range;
         range.actuatorRange = Decibels(profile.range.dynamicRange);
         range.clipRange = felt;

@@ -104,10 +104,7 @@ public:
 private:
     static constexpr double tiny = 1e-5; // -100 dB: silence stays silence
 
-    static std::size_t boxFrames(double fs)
-    {
-        return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(0.5 * window * fs)) | 1u);
-    }
+    static std::size_t boxFrames(double fs) { return static_cast<std::size_t>(std::lround(0.5 * window * fs)) | 1u; }
 
     struct Pass
     {

@@ -69,8 +69,6 @@ inline Curve inSceneTime(const Curve& curve, const PlayClock& clock, double star
 /// integrate (Abramowitz and Stegun 25.4.29). Curves are constant outside their points.
 inline double energyOfProduct(const Curve& a, const Curve& b, double from, double to)
 {
-    if (a.empty() || b.empty() || !(to > from))
-        return 0.0;
     double sum = 0.0;
     CurveReader readA(a), readB(b);
     std::size_t i = 0, k = 0;
@@ -85,7 +83,7 @@ inline double energyOfProduct(const Curve& a, const Curve& b, double from, doubl
             end = std::min(end, a[i].time);
         if (k < b.size())
             end = std::min(end, b[k].time);
-        constexpr std::array<std::array<double, 2>, 3> gauss = {
+        const std::array<std::array<double, 2>, 3> gauss = {
             {{0.1127016653792583, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.8872983346207417, 5.0 / 18.0}}};
         for (const auto& [at, weight] : gauss)
         {
@@ -220,7 +218,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
         const double longest =
             params.pulses.shape == PulseShape::adaptive ? 0.02 : 5.0 * params.pulses.cycles / params.pulses.frequency;
         most += unit * longest * broad.most;
-        if (const double reached = levelled ? 2.0 * valueAt(clip.envelope, event.time) : 0.0; reached == 0.0)
+        if (!levelled || valueAt(clip.envelope, event.time) == 0.0)
             least += unit * 0.004 * broad.least;
     }
     result.most = most;

@@ -59,7 +59,7 @@ struct VoiceLoss
         for (const std::size_t i : order)
         {
             const VoiceClaim& claim = claims[i];
-            if (claim.from > times[t] || claim.to <= times[t] || claim.voices == 0)
+            if (claim.from > times[t] || claim.to <= times[t])
                 continue;
             if (claim.voices <= left)
             {

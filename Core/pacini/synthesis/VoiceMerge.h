@@ -80,10 +80,8 @@ inline void mergeVoices(Clip& clip, std::size_t voices)
         {
             return std::abs(std::log(bands[i].centreFrequency / bands[least].centreFrequency));
         };
-        const std::size_t other = least == 0                                                                ? 1
-                                  : least + 1 == bands.size() || distance(least - 1) <= distance(least + 1) ? least - 1
-                                                                                                            : least + 1;
-        const std::size_t first = std::min(least, other);
+        const bool joinsLower = least > 0 && (least + 1 == bands.size() || distance(least - 1) <= distance(least + 1));
+        const std::size_t first = joinsLower ? least - 1 : least;
         bands[first] = detail::mergedBand(bands[first], bands[first + 1]);
         energies[first] += energies[first + 1];
         bands.erase(bands.begin() + static_cast<std::ptrdiff_t>(first + 1));
