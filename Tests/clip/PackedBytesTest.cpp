@@ -368,3 +368,51 @@ TEST_CASE("The grids are those that the clip names, within their limits", "[clip
     CHECK(packClip(some, {8, 1000001}) == packClip(some, {8, 1000000}));
     CHECK(packClip(some, {8, 999999}) != packClip(some, {8, 1000000}));
 }
+
+TEST_CASE("The faintest level, minus zero and the longest duration survive packing", "[clip]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.envelope = {{0.0, 1.0}, {0.5, std::pow(10.0, -72.0 / 20.0)}, {1.0, 0.0}};
+    clip.bands = {{-0.0, 1048575.0 / 4.0, 300000.0, 0, {{0.0, std::pow(10.0, -72.0 / 20.0)}}, {}}};
+    const auto back = unpackClip(packClip(clip, {6, 1000}));
+    REQUIRE(back.ok());
+    CHECK(back->envelope[1].value == Approx(std::pow(10.0, -72.0 / 20.0)).epsilon(1e-3));
+    CHECK(back->envelope[2].value == 0.0);
+    CHECK(back->bands[0].amplitude[0].value == Approx(std::pow(10.0, -72.0 / 20.0)).epsilon(1e-3));
+    CHECK(std::signbit(back->bands[0].lowFrequency));
+    for (const double value : {0.0, 1.0, 1048575.0, 0.5})
+    {
+        clip.bands[0].lowFrequency = clip.bands[0].centreFrequency = std::min(value, 300000.0);
+        CHECK(unpackClip(packClip(clip))->bands[0].lowFrequency == clip.bands[0].lowFrequency);
+    }
+    clip.duration = 86400.0;
+    CHECK(unpackClip(packClip(clip))->duration == 86400.0);
+}
+
+TEST_CASE("Contents that no clip can have are damage", "[clip]")
+{
+    const auto refused = [](const Clip& clip)
+    {
+        const auto back = unpackClip(packClip(clip));
+        REQUIRE_FALSE(back.ok());
+        return back.error().text();
+    };
+    const std::string damaged = "contents: make no sense: the file is damaged";
+    for (const double duration : {-1.0, 86400.1, std::nan(""), std::numeric_limits<double>::infinity()})
+    {
+        Clip clip;
+        clip.duration = duration;
+        CHECK(refused(clip) == damaged);
+    }
+    Clip many;
+    many.bands.resize(257);
+    CHECK(refused(many) == damaged);
+    many.bands.resize(256);
+    CHECK(unpackClip(packClip(many)).ok());
+    Clip noisy;
+    noisy.noise.resize(257);
+    CHECK(refused(noisy) == damaged);
+    noisy.noise.resize(256);
+    CHECK(unpackClip(packClip(noisy)).ok());
+}

@@ -251,12 +251,22 @@ TEST_CASE("Streams of both rules hand over the pinned vertices", "[simplify]")
                 all.push_back(p.time);
                 all.push_back(p.value);
             };
-            for (const Breakpoint& p : curve)
+            const auto pushAll = [&]
             {
-                ++pushed;
-                simplifier.push(p, sink);
-            }
-            simplifier.finish(sink);
+                pushed = 0;
+                for (const Breakpoint& p : curve)
+                {
+                    ++pushed;
+                    simplifier.push(p, sink);
+                }
+                simplifier.finish(sink);
+            };
+            const std::size_t before = all.size();
+            pushAll();
+            const std::vector<double> first(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+            all.resize(before);
+            pushAll(); // a new curve is as the first
+            CHECK(std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(before), all.end()) == first);
         };
         for (const double tolerance : {0.0, 0.01, 0.2})
             for (const std::size_t delay : {1u, 3u, 50u, 600u})

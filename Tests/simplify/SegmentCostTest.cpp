@@ -376,6 +376,19 @@ TEST_CASE("The least that a curve keeps is its minimum, two points, or all that 
     CHECK(pointsOf({}) == 0);
 }
 
+TEST_CASE("A single point with weight is met by its vertex, wherever it is", "[simplify]")
+{
+    const Curve dense = {{0.0, 3.0}, {1.0, 5.0}, {2.0, 7.0}};
+    const Curve vertices = {{0.0, 0.0}, {2.0, 0.0}};
+    CHECK(refit(dense, vertices, std::vector{1.0, 0.0, 0.0})[0].value == Approx(3.0));
+    CHECK(refit(dense, vertices, std::vector{1.0, 0.0, 0.0})[1].value == Approx(0.0).margin(1e-6));
+    CHECK(refit(dense, vertices, std::vector{0.0, 0.0, 1e-9})[1].value == Approx(7.0));
+    CHECK(refit(dense, vertices, std::vector{0.0, 1.0, 0.0})[0].value == Approx(5.0));
+    CHECK(refit(dense, vertices, std::vector{0.0, 0.0, 0.0}) == vertices);
+    CHECK(refit({}, vertices) == vertices);
+    CHECK(refit(dense, {}).empty());
+}
+
 TEST_CASE("The defaults of simplification are as documented", "[simplify]")
 {
     const SimplifyParams params;

@@ -353,6 +353,9 @@ TEST_CASE("Points are added behind those at their time, removed by index, and li
     CHECK(movePoints(curve, {1}, {0.0, 1.0, -3.0}, limits).curve[1].value == 1.0); // a factor below 0 is 0
     CHECK(movePoints(curve, {1}, {0.0, 9.0, 1.0}, limits).curve[1].value == 4.0);
     CHECK(movePoints(curve, {7, 9}, {1.0, 1.0, 1.0}, limits).selection.empty());
+    // The group keeps its shape at the end.
+    CHECK(movePoints({{0.25, 1.0}, {1.75, 2.0}}, {0, 1}, {9.0, 0.0, 1.0}, limits).curve ==
+          Curve{{0.5, 1.0}, {2.0, 2.0}});
     for (const PointMove bad : {PointMove{std::nan(""), 0.0, 1.0}, {0.0, std::nan(""), 1.0}, {0.0, 0.0, std::nan("")}})
     {
         CHECK(movePoints(curve, {1, 9}, bad, limits).curve == curve);
@@ -503,4 +506,20 @@ TEST_CASE("A part of a clip has the events of its time, and its last ones only w
     CHECK(trimClip(late, {0.0, 2.0}).markers.back().time == 2.0);
     CHECK(validate(*joinClips(late, late)).ok());
     CHECK(joinClips(late, clip)->transients[4].time == 2.0);
+    CHECK(joinClips(clip, late)->envelope.back().time == 4.0);
+    // Bands are the same ones where all three frequencies are.
+    for (double Band::*frequency : {&Band::lowFrequency, &Band::centreFrequency, &Band::highFrequency})
+    {
+        Clip other = clip;
+        other.bands[1].*frequency += 0.5;
+        CHECK(joinClips(clip, other)->bands.size() == 4);
+    }
+    for (double NoiseBand::*frequency : {&NoiseBand::lowFrequency, &NoiseBand::highFrequency})
+    {
+        Clip other = clip;
+        other.noise[0].*frequency += 0.5;
+        CHECK(joinClips(clip, other)->noise.size() == 2);
+    }
+    CHECK(joinClips(clip, clip)->bands.size() == 3);
+    CHECK(joinClips(clip, clip)->noise.size() == 1);
 }
