@@ -89,6 +89,7 @@ TEST_CASE("The audio bytes that a WAV promises are told from those that it has",
     CHECK(headerSize("RIFF" + littleEndian(0, 4) + "WAV") == std::nullopt); // 11 bytes
     CHECK(headerSize("RIFG" + littleEndian(0, 4) + "WAVEdata" + littleEndian(4, 4) + "abcd") == std::nullopt);
     CHECK(headerSize("") == std::nullopt);
+    CHECK(AudioDataSize{} == AudioDataSize{0, 0});
     // The stream's position does not matter.
     const TempFolder folder;
     const auto file = openStream(put(folder / "x", wavBytes({}, "abcd")), "rb");
