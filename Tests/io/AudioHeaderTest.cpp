@@ -30,7 +30,7 @@ bool headerCountsFrames(const std::string& bytes)
     return hasMp3FrameCount(file.get());
 }
 
-std::optional<AudioDataSize> promise(std::uint64_t promised, std::uint64_t present)
+std::optional<AudioDataSize> promisedSize(std::uint64_t promised, std::uint64_t present)
 {
     return AudioDataSize{promised, present};
 }
@@ -69,14 +69,14 @@ TEST_CASE("The audio bytes that a WAV promises are told from those that it has",
         };
         const std::string start = id + number(0) + "WAVE";
         const std::string odd = "odd " + number(3) + "abc" + std::string(1, '\0');
-        CHECK(headerSize(start + "data" + number(100) + headerSamples) == promise(100, 100));
-        CHECK(headerSize(start + "data" + number(101) + headerSamples) == promise(101, 100));
-        CHECK(headerSize(start + "data" + number(60) + headerSamples) == promise(60, 60));
-        CHECK(headerSize(start + odd + "data" + number(200) + headerSamples) == promise(200, 100));
-        CHECK(headerSize(start + odd + odd + "data" + number(0)) == promise(0, 0));
-        CHECK(headerSize(start + "even" + number(2) + "ab" + "data" + number(7) + "abc") == promise(7, 3));
-        CHECK(headerSize(start + "data" + number(0x7FFFFFFE) + headerSamples) == promise(0x7FFFFFFE, 100));
-        CHECK(headerSize(start + "data" + number(0x7FFFEFFF) + headerSamples) == promise(0x7FFFEFFF, 100));
+        CHECK(headerSize(start + "data" + number(100) + headerSamples) == promisedSize(100, 100));
+        CHECK(headerSize(start + "data" + number(101) + headerSamples) == promisedSize(101, 100));
+        CHECK(headerSize(start + "data" + number(60) + headerSamples) == promisedSize(60, 60));
+        CHECK(headerSize(start + odd + "data" + number(200) + headerSamples) == promisedSize(200, 100));
+        CHECK(headerSize(start + odd + odd + "data" + number(0)) == promisedSize(0, 0));
+        CHECK(headerSize(start + "even" + number(2) + "ab" + "data" + number(7) + "abc") == promisedSize(7, 3));
+        CHECK(headerSize(start + "data" + number(0x7FFFFFFE) + headerSamples) == promisedSize(0x7FFFFFFE, 100));
+        CHECK(headerSize(start + "data" + number(0x7FFFEFFF) + headerSamples) == promisedSize(0x7FFFEFFF, 100));
         // Sizes that writers leave behind which cannot seek back promise nothing.
         for (const std::uint64_t open : {0xFFFFFFFFull, 0x7FFFFFFFull, 0x7FFFF000ull})
             CHECK(headerSize(start + "data" + number(open) + headerSamples) == std::nullopt);
@@ -94,7 +94,7 @@ TEST_CASE("The audio bytes that a WAV promises are told from those that it has",
     const TempFolder folder;
     const auto file = openStream(put(folder / "x", wavBytes({}, "abcd")), "rb");
     REQUIRE(seekStream(file.get(), 30, SEEK_SET));
-    CHECK(audioDataSize(file.get()) == promise(4, 4));
+    CHECK(audioDataSize(file.get()) == promisedSize(4, 4));
 }
 
 TEST_CASE("A size of exactly the file's length is still followed, one more is not", "[io][audio]")
@@ -107,7 +107,7 @@ TEST_CASE("A size of exactly the file's length is still followed, one more is no
     std::string chunks;
     for (int i = 0; i < 9999; ++i)
         chunks += riffChunk("void", "");
-    CHECK(headerSize(start + chunks + rest) == promise(4, 4));
+    CHECK(headerSize(start + chunks + rest) == promisedSize(4, 4));
     CHECK(headerSize(start + chunks + riffChunk("void", "") + rest) == std::nullopt);
 }
 
@@ -122,9 +122,9 @@ TEST_CASE("A long WAV keeps its size in a chunk of its own", "[io][audio]")
     {
         return "data" + littleEndian(size, 4) + headerSamples;
     };
-    CHECK(headerSize(start + sizes(90) + data(0xFFFFFFFF)) == promise(90, 90));
-    CHECK(headerSize(start + sizes(0x123456789A) + data(0xFFFFFFFF)) == promise(0x123456789A, 100));
-    CHECK(headerSize(start + sizes(90) + data(50)) == promise(50, 50));
+    CHECK(headerSize(start + sizes(90) + data(0xFFFFFFFF)) == promisedSize(90, 90));
+    CHECK(headerSize(start + sizes(0x123456789A) + data(0xFFFFFFFF)) == promisedSize(0x123456789A, 100));
+    CHECK(headerSize(start + sizes(90) + data(50)) == promisedSize(50, 50));
     CHECK(headerSize(start + data(0xFFFFFFFF)) == std::nullopt);
     CHECK(headerSize(start + sizes(90) + data(0x7FFFFFFF)) == std::nullopt);
     // Only an RF64 has it.
@@ -138,9 +138,9 @@ TEST_CASE("The audio bytes of AIFF, CAF, W64 and AU are found behind their own h
     {
         return "SSND" + bigEndian(size, 4) + std::string(8, '\0') + headerSamples;
     };
-    CHECK(headerSize(aiff + aiffChunk("COMM", "abcde") + soundChunk(108)) == promise(100, 100));
-    CHECK(headerSize(aiff + aiffChunk("COMM", "abcd") + soundChunk(308)) == promise(300, 100));
-    CHECK(headerSize(aiff + soundChunk(5)) == promise(0, 0));
+    CHECK(headerSize(aiff + aiffChunk("COMM", "abcde") + soundChunk(108)) == promisedSize(100, 100));
+    CHECK(headerSize(aiff + aiffChunk("COMM", "abcd") + soundChunk(308)) == promisedSize(300, 100));
+    CHECK(headerSize(aiff + soundChunk(5)) == promisedSize(0, 0));
     CHECK(headerSize(aiff + soundChunk(0x7FFFFFFF)) == std::nullopt);
 
     const std::string caf = std::string("caff") + bigEndian(1, 2) + bigEndian(0, 2);
@@ -149,30 +149,30 @@ TEST_CASE("The audio bytes of AIFF, CAF, W64 and AU are found behind their own h
         return id + bigEndian(size, 8) + content;
     };
     CHECK(headerSize(caf + cafChunk("desc", 3, "abc") + cafChunk("data", 104, "edit" + headerSamples)) ==
-          promise(100, 100));
-    CHECK(headerSize(caf + cafChunk("data", 304, "edit" + headerSamples)) == promise(300, 100));
+          promisedSize(100, 100));
+    CHECK(headerSize(caf + cafChunk("data", 304, "edit" + headerSamples)) == promisedSize(300, 100));
     CHECK(headerSize(caf + cafChunk("data", 0xFFFFFFFFFFFFFFFF, "edit" + headerSamples)) == std::nullopt);
-    CHECK(headerSize(caf + cafChunk("data", 0xFFFFFFFF, "edit" + headerSamples)) == promise(0xFFFFFFFB, 100));
-    CHECK(headerSize(caf + cafChunk("data", 0x7FFFFFFF, "edit" + headerSamples)) == promise(0x7FFFFFFB, 100));
+    CHECK(headerSize(caf + cafChunk("data", 0xFFFFFFFF, "edit" + headerSamples)) == promisedSize(0xFFFFFFFB, 100));
+    CHECK(headerSize(caf + cafChunk("data", 0x7FFFFFFF, "edit" + headerSamples)) == promisedSize(0x7FFFFFFB, 100));
 
     const std::string wave = "riff" + std::string(36, '\x22');
     CHECK(headerSize(wave + waveChunk("fmt ", 24 + 20, std::string(20, 'f')) + waveChunk("data", 124, headerSamples)) ==
-          promise(100, 100));
-    CHECK(headerSize(wave + waveChunk("data", 324, headerSamples.substr(0, 96))) == promise(300, 96));
+          promisedSize(100, 100));
+    CHECK(headerSize(wave + waveChunk("data", 324, headerSamples.substr(0, 96))) == promisedSize(300, 96));
     // A size below that of its own header still leads on.
-    CHECK(headerSize(wave + waveChunk("fmt ", 3, "") + waveChunk("data", 24 + 8, "abcdefgh")) == promise(8, 8));
-    CHECK(headerSize(wave + waveChunk("data", 23, "abcdefgh")) == promise(0, 0));
+    CHECK(headerSize(wave + waveChunk("fmt ", 3, "") + waveChunk("data", 24 + 8, "abcdefgh")) == promisedSize(8, 8));
+    CHECK(headerSize(wave + waveChunk("data", 23, "abcdefgh")) == promisedSize(0, 0));
     CHECK(headerSize(wave + waveChunk("data", 0xFFFFFFFFFFFFFFFF, headerSamples)) == std::nullopt);
 
     const auto au = [](std::uint64_t header, std::uint64_t size)
     {
         return ".snd" + bigEndian(header, 4) + bigEndian(size, 4) + std::string(12, '\0') + headerSamples;
     };
-    CHECK(headerSize(au(24, 100)) == promise(100, 100));
-    CHECK(headerSize(au(24, 99)) == promise(99, 99));
-    CHECK(headerSize(au(28, 100)) == promise(100, 96));
-    CHECK(headerSize(au(5000, 100)) == promise(100, 0));
-    CHECK(headerSize(au(24, 0x7FFFFFFF)) == promise(0x7FFFFFFF, 100));
+    CHECK(headerSize(au(24, 100)) == promisedSize(100, 100));
+    CHECK(headerSize(au(24, 99)) == promisedSize(99, 99));
+    CHECK(headerSize(au(28, 100)) == promisedSize(100, 96));
+    CHECK(headerSize(au(5000, 100)) == promisedSize(100, 0));
+    CHECK(headerSize(au(24, 0x7FFFFFFF)) == promisedSize(0x7FFFFFFF, 100));
     CHECK(headerSize(au(24, 0xFFFFFFFF)) == std::nullopt);
     for (const char* other : {"fLaC", "OggS", "ID3\x03"})
         CHECK(headerSize(other + std::string(200, '\0')) == std::nullopt);

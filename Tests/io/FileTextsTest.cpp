@@ -628,8 +628,9 @@ TEST_CASE("Files that are cut off within a frame or of packed codecs are judged 
         return audio.ok() ? "" : audio.error().text();
     };
     const std::string data(400, '\1');
-    for (const auto& [bits, tag] : {std::pair(8, 1), {16, 1}, {24, 1}, {32, 1}, {32, 3}, {64, 3}, {8, 6}, {8, 7}})
+    for (const auto& [width, kind] : {std::pair(8, 1), {16, 1}, {24, 1}, {32, 1}, {32, 3}, {64, 3}, {8, 6}, {8, 7}})
     {
+        const int bits = width, tag = kind;
         CAPTURE(bits, tag);
         const auto frameBytes = static_cast<std::uint32_t>(2 * bits / 8);
         const auto wav = [&](std::uint32_t claimed, std::size_t there)

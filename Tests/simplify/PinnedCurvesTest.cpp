@@ -64,8 +64,9 @@ constexpr std::pair<SimplifyMethod, const char*> pinnedMethods[] = {
 
 TEST_CASE("Every method chooses the pinned points of unlike curves", "[simplify]")
 {
-    for (const auto& [name, curve] : pinnedCurves())
+    for (const auto& [name, dense] : pinnedCurves())
     {
+        const Curve& curve = dense; // for lambdas
         double low = 1e300, high = -1e300;
         for (const Breakpoint& p : curve)
         {
@@ -127,8 +128,9 @@ TEST_CASE("A long dense curve is thinned to the pinned points before the search"
 
 TEST_CASE("The segmenter chooses the pinned points at unlike prices and windows", "[simplify]")
 {
-    for (const auto& [name, curve] : pinnedCurves())
+    for (const auto& [name, dense] : pinnedCurves())
     {
+        const Curve& curve = dense; // for lambdas
         const auto values = test::valuesOf(curve);
         std::vector<double> times, weights;
         for (const Breakpoint& p : curve)
@@ -194,8 +196,9 @@ TEST_CASE("A shared budget is spread as pinned", "[simplify]")
 
 TEST_CASE("Anchored curves have the pinned points", "[simplify]")
 {
-    for (const auto& [name, curve] : pinnedCurves())
+    for (const auto& [name, dense] : pinnedCurves())
     {
+        const Curve& curve = dense; // for lambdas
         const double end = curve.back().time, start = curve.front().time;
         const auto at = [&](double share)
         {
@@ -237,8 +240,9 @@ TEST_CASE("Errors over points and over time are the pinned ones", "[simplify]")
 
 TEST_CASE("Streams of both rules hand over the pinned vertices", "[simplify]")
 {
-    for (const auto& [name, curve] : pinnedCurves())
+    for (const auto& [name, dense] : pinnedCurves())
     {
+        const Curve& curve = dense; // for lambdas
         std::vector<double> all;
         const auto run = [&](const StreamingParams& params)
         {

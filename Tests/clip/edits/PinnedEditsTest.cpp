@@ -22,7 +22,7 @@ namespace
 constexpr double editInfinity = std::numeric_limits<double>::infinity();
 
 /// Everything of a clip that edits can change.
-std::vector<double> numbersOf(const Clip& clip)
+std::vector<double> editNumbersOf(const Clip& clip)
 {
     std::vector<double> all = {clip.duration, static_cast<double>(clip.bands.size())};
     for (const Lane& lane : lanesOf(clip))
@@ -76,7 +76,7 @@ void addEdit(std::vector<double>& all, const Result<Clip>& edited)
 {
     REQUIRE(edited.ok());
     CHECK(validate(*edited).ok());
-    const auto more = numbersOf(*edited);
+    const auto more = editNumbersOf(*edited);
     all.insert(all.end(), more.begin(), more.end());
 }
 
