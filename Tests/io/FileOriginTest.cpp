@@ -134,3 +134,51 @@ TEST_CASE("The seal of a clip holds in both its forms and breaks with any change
         CHECK(sealOf(changed) == ClipSeal::broken);
     }
 }
+
+TEST_CASE("Every number, text and parameter of a clip counts for its seal", "[io]")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    clip.envelope = {{0.0, 0.5}};
+    clip.centroid = {{0.0, 100.0}};
+    clip.bands = {{50.0, 75.0, 100.0, 1, {{0.0, 0.25}}, {{0.0, 60.0}}}};
+    clip.transients = {{0.5, 0.5, 0.5}};
+    clip.noise = {{10.0, 20.0, {{0.0, 0.125}}}};
+    clip.markers = {{1.0, "m"}};
+    clip.encoder = {{"text", std::string("t")}, {"number", 1.0}, {"truth", false}};
+    sealClip(clip);
+    REQUIRE(sealOf(clip) == ClipSeal::whole);
+    const auto breaks = [&](auto change)
+    {
+        Clip other = clip;
+        change(other);
+        return sealOf(other) == ClipSeal::broken;
+    };
+    CHECK(breaks([](Clip& c) { c.envelope[0].value = 0.25; }));
+    CHECK(breaks([](Clip& c) { c.envelope[0].time = 0.25; }));
+    CHECK(breaks([](Clip& c) { c.envelope.clear(); }));
+    CHECK(breaks([](Clip& c) { c.centroid[0].value = 101.0; }));
+    CHECK(breaks([](Clip& c) { c.bands[0].priority = 2; }));
+    CHECK(breaks([](Clip& c) { c.bands[0].centreFrequency = 76.0; }));
+    CHECK(breaks([](Clip& c) { c.bands[0].amplitude[0].value = 0.5; }));
+    CHECK(breaks([](Clip& c) { c.bands[0].pitch[0].value = 61.0; }));
+    CHECK(breaks([](Clip& c) { c.bands.push_back(c.bands[0]); }));
+    CHECK(breaks([](Clip& c) { c.transients[0].sharpness = 0.25; }));
+    CHECK(breaks([](Clip& c) { c.noise[0].highFrequency = 21.0; }));
+    CHECK(breaks([](Clip& c) { c.noise[0].amplitude[0].value = 0.25; }));
+    CHECK(breaks([](Clip& c) { c.markers[0].name = "n"; }));
+    CHECK(breaks([](Clip& c) { c.markers[0].time = 0.5; }));
+    CHECK(breaks([](Clip& c) { c.source.channels = 1; }));
+    CHECK(breaks([](Clip& c) { c.source.file = "x"; }));
+    CHECK(breaks([](Clip& c) { c.encoder[0].name = "texts"; }));
+    CHECK(breaks([](Clip& c) { c.encoder[0].value = std::string("u"); }));
+    CHECK(breaks([](Clip& c) { c.encoder[1].value = 2.0; }));
+    CHECK(breaks([](Clip& c) { c.encoder[2].value = true; }));
+    CHECK(breaks([](Clip& c) { std::get<double>(c.encoder[3].value) += 1.0; }));
+    CHECK_FALSE(breaks([](Clip& c) { c.envelope[0].time = -0.0; })); // no two zeros
+    Clip bare = clip;
+    bare.encoder.pop_back();
+    CHECK(sealOf(bare) == ClipSeal::missing);
+    sealClip(bare);
+    CHECK(bare == clip);
+}

@@ -32,7 +32,7 @@ inline void appendPoint(Curve& curve, Breakpoint point)
     const std::size_t n = curve.size();
     if (n > 0 && curve[n - 1] == point)
         return;
-    if (n > 1 && curve[n - 1].time == point.time && curve[n - 2].time == point.time)
+    if (n > 1 && curve[n - 2].time == point.time)
         curve.pop_back();
     if (curve.empty() || curve.back() != point)
         curve.push_back(point);
