@@ -347,3 +347,29 @@ TEST_CASE("Unrelated channels keep their mean, antiphase ones the strongest", "[
         CHECK(found.envelope[400] == Approx(0.4 * (mean + share * (1.0 - mean))).epsilon(2e-3));
     }
 }
+
+TEST_CASE("Frames of the band analysis are there as soon as no later block can change them", "[analysis]")
+{
+    // A block of 6144 samples is analysed when more than it is there; 5632 - 1024 samples of it are then complete, less
+    // the half window of 20 or 5 ms.
+    BandAnalysis analysis(sixBands());
+    analysis.reset(1);
+    const auto x = noise(12000, 3);
+    const auto push = [&](std::size_t begin, std::size_t end)
+    {
+        const auto part = std::span(x).subspan(begin, end - begin);
+        analysis.push(std::span(&part, 1));
+        return std::pair(analysis.found().envelope.size(), analysis.found().tracks[0].amplitude.size());
+    };
+    CHECK(push(0, 6144) == std::pair<std::size_t, std::size_t>(0, 0));
+    const auto first = push(6144, 6145);
+    CHECK(static_cast<double>(first.first) == Approx((4608.0 - 20.0) / 20.0).margin(1.5));
+    CHECK(static_cast<double>(first.second) == Approx((4608.0 - 80.0) / 80.0).margin(1.5));
+    CHECK(push(6145, 11776) == first);
+    const auto second = push(11776, 11777);
+    CHECK(static_cast<double>(second.first) == Approx((10240.0 - 20.0) / 20.0).margin(1.5));
+    CHECK(static_cast<double>(second.second) == Approx((10240.0 - 80.0) / 80.0).margin(1.5));
+    checkPinned("analysis/frames that are there early",
+                {static_cast<double>(first.first), static_cast<double>(first.second), static_cast<double>(second.first),
+                 static_cast<double>(second.second)});
+}

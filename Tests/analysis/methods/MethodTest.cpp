@@ -57,6 +57,14 @@ std::vector<std::pair<std::string, std::vector<float>>> awkwardSounds(double fs)
     return sounds;
 }
 
+template <typename Params, typename Change>
+Params paramsWith(Change change)
+{
+    Params params;
+    change(params);
+    return params;
+}
+
 } // namespace
 
 TEST_CASE("Every method is in the table once, under its own name", "[methods]")
@@ -320,14 +328,23 @@ TEST_CASE("Parameters of methods beyond their ranges count as the ends of these"
     };
     const auto sineAt = [&](double f)
     {
-        return envelopeSineClip(x, fs, {.frequency = Hertz(f)}).bands.front().centreFrequency;
+        return envelopeSineClip(x, fs,
+                                paramsWith<EnvelopeSineParams>([&](EnvelopeSineParams& p) { p.frequency = Hertz(f); }))
+            .bands.front()
+            .centreFrequency;
     };
     CHECK(sineAt(0.5) == 1.0);
     CHECK(sineAt(2.0) == 2.0);
     CHECK(sineAt(1e9) == 0.45 * fs);
     const auto centroid = [&](double low, double high)
     {
-        return envelopeCentroidClip(x, fs, {.lowest = Hertz(low), .highest = Hertz(high)});
+        return envelopeCentroidClip(x, fs,
+                                    paramsWith<EnvelopeCentroidParams>(
+                                        [&](EnvelopeCentroidParams& p)
+                                        {
+                                            p.lowest = Hertz(low);
+                                            p.highest = Hertz(high);
+                                        }));
     };
     CHECK(centroid(0.0, 500.0).bands[0].lowFrequency == 1.0);
     CHECK(centroid(1e9, 500.0).bands[0].lowFrequency == 0.45 * fs);
@@ -338,18 +355,63 @@ TEST_CASE("Parameters of methods beyond their ranges count as the ends of these"
     {
         return thirdOctaveVocoderClip(x, fs, params);
     };
-    CHECK(vocoder({.channels = 0}).bands.size() == 1);
-    CHECK(vocoder({.lowestCentre = Hertz(1.0), .channels = 40}).bands.size() == 32);
-    CHECK(same(vocoder({.lowestCentre = Hertz(-5.0), .channels = 2}),
-               vocoder({.lowestCentre = Hertz(1.0), .channels = 2})));
-    CHECK(vocoder({.channels = 1, .carrier = Hertz(0.1)}).bands[0].pitch[0].value == 1.0);
-    CHECK(vocoder({.channels = 1, .carrier = Hertz(1e9)}).bands[0].pitch[0].value == 0.45 * fs);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>([&](ThirdOctaveVocoderParams& p) { p.channels = 0; }))
+              .bands.size() == 1);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(1.0);
+                          p.channels = 40;
+                      }))
+              .bands.size() == 32);
+    CHECK(same(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                   [&](ThirdOctaveVocoderParams& p)
+                   {
+                       p.lowestCentre = Hertz(-5.0);
+                       p.channels = 2;
+                   })),
+               vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                   [&](ThirdOctaveVocoderParams& p)
+                   {
+                       p.lowestCentre = Hertz(1.0);
+                       p.channels = 2;
+                   }))));
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.channels = 1;
+                          p.carrier = Hertz(0.1);
+                      }))
+              .bands[0]
+              .pitch[0]
+              .value == 1.0);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.channels = 1;
+                          p.carrier = Hertz(1e9);
+                      }))
+              .bands[0]
+              .pitch[0]
+              .value == 0.45 * fs);
     const double edge = 0.45 * fs / std::exp2(1.0 / 6.0);
-    CHECK(vocoder({.lowestCentre = Hertz(0.999 * edge), .channels = 3}).bands.size() == 1);
-    CHECK(vocoder({.lowestCentre = Hertz(1.001 * edge), .channels = 3}).bands.empty());
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(0.999 * edge);
+                          p.channels = 3;
+                      }))
+              .bands.size() == 1);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(1.001 * edge);
+                          p.channels = 3;
+                      }))
+              .bands.empty());
     const auto thesis = [&](int bits)
     {
-        return thesisClip(x, fs, {.quantise = bits});
+        return thesisClip(x, fs, paramsWith<ThesisMethodParams>([&](ThesisMethodParams& p) { p.quantise = bits; }));
     };
     CHECK(same(thesis(0), thesis(1)));
     CHECK(same(thesis(40), thesis(31)));
