@@ -171,14 +171,15 @@ TEST_CASE("The judge refuses rates that it cannot resample", "[evaluate]")
 
 TEST_CASE("The measures of unlike pairs of sounds are what they were", "[evaluate]")
 {
+    // What may be nothing but rounding is compared beside 1.
     const auto pin = [](const std::string& name, const std::vector<double>& x, const std::vector<double>& y)
     {
         SignalAnalyzer analyzer(x.size());
         const auto m = compare(featuresOf(analyzer, x, 8000), featuresOf(analyzer, y, 8000));
         checkPinned("evaluate/measures, " + name,
                     {m.silentReference ? 1.0 : 0.0, m.candidateRms, m.envelopeSnr, m.envelopeSnrPerBand, m.wideSnr,
-                     m.logSpectralDistance, m.centroidError, m.centroidBias, m.lag ? *m.lag : -1000.0,
-                     m.outOfBand.value_or(-1000.0), m.gain.value_or(-1000.0)},
+                     m.logSpectralDistance, m.centroidError, 1.0 + m.centroidBias, m.lag ? *m.lag : -1000.0,
+                     m.outOfBand.value_or(-1000.0), 1.0 + m.gain.value_or(-1000.0)},
                     1e-3);
     };
     const auto x = knocks(8000.0);
