@@ -401,3 +401,35 @@ TEST_CASE("Detecting transients in silence is cheap", "[analysis]")
     detector.process(silence, sink);
     CHECK(std::fetestexcept(FE_UNDERFLOW) == 0);
 }
+
+TEST_CASE("A detector that is reset or prepared within an event is a new one", "[analysis]")
+{
+    const auto before = noise(3000, 17);
+    const auto after = noise(9000, 18);
+    auto params = relativeTransientParams();
+    params.threshold = 0.2;
+    params.minimumWindow = Seconds(0.05);
+    params.minimumDistance = Seconds(0.0);
+    const auto expected = detectTransients(after, 8000.0, params);
+    REQUIRE(expected.size() > 5);
+    for (const bool again : {false, true})
+        for (std::size_t used = 1; used <= before.size(); used += 173)
+        {
+            TransientDetector detector;
+            detector.setParams(params);
+            detector.prepare({8000.0, 9000});
+            detector.process(std::span(before).first(used), [](const DetectedTransient&) noexcept {});
+            if (again)
+                detector.prepare({8000.0, 9000});
+            else
+                detector.reset();
+            std::vector<DetectedTransient> found;
+            const auto keep = [&found](const DetectedTransient& event)
+            {
+                found.push_back(event);
+            };
+            detector.process(after, keep);
+            detector.finish(keep);
+            CHECK(found == expected);
+        }
+}
