@@ -1,9 +1,12 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/CurveFitter.h>
 #include <pacini/foundation/Random.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
 
 using namespace pacini;
@@ -175,4 +178,51 @@ TEST_CASE("A pitch curve keeps its last value where nothing is important", "[ana
     REQUIRE(curve.size() >= 3);
     for (double t = 4.0; t < 12.0; t += 0.5)
         CHECK(valueAt(curve, t) == Approx(150.0).epsilon(0.1));
+}
+
+TEST_CASE("Curves fitted at any price are what they were", "[analysis]")
+{
+    CurveFitter fitter;
+    for (const double price : {0.1, 5.0, 25.0, 400.0})
+    {
+        const std::string name = "analysis/curve at price " + std::to_string(price);
+        const auto pin = [&name](const std::string& of, const Curve& curve)
+        {
+            std::vector<double> times, values;
+            for (const Breakpoint& point : curve)
+            {
+                times.push_back(point.time);
+                values.push_back(point.value);
+            }
+            checkPinned(name + ", times of " + of, times, 1e-6);
+            checkPinned(name + ", values of " + of, values, 1e-6);
+        };
+        pin("amplitudes", fitter.fitAmplitude(wanderingTrack(90, 3), step, 1.0, quiet, price));
+        pin("raised amplitudes", fitter.fitAmplitude(wanderingTrack(70, 4), step, 0.05, 0.01, price));
+        std::vector<double> track, importance;
+        Random random(9);
+        for (int i = 0; i < 60; ++i)
+        {
+            track.push_back(200.0 * std::exp(random.uniform(-0.3, 0.3) + 0.5 * std::sin(0.2 * i)));
+            importance.push_back(i > 40 ? 0.0 : random.uniform(0.0, 1.0));
+        }
+        pin("pitches", fitter.fitPitch(track, importance, 3.0 * step, price));
+    }
+    // One point where nothing else is worth it: the mean, weighted by importance over squared frequency.
+    const std::vector<double> two{100.0, 200.0};
+    const auto mean = [&](std::vector<double> importance)
+    {
+        const Curve curve = fitter.fitPitch(two, importance, step, 1e-9);
+        REQUIRE(curve.size() == 1);
+        CHECK(curve.front().time == 0.0);
+        return curve.front().value;
+    };
+    CHECK(mean({1.0, 1.0}) == Approx((1.0 / 100.0 + 1.0 / 200.0) / (1e-4 + 0.25e-4)));
+    CHECK(mean({0.0, 0.5}) == Approx((1e-4 / 100.0 + 1.0 / 200.0) / (1e-8 + 0.25e-4)));
+    CHECK(fitter.fitPitch(two, std::vector<double>{0.0, 0.0}, step, 1.0).empty());
+    // A quarter of the floor is the least that is felt.
+    CHECK(fitter.fitAmplitude(std::vector<float>(5, 0.24f), step, 1.0, 1.0, 1.0).empty());
+    CHECK(fitter.fitAmplitude(std::vector<float>(5, 0.25f), step, 1.0, 1.0, 1.0).size() == 2);
+    CHECK(fitter.fitAmplitude(std::vector<float>(5, 0.25f), step, 0.99, 1.0, 1.0).empty());
+    CHECK(fitter.fitAmplitude({}, step, 1.0, 1.0, 1.0).empty());
 }

@@ -2,10 +2,14 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/EnvelopeFollower.h>
 
+#include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -185,4 +189,60 @@ TEST_CASE("EnvelopeFollower keeps the contract of blocks", "[analysis][contract]
     checkSilenceIsCheap<EnvelopeFollower>({});
     checkSilenceIsCheap<EnvelopeFollower>({}, 480000);
     checkSilenceIsCheap<EnvelopeFollower>(adaptive);
+}
+
+TEST_CASE("Envelopes of bursts are what they were, with steady and with adaptive times", "[analysis]")
+{
+    const auto hiss = noise(1500, 2);
+    for (const bool adaptive : {false, true})
+        for (const auto slope : {RisingSlope::level, RisingSlope::strict, RisingSlope::derivative})
+            for (const auto decay : {DecayDefinition::percent99, DecayDefinition::percent63})
+            {
+                EnvelopeFollower follower;
+                follower.setParams({.attack = Seconds(0.004),
+                                    .hold = Seconds(0.006),
+                                    .release = Seconds(0.030),
+                                    .decay = decay,
+                                    .slope = slope,
+                                    .crestAdaptive = adaptive,
+                                    .crestMemory = Seconds(0.05)});
+                follower.prepare({8000.0, 1500});
+                std::vector<double> envelope;
+                for (std::size_t n = 0; n < hiss.size(); ++n)
+                    envelope.push_back(follower.tick((n / 300) % 2 == 0
+                                                         ? static_cast<double>(hiss[n])
+                                                         : 0.01 * std::sin(0.1 * static_cast<double>(n))));
+                const std::string name = "analysis/envelope of bursts, slope " +
+                                         std::to_string(static_cast<int>(slope)) + ", decay " +
+                                         std::to_string(static_cast<int>(decay)) + (adaptive ? ", adaptive" : "");
+                checkPinned(name, envelope);
+                checkPinned(name + ", start", std::span<const double>(envelope).first(20));
+            }
+    const EnvelopeFollowerParams usual;
+    CHECK(usual.attack.value == 0.001);
+    CHECK(usual.hold.value == 0.010);
+    CHECK(usual.release.value == 0.020);
+    CHECK(usual.crestMemory.value == 0.200);
+    CHECK_FALSE(usual.crestAdaptive);
+    CHECK(EnvelopeFollowerCoefficients{} == EnvelopeFollowerCoefficients{0.0, 0.0, 0, 0.0, 0.0, 0.0});
+    const auto longest =
+        designEnvelopeFollower({.attack = Seconds(1e9), .hold = Seconds(1e9), .release = Seconds(-1.0)}, 1000.0);
+    CHECK(longest.attack == std::pow(0.01, 1.0 / 3.6e6));
+    CHECK(longest.holdFrames == 3600000);
+    CHECK(longest.release == 0.0);
+    CHECK(longest.longestAttackFrames == 3.6e6);
+    CHECK(longest.longestReleaseFrames == 0.0);
+    CHECK(longest.crestMemory == std::exp(-1.0 / 200.0));
+    CHECK(roundedFrames(Seconds(-1.0), 48000.0) == 0);
+    CHECK(roundedFrames(Seconds(std::nan("")), 48000.0) == 0);
+    CHECK(roundedFrames(Seconds(1e300), 48000.0) == std::size_t(1) << 53);
+    CHECK(decayCoefficient(0.0, DecayDefinition::percent63) == 0.0);
+    CHECK(decayCoefficient(-3.0, DecayDefinition::percent99) == 0.0);
+    CHECK(decayCoefficient(2.0, DecayDefinition::percent99) == Approx(0.1));
+    CHECK(decayCoefficient(2.0, DecayDefinition::percent63) == Approx(std::exp(-0.5)));
+}
+
+TEST_CASE("Adaptive envelopes of silence are cheap", "[analysis]")
+{
+    checkSilenceIsCheap<EnvelopeFollower>({.crestAdaptive = true, .crestMemory = Seconds(0.02)});
 }

@@ -2,8 +2,13 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/OnsetDetector.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -372,4 +377,100 @@ TEST_CASE("Louder neighbours mask by level, distance and salience", "[analysis][
     CHECK(kept({heard(1.0, -89.0, 1.0)}) == Times{1.0});
     CHECK(kept({heard(1.0, -91.0, 9.0)}).empty());
     CHECK(kept({{1.0, 0.0, 0.0, 0.0, 9.0}}).empty());
+}
+
+TEST_CASE("The parameters of onset detection are those that were set on drums", "[analysis][onsets]")
+{
+    const OnsetParams usual;
+    CHECK(usual.sensitivity == 1.0);
+    CHECK(usual.minimumGap.value == 0.010);
+    CHECK(usual.maskMargin.value == 8.0);
+    CHECK(usual.maskSlope == 0.06);
+    CHECK(usual.maskRecovery == 20.0);
+    CHECK(usual.maskLimit.value == 27.0);
+    CHECK(usual.silence.value == -90.0);
+    CHECK(Onset{} == Onset{0.0, 0.0, 0.0, 0.0, 0.0});
+}
+
+TEST_CASE("An onset is masked by what its neighbours leave at its time, before and after", "[analysis][onsets]")
+{
+    const OnsetParams params;
+    const auto amplitude = [](double dB)
+    {
+        return std::pow(10.0, dB / 20.0);
+    };
+    const auto kept = [&](std::vector<Onset> onsets)
+    {
+        std::vector<double> times;
+        for (const Onset& onset : unmaskedOnsets(onsets, params))
+            times.push_back(onset.time);
+        return times;
+    };
+    using Times = std::vector<double>;
+    // 10 dB below a neighbour 0.1 s away: a deficit of 8 dB, which needs no more than 1.
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-9.99), 0.0, 0.0, 1.0}}) == Times{1.0, 1.1});
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-10.1), 0.0, 0.0, 1.0}}) == Times{1.0});
+    CHECK(kept({{1.0, amplitude(-10.1), 0.0, 0.0, 1.0}, {1.1, 1.0, 0.0, 0.0, 1.0}}) == Times{1.1});
+    CHECK(kept({{1.0, amplitude(-9.99), 0.0, 0.0, 1.0}, {1.1, 1.0, 0.0, 0.0, 1.0}}) == Times{1.0, 1.1});
+    // 10 dB of deficit beyond the margin need 1.6.
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-20.0), 0.0, 0.0, 1.601}}) == Times{1.0, 1.1});
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-20.0), 0.0, 0.0, 1.599}}) == Times{1.0});
+    // Beyond 27 dB nothing helps.
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-28.9), 0.0, 0.0, 9.0}}) == Times{1.0, 1.1});
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}, {1.1, amplitude(-29.1), 0.0, 0.0, 9.0}}) == Times{1.0});
+    // Over a third one in between the mask goes on.
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0},
+                {1.05, amplitude(-5.0), 0.0, 0.0, 1.0},
+                {1.1, amplitude(-10.1), 0.0, 0.0, 1.0}}) == Times{1.0, 1.05});
+    CHECK(kept({{1.0, amplitude(-10.1), 0.0, 0.0, 1.0},
+                {1.05, amplitude(-5.0), 0.0, 0.0, 1.0},
+                {1.1, 1.0, 0.0, 0.0, 1.0}}) == Times{1.05, 1.1});
+    CHECK(kept({{1.0, amplitude(-89.9), 0.0, 0.0, 1.0}}) == Times{1.0});
+    CHECK(kept({{1.0, amplitude(-90.1), 0.0, 0.0, 1.0}}).empty());
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 1.0}}) == Times{1.0});
+    CHECK(kept({{1.0, 1.0, 0.0, 0.0, 0.999}}).empty());
+    CHECK(kept({}).empty());
+    OnsetParams deaf;
+    deaf.silence = Decibels(-300.0);
+    CHECK(unmaskedOnsets(std::vector<Onset>{{0.0, 0.0, 0.0, 0.0, 1.0}}, deaf).size() == 1);
+    deaf.silence = Decibels(-199.0);
+    CHECK(unmaskedOnsets(std::vector<Onset>{{0.0, 0.0, 0.0, 0.0, 1.0}}, deaf).empty());
+}
+
+TEST_CASE("Onsets of a mixed sound at any rate are what they were", "[analysis][onsets]")
+{
+    for (const double fs : {8000.0, 44100.0, 96000.0})
+    {
+        auto sound = swellingNoise(2.0, fs, 4.0, 5);
+        for (float& v : sound)
+            v *= 0.05f;
+        for (const double at : {0.2, 0.31, 0.37, 0.6, 0.612, 0.9, 1.3, 1.8})
+        {
+            addKick(sound, at, fs, 0.4 - 0.15 * std::fmod(10.0 * at, 2.0));
+            addClick(sound, at + 0.07, fs, 0.3);
+        }
+        for (const double sensitivity : {0.1, 0.5, 1.0, 3.0})
+        {
+            OnsetParams params;
+            params.sensitivity = sensitivity;
+            std::vector<double> times, rest;
+            for (const Onset& onset : detectOnsets(sound, 1, fs, params))
+            {
+                times.push_back(onset.time);
+                rest.insert(rest.end(), {onset.amplitude, onset.lowAmplitude, onset.sharpness, onset.salience});
+            }
+            const std::string name = "analysis/onsets at " + std::to_string(static_cast<int>(fs)) + ", sensitivity " +
+                                     std::to_string(sensitivity);
+            checkPinned(name + ", times", times, 1e-5);
+            checkPinned(name + ", the rest", rest, 1e-4);
+        }
+        OnsetParams quarter;
+        quarter.sensitivity = 0.25;
+        OnsetParams less = quarter;
+        less.sensitivity = 0.1;
+        CHECK(detectOnsets(sound, 1, fs, less) == detectOnsets(sound, 1, fs, quarter));
+        quarter.sensitivity = 4.0;
+        less.sensitivity = 40.0;
+        CHECK(detectOnsets(sound, 1, fs, less) == detectOnsets(sound, 1, fs, quarter));
+    }
 }

@@ -1,8 +1,16 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/OnsetMeasure.h>
+#include <pacini/foundation/Random.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -138,4 +146,125 @@ TEST_CASE("Sharpness is the place of what is new between 150 and 2500 Hz", "[ana
     }
     const double place = std::log(OnsetFrame::bandCentres[3] / 150.0) / std::log(2500.0 / 150.0);
     CHECK(measureOnset(frames.data() + before, 50, 1000).sharpness == Approx(place).margin(1e-6));
+}
+
+TEST_CASE("Times, levels and sharpness of onsets of many shapes are what they were", "[analysis][onsets]")
+{
+    Random random(31);
+    for (int shape = 0; shape < 12; ++shape)
+    {
+        std::vector<OnsetFrame> frames(90);
+        const double rise = 0.2 + 0.9 * (shape % 4);
+        const double background = shape % 3 == 0 ? 0.0 : 0.02 * (shape % 3);
+        for (std::size_t i = 0; i < frames.size(); ++i)
+        {
+            const double t = static_cast<double>(i) - 40.0;
+            const double level = t < 0.0 ? std::exp(t / rise) : std::exp(-t / 9.0) * (1.0 + 0.3 * std::sin(t));
+            frames[i].power = static_cast<float>(background * random.uniform(0.5, 1.5) + level);
+            frames[i].lowPower = 0.4f * frames[i].power;
+            for (std::size_t b = 0; b < 8; ++b)
+                frames[i].bands[b] = static_cast<float>(random.uniform(0.0, 0.02) +
+                                                        level * (static_cast<int>(b) == shape % 7 ? 0.5 : 0.1));
+        }
+        std::vector<double> all;
+        for (const std::ptrdiff_t index : {41, 43, 2, 0})
+            for (const std::ptrdiff_t next : {1000, 8, 3})
+            {
+                const Onset onset = measureOnset(frames.data() + 41, index, index + next);
+                all.insert(all.end(), {onset.time, onset.amplitude, onset.lowAmplitude, onset.sharpness});
+                CHECK(onset.salience == 0.0);
+            }
+        checkPinned("analysis/onset of shape " + std::to_string(shape), all, 1e-6);
+        checkPinned("analysis/onset of shape " + std::to_string(shape) + ", first",
+                    std::span<const double>(all).first(8), 1e-6);
+    }
+}
+
+TEST_CASE("An attack is looked for from 12 frames before to 8 after the peak", "[analysis][onsets]")
+{
+    const auto startOf = [](const std::vector<std::pair<std::ptrdiff_t, float>>& powers, std::ptrdiff_t index = 1000)
+    {
+        std::vector<OnsetFrame> frames(60);
+        for (const auto& [at, power] : powers)
+            frames[static_cast<std::size_t>(30 + at)].power = power;
+        return detail::attackStart(frames.data() + 30, index);
+    };
+    CHECK(startOf({{0, 1.0f}}) == 0);
+    CHECK(startOf({{-3, 1.0f}}) == -3);
+    CHECK(startOf({{-4, 1.0f}}) == -4); // a frame of silence reaches half of nothing, and back it goes
+    CHECK(startOf({{8, 1.0f}}) == 8);
+    CHECK(startOf({{9, 1.0f}}) == -3); // beyond the frames that are looked at
+    // A quarter of the peak is half of its amplitude.
+    CHECK(startOf({{0, 0.25f}, {2, 1.0f}}) == 0);
+    CHECK(startOf({{0, 0.24f}, {1, 0.0f}, {2, 1.0f}}) == 2);
+    // Back as long as 8 % of the amplitude is exceeded, and at most 9 frames.
+    CHECK(startOf({{-1, 0.0065f}, {0, 1.0f}}) == -1);
+    CHECK(startOf({{-1, 0.0063f}, {0, 1.0f}}) == 0);
+    CHECK(startOf({{-2, 0.0065f}, {-1, 0.02f}, {0, 1.0f}}) == -2);
+    std::vector<std::pair<std::ptrdiff_t, float>> ramp;
+    for (std::ptrdiff_t i = -20; i < 0; ++i)
+        ramp.emplace_back(i, 0.2f);
+    ramp.emplace_back(0, 1.0f);
+    CHECK(startOf(ramp) == 0); // it stands out from no background
+    // A quarter of the peak 4 frames before stands out from any background, back to 9 frames before the first that is
+    // looked at, and never before the start of the sound.
+    for (auto& [at, power] : ramp)
+        power = at < 0 ? 0.3f : power;
+    CHECK(startOf(ramp) == -12);
+    CHECK(startOf(ramp, 5) == -5);
+    for (auto& [at, power] : ramp)
+        power = at < -8 ? 0.0f : at < 0 ? 0.2f : power;
+    CHECK(startOf(ramp) == -8);
+    CHECK(startOf(ramp, 4) == -4);
+    CHECK(startOf(ramp, 0) == 0);
+    // 2.5 times the median of the background: 6.25 of power.
+    for (const float before : {0.031f, 0.033f})
+    {
+        std::vector<std::pair<std::ptrdiff_t, float>> steady;
+        for (std::ptrdiff_t i = -20; i < -1; ++i)
+            steady.emplace_back(i, before);
+        steady.emplace_back(-1, 0.2f);
+        steady.emplace_back(0, 1.0f);
+        CHECK(startOf(steady) == (before < 0.032f ? -1 : 0));
+    }
+}
+
+TEST_CASE("The greatest power of five frames is found wherever it is", "[analysis][onsets]")
+{
+    std::vector<OnsetFrame> frames(20);
+    for (std::size_t i = 5; i < 10; ++i)
+        frames[i].power = 2.0f;
+    const auto greatest = [&](std::ptrdiff_t count)
+    {
+        return detail::greatestPower(frames.data(), count, [](const OnsetFrame& f) { return f.power; });
+    };
+    CHECK(greatest(5) == 0.0);
+    CHECK(greatest(6) == Approx(0.4));
+    CHECK(greatest(9) == Approx(1.6));
+    CHECK(greatest(10) == Approx(2.0));
+    CHECK(greatest(20) == Approx(2.0));
+}
+
+TEST_CASE("Sharpness is that of the band that gains, between 150 and 2500 Hz", "[analysis][onsets]")
+{
+    for (std::size_t b = 0; b < OnsetFrame::bandCount; ++b)
+    {
+        std::vector<OnsetFrame> frames(16);
+        for (std::size_t i = 8; i < 16; ++i)
+            frames[i].bands[b] = 1.0f;
+        const double position = std::log(OnsetFrame::bandCentres[b] / 150.0) / std::log(2500.0 / 150.0);
+        CHECK(detail::sharpness(frames.data() + 8) == Approx(std::clamp(position, 0.0, 1.0)));
+        // What falls does not count, nor what was there 9 frames before or comes 8 after.
+        std::vector<OnsetFrame> falls(18);
+        falls[1].bands[b] = 1.0f;
+        CHECK(detail::sharpness(falls.data() + 9) == 0.0);
+        std::vector<OnsetFrame> outside(20);
+        outside[1].bands[b] = 1.0f;
+        outside[18].bands[b] = 1.0f;
+        CHECK(detail::sharpness(outside.data() + 10) == 0.0);
+        std::vector<OnsetFrame> last(20);
+        last[17].bands[b] = 1.0f;
+        CHECK(detail::sharpness(last.data() + 10) == Approx(std::clamp(position, 0.0, 1.0)));
+    }
+    CHECK(OnsetFrame::bandCentres == std::array<double, 7>{56.0, 159.0, 318.0, 636.0, 1273.0, 2546.0, 6600.0});
 }

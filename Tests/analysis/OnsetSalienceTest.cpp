@@ -1,10 +1,15 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/OnsetSalience.h>
 #include <pacini/foundation/Random.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
+#include <string>
 #include <vector>
 
 using namespace pacini;
@@ -211,4 +216,65 @@ TEST_CASE("How frames are cut into calls does not show in the salience", "[analy
     const auto whole = salienceOf(frames);
     for (const std::ptrdiff_t piece : {1, 7, 64, 333})
         CHECK((salienceOf(frames, 1.0, piece) == whole));
+}
+
+TEST_CASE("Salience of strokes, hums and fluctuations is what it was", "[analysis][onsets]")
+{
+    for (const double sensitivity : {0.25, 1.0, 4.0})
+    {
+        Random random(6);
+        double level = 0.01;
+        const auto powers = [&](std::ptrdiff_t k)
+        {
+            // Strokes of each band in turn, faster and faster, in a hum and in noise that fluctuates.
+            if (k % 7 == 0)
+                level = 0.002 * std::exp(random.uniform(-1.0, 1.0));
+            Bands bands = allBands(level * random.uniform(0.5, 1.5));
+            bands[0] += 0.02 * (1.0 + 0.5 * std::sin(0.3 * static_cast<double>(k)));
+            for (const std::ptrdiff_t stroke : {60, 140, 200, 260, 290, 310, 322, 335, 400, 520, 700})
+                if (k >= stroke)
+                    bands[static_cast<std::size_t>(stroke / 20) % 7] +=
+                        0.3 * std::exp(-static_cast<double>(k - stroke) / 12.0) * (k == stroke ? 0.4 : 1.0);
+            if (k > 600 && k < 690)
+                bands = allBands(k < 640 ? 1e-7 : 0.0);
+            return bands;
+        };
+        const auto salience = salienceOf(framesOf(800, powers), sensitivity);
+        const std::string name = "analysis/salience at sensitivity " + std::to_string(sensitivity);
+        checkPinned(name, salience, 1e-4);
+        std::vector<double> sections;
+        for (std::size_t i = 0; i + 32 <= salience.size(); i += 32)
+            sections.push_back(*std::max_element(salience.begin() + static_cast<std::ptrdiff_t>(i),
+                                                 salience.begin() + static_cast<std::ptrdiff_t>(i) + 32));
+        checkPinned(name + ", greatest of every 32", sections, 1e-4);
+    }
+}
+
+TEST_CASE("Salience of single steps over hums of all levels is what it was", "[analysis][onsets]")
+{
+    std::vector<double> peaks;
+    for (const double hum : {0.0, 1e-4, 3e-3, 0.02, 0.3})
+        for (const double before : {0.0, 1e-3, 5e-3})
+            for (const double step : {0.004, 0.02, 0.5})
+            {
+                const auto powers = [&](std::ptrdiff_t k)
+                {
+                    Bands bands = allBands(before * (k > 40 && k < 60 ? 3.0 : 1.0));
+                    bands[0] += hum;
+                    bands[4] += k >= 100 ? step : 0.0;
+                    bands[5] += k >= 103 ? step : 0.0;
+                    return bands;
+                };
+                const auto salience = salienceOf(framesOf(200, powers), 4.0);
+                double sum = 0.0;
+                for (const double s : salience)
+                    sum += s;
+                peaks.push_back(greatest(salience, 80, 120));
+                peaks.push_back(salience[100]);
+                peaks.push_back(salience[101]);
+                peaks.push_back(sum);
+            }
+    for (std::size_t i = 0; i + 20 <= peaks.size(); i += 20)
+        checkPinned("analysis/salience of steps " + std::to_string(i / 20),
+                    std::span<const double>(peaks).subspan(i, 20), 1e-4);
 }

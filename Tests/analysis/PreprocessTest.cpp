@@ -91,3 +91,15 @@ TEST_CASE("Active time counts the blocks in which a tone sounds", "[analysis]")
     CHECK(activeTime(std::vector<float>(1, 1.0f), 8000.0).value == Approx(1.0 / 8000.0));
     CHECK(activeTime(std::vector<float>(81, 1.0f), 8000.0).value == Approx(81.0 / 8000.0));
 }
+
+TEST_CASE("A band limit has no low-pass from 0.49 of the sample rate on, and no high-pass at 0 Hz", "[analysis]")
+{
+    const auto sections = [](double low, double high)
+    {
+        return designBandLimit({Hertz(low), Hertz(high)}, 8000.0).sections.size();
+    };
+    CHECK(sections(5.0, 0.49 * 8000.0) == 1);
+    CHECK(sections(5.0, 0.4899 * 8000.0) == 3);
+    CHECK(sections(0.0, 0.49 * 8000.0) == 0);
+    CHECK(sections(0.1, 0.49 * 8000.0) == 1);
+}

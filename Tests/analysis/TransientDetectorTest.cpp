@@ -2,9 +2,11 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/TransientDetector.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -320,4 +322,114 @@ TEST_CASE("The relative score is the fast envelope over the slow one, kept finit
         const double difference = score.tick(n < 5 ? 0.0 : 1e-7);
         CHECK(std::abs(relative[static_cast<std::size_t>(n)]) == Approx(difference).epsilon(1e-5).margin(1e-15));
     }
+}
+
+TEST_CASE("The parameters of transient detection are the documented ones", "[analysis]")
+{
+    const TransientDetectorParams usual;
+    CHECK(usual.threshold == 0.3);
+    CHECK(usual.minimumWindow.value == 0.0);
+    CHECK(usual.minimumDistance.value == 0.010);
+    CHECK(usual.minimumAmplitude == 0.05);
+    CHECK(usual.score.reading == TransientScoreReading::absolute);
+    CHECK(usual.score.floor == 0.03);
+    CHECK(usual.score.fastAttack.value == 0.001);
+    CHECK(usual.score.slowAttack.value == 0.030);
+    CHECK(usual.score.hold.value == 0.016);
+    CHECK(usual.score.release.value == 0.100);
+    const auto relative = relativeTransientParams();
+    CHECK(relative.score.reading == TransientScoreReading::relative);
+    CHECK(relative.score.fastAttack.value == 0.0005);
+    CHECK(relative.score.slowAttack.value == 0.020);
+    CHECK(relative.score.hold.value == 0.005);
+    CHECK(relative.score.release.value == 0.010);
+    CHECK(relative.threshold == 2.0);
+    CHECK(relative.minimumWindow.value == 0.002);
+    CHECK(relative.minimumDistance.value == 0.008);
+    CHECK(DetectedTransient{} == DetectedTransient{0, 0.0});
+}
+
+TEST_CASE("Transients of a dense train are what they were by both scores", "[analysis]")
+{
+    auto x = noise(16000, 21);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] *= static_cast<float>(0.04 + 0.9 * std::exp(-static_cast<double>((n * 7 / 3) % 911) / 60.0));
+    const auto pin = [&x](const std::string& name, TransientDetectorParams params)
+    {
+        std::vector<double> all;
+        for (const DetectedTransient& event : detectTransients(x, 8000.0, params))
+            all.insert(all.end(), {static_cast<double>(event.frame), event.amplitude});
+        checkPinned("analysis/transients, " + name, all, 1e-6);
+    };
+    pin("absolute", {});
+    pin("relative", relativeTransientParams());
+    auto params = relativeTransientParams();
+    params.minimumWindow = Seconds(0.03);
+    params.minimumDistance = Seconds(0.0);
+    params.threshold = 0.4;
+    pin("overlapping windows", params);
+    params.minimumWindow = Seconds(1.0);
+    pin("more windows than fit", params);
+    params.minimumDistance = Seconds(0.2);
+    params.minimumAmplitude = 0.5;
+    pin("far apart", params);
+}
+
+TEST_CASE("A transient score that was never told its parameters has the default ones", "[analysis]")
+{
+    const auto x = noise(4000, 13);
+    TransientScore told, untold;
+    told.setParams({});
+    told.prepare({8000.0, 4000});
+    untold.prepare({8000.0, 4000});
+    CHECK(runInBlocks(told, x, 512) == runInBlocks(untold, x, 512));
+}
+
+TEST_CASE("Detecting transients in silence is cheap", "[analysis]")
+{
+    TransientDetector detector;
+    TransientDetectorParams params;
+    params.score.release = Seconds(0.01);
+    detector.setParams(params);
+    detector.prepare({8000.0, 512});
+    const auto sink = [](const DetectedTransient&) noexcept {
+    };
+    detector.process(noise(512, 3), sink);
+    const std::vector<float> silence(40000, 0.0f);
+    detector.process(silence, sink);
+    std::feclearexcept(FE_UNDERFLOW);
+    detector.process(silence, sink);
+    CHECK(std::fetestexcept(FE_UNDERFLOW) == 0);
+}
+
+TEST_CASE("A detector that is reset or prepared within an event is a new one", "[analysis]")
+{
+    const auto before = noise(3000, 17);
+    const auto after = noise(9000, 18);
+    auto params = relativeTransientParams();
+    params.threshold = 0.2;
+    params.minimumWindow = Seconds(0.05);
+    params.minimumDistance = Seconds(0.0);
+    const auto expected = detectTransients(after, 8000.0, params);
+    REQUIRE(expected.size() > 5);
+    for (const bool again : {false, true})
+        for (std::size_t used = 1; used <= before.size(); used += 173)
+        {
+            TransientDetector detector;
+            detector.setParams(params);
+            detector.prepare({8000.0, 9000});
+            detector.process(std::span(before).first(used), [](const DetectedTransient&) noexcept {});
+            if (again)
+                detector.prepare({8000.0, 9000});
+            else
+                detector.reset();
+            std::vector<DetectedTransient> found;
+            const auto keep = [&found](const DetectedTransient& event)
+            {
+                found.push_back(event);
+            };
+            detector.process(after, keep);
+            detector.finish(keep);
+            CHECK(found == expected);
+        }
 }

@@ -111,8 +111,6 @@ inline void addEnvelopes(LevelSimilarity& similarity, std::span<const float> ref
 {
     if (reference.empty() && candidate.empty())
         return 1.0;
-    if (reference.empty() || candidate.empty())
-        return 0.0;
     constexpr double tolerance = 0.008;
     const auto n = static_cast<double>(reference.size());
     const auto m = static_cast<double>(candidate.size());

@@ -117,3 +117,22 @@ TEST_CASE("The decay of the envelope is adjustable", "[methods]")
         CHECK(valueAt(clip.bands[0].amplitude, end + release.value / 2.0) / before == Approx(0.1).epsilon(0.25));
     }
 }
+
+TEST_CASE("A centroid above the highest that counts has the highest pitch, and below the lowest the lowest",
+          "[methods]")
+{
+    const double fs = 8000.0;
+    const auto x = noise(4000, 4);
+    CentroidFlatnessParams params;
+    params.lowCentroid = Hertz(100.0);
+    params.highCentroid = Hertz(500.0);
+    const Clip high = centroidFlatnessClip(x, fs, params);
+    REQUIRE_FALSE(high.bands.front().pitch.empty());
+    for (const Breakpoint& point : high.bands.front().pitch)
+        CHECK(point.value == Approx(400.0));
+    params.lowCentroid = Hertz(3900.0);
+    params.highCentroid = Hertz(8000.0);
+    const Clip low = centroidFlatnessClip(x, fs, params);
+    for (const Breakpoint& point : low.bands.front().pitch)
+        CHECK(point.value == Approx(40.0));
+}

@@ -2,12 +2,21 @@
 #include "support/BlockContract.h"
 #include "support/Catch.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/analysis/methods/Method.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
+#include <span>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -46,6 +55,14 @@ std::vector<std::pair<std::string, std::vector<float>>> awkwardSounds(double fs)
     bad[70] = std::numeric_limits<float>::infinity();
     sounds.emplace_back("noise with NaN", bad);
     return sounds;
+}
+
+template <typename Params, typename Change>
+Params paramsWith(Change change)
+{
+    Params params;
+    change(params);
+    return params;
 }
 
 } // namespace
@@ -186,4 +203,278 @@ TEST_CASE("Choices that a method does not have leave it as it is", "[methods]")
     for (const Band& band : clip.bands)
         for (const Breakpoint& point : band.amplitude)
             CHECK(point.value * 31.0 == Approx(std::round(point.value * 31.0)).margin(1e-9));
+}
+
+TEST_CASE("What every method makes of a mixed sound is what it was", "[methods]")
+{
+    for (const double fs : {8000.0, 22050.0})
+    {
+        std::vector<float> x(static_cast<std::size_t>(0.9 * fs));
+        const auto hiss = noise(x.size(), 12);
+        for (std::size_t n = 0; n < x.size(); ++n)
+        {
+            const double t = static_cast<double>(n) / fs;
+            const double w = 2.0 * std::numbers::pi * t;
+            const double knock = 0.2 + std::exp(-std::fmod(t + 0.1, 0.3) / 0.03);
+            x[n] = static_cast<float>(0.5 * knock *
+                                          (std::sin(70.0 * w) + 0.6 * std::sin(900.0 * w + 2.0 * std::sin(3.0 * w))) +
+                                      0.1 * static_cast<double>(hiss[n]) * (t > 0.6 ? 5.0 : 1.0));
+        }
+        const std::string at = " at " + std::to_string(static_cast<int>(fs));
+        for (const Method method : methodsThatMake(MethodOutput::clip))
+            for (const double points : {6.0, 200.0})
+            {
+                MethodChoices choices;
+                choices.breakpoints = points;
+                const Clip clip = translateToClip(method, x, fs, choices);
+                const std::string name = "analysis/" + std::string(methodInfo(method).name) + at + " with " +
+                                         std::to_string(static_cast<int>(points)) + " points";
+                const auto pin = [&name](const std::string& of, const Curve& curve)
+                {
+                    std::vector<double> times, values;
+                    for (const Breakpoint& point : curve)
+                    {
+                        times.push_back(point.time);
+                        values.push_back(point.value);
+                    }
+                    checkPinned(name + ", times of " + of, times, 1e-6);
+                    checkPinned(name + ", values of " + of, values, 1e-4);
+                };
+                pin("envelope", clip.envelope);
+                pin("centroid", clip.centroid);
+                std::vector<double> rest{clip.duration};
+                for (std::size_t k = 0; k < clip.bands.size(); ++k)
+                {
+                    const Band& band = clip.bands[k];
+                    rest.insert(rest.end(), {band.lowFrequency, band.centreFrequency, band.highFrequency,
+                                             static_cast<double>(band.priority)});
+                    if (k < 4 || k > 12)
+                    {
+                        pin("amplitude " + std::to_string(k), band.amplitude);
+                        pin("pitch " + std::to_string(k), band.pitch);
+                    }
+                }
+                for (const Transient& transient : clip.transients)
+                    rest.insert(rest.end(), {transient.time, transient.amplitude, transient.sharpness});
+                std::string names;
+                for (const auto& parameter : clip.encoder)
+                {
+                    names += parameter.name + " ";
+                    if (const auto* number = std::get_if<double>(&parameter.value))
+                        rest.push_back(*number);
+                }
+                CHECK(names.starts_with("method breakpoints attack hold release gain "));
+                checkPinned(name + ", the rest", rest, 1e-5);
+                checkPinned(name + ", the record", std::span<const double>(rest).last(5), 1e-5);
+            }
+        for (const Method method : methodsThatMake(MethodOutput::signal))
+        {
+            const auto y = translateToSignal(method, x, fs);
+            const std::vector<double> all(y.begin(), y.end());
+            const std::string name = "analysis/" + std::string(methodInfo(method).name) + at;
+            checkPinned(name, all, 1e-5);
+            checkPinned(name + ", start", std::span<const double>(all).first(20), 1e-3);
+            checkPinned(name + ", end", std::span<const double>(all).last(20), 1e-3);
+        }
+        for (const double semitones : {-70.0, -60.0, -7.0, 0.0, 12.0, 24.0, 30.0})
+        {
+            const auto y = pitchShift(x, fs, {semitones});
+            checkPinned("analysis/pitch shift by " + std::to_string(static_cast<int>(semitones)) + at,
+                        std::vector<double>(y.begin(), y.end()), 1e-5);
+        }
+    }
+}
+
+TEST_CASE("Parameters of methods have the defaults of their sources", "[methods]")
+{
+    CHECK(PitchShiftParams{}.semitones == -24.0);
+    CHECK(ZeroPhaseLowpassParams{}.frequency.value == 1000.0);
+    CHECK(ZeroPhaseLowpassParams{}.order == 4);
+    CHECK(EnvelopeSineParams{}.frequency.value == 80.0);
+    CHECK(EnvelopeCentroidParams{}.lowest.value == 20.0);
+    CHECK(EnvelopeCentroidParams{}.highest.value == 1000.0);
+    CHECK(ThesisMethodParams{}.quantise == 12);
+    CHECK(ThirdOctaveVocoderParams{}.lowestCentre.value == 200.0);
+    CHECK(ThirdOctaveVocoderParams{}.channels == 16);
+    CHECK(ThirdOctaveVocoderParams{}.carrier.value == 100.0);
+    CHECK(ThirdOctaveVocoderParams{}.range.low.value == 5.0);
+    CHECK(std::isinf(ThirdOctaveVocoderParams{}.range.high.value));
+    const CentroidFlatnessParams flat;
+    CHECK(flat.range.low.value == 5.0);
+    CHECK(flat.lowCentroid.value == 100.0);
+    CHECK(flat.highCentroid.value == 10e3);
+    CHECK(flat.lowPitch.value == 40.0);
+    CHECK(flat.highPitch.value == 400.0);
+    CHECK(flat.highestPartial.value == 1e3);
+    const MethodCurveParams curves;
+    CHECK(curves.follower.attack.value == 0.002);
+    CHECK(curves.follower.hold.value == 0.010);
+    CHECK(curves.follower.release.value == 0.030);
+    CHECK(curves.trackRate.value == 1000.0);
+    CHECK(curves.breakpoints == 20.0);
+    CHECK(BandLimitParams{}.low.value == 5.0);
+    CHECK(BandLimitParams{}.high.value == 1800.0);
+    CHECK(MethodSound{}.fs == 48000.0);
+    CHECK(MethodSound{}.gain == 1.0);
+}
+
+TEST_CASE("Parameters of methods beyond their ranges count as the ends of these", "[methods]")
+{
+    const double fs = 8000.0;
+    const auto x = noise(4000, 3);
+    const auto same = [](const Clip& a, const Clip& b)
+    {
+        return a.bands == b.bands && a.encoder == b.encoder && a.envelope == b.envelope;
+    };
+    const auto sineAt = [&](double f)
+    {
+        return envelopeSineClip(x, fs,
+                                paramsWith<EnvelopeSineParams>([&](EnvelopeSineParams& p) { p.frequency = Hertz(f); }))
+            .bands.front()
+            .centreFrequency;
+    };
+    CHECK(sineAt(0.5) == 1.0);
+    CHECK(sineAt(2.0) == 2.0);
+    CHECK(sineAt(1e9) == 0.45 * fs);
+    const auto centroid = [&](double low, double high)
+    {
+        return envelopeCentroidClip(x, fs,
+                                    paramsWith<EnvelopeCentroidParams>(
+                                        [&](EnvelopeCentroidParams& p)
+                                        {
+                                            p.lowest = Hertz(low);
+                                            p.highest = Hertz(high);
+                                        }));
+    };
+    CHECK(centroid(0.0, 500.0).bands[0].lowFrequency == 1.0);
+    CHECK(centroid(1e9, 500.0).bands[0].lowFrequency == 0.45 * fs);
+    CHECK(centroid(600.0, 500.0).bands[0].highFrequency == 600.0);
+    CHECK(centroid(20.0, 1e9).bands[0].highFrequency == 0.45 * fs);
+    CHECK(centroid(20.0, 500.0).bands[0].centreFrequency == Approx(100.0));
+    const auto vocoder = [&](ThirdOctaveVocoderParams params)
+    {
+        return thirdOctaveVocoderClip(x, fs, params);
+    };
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>([&](ThirdOctaveVocoderParams& p) { p.channels = 0; }))
+              .bands.size() == 1);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(1.0);
+                          p.channels = 40;
+                      }))
+              .bands.size() == 32);
+    CHECK(same(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                   [&](ThirdOctaveVocoderParams& p)
+                   {
+                       p.lowestCentre = Hertz(-5.0);
+                       p.channels = 2;
+                   })),
+               vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                   [&](ThirdOctaveVocoderParams& p)
+                   {
+                       p.lowestCentre = Hertz(1.0);
+                       p.channels = 2;
+                   }))));
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.channels = 1;
+                          p.carrier = Hertz(0.1);
+                      }))
+              .bands[0]
+              .pitch[0]
+              .value == 1.0);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.channels = 1;
+                          p.carrier = Hertz(1e9);
+                      }))
+              .bands[0]
+              .pitch[0]
+              .value == 0.45 * fs);
+    const double edge = 0.45 * fs / std::exp2(1.0 / 6.0);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(0.999 * edge);
+                          p.channels = 3;
+                      }))
+              .bands.size() == 1);
+    CHECK(vocoder(paramsWith<ThirdOctaveVocoderParams>(
+                      [&](ThirdOctaveVocoderParams& p)
+                      {
+                          p.lowestCentre = Hertz(1.001 * edge);
+                          p.channels = 3;
+                      }))
+              .bands.empty());
+    const auto thesis = [&](int bits)
+    {
+        return thesisClip(x, fs, paramsWith<ThesisMethodParams>([&](ThesisMethodParams& p) { p.quantise = bits; }));
+    };
+    CHECK(same(thesis(0), thesis(1)));
+    CHECK(same(thesis(40), thesis(31)));
+    CHECK_FALSE(same(thesis(1), thesis(2)));
+    CHECK_FALSE(same(thesis(31), thesis(30)));
+    CHECK(zeroPhaseLowpass(x, fs, {Hertz(500.0), 0}) == zeroPhaseLowpass(x, fs, {Hertz(500.0), 1}));
+    CHECK(zeroPhaseLowpass(x, fs, {Hertz(500.0), 20}) == zeroPhaseLowpass(x, fs, {Hertz(500.0), 16}));
+    CHECK(zeroPhaseLowpass(x, fs, {Hertz(0.0), 2}) == zeroPhaseLowpass(x, fs, {Hertz(1.0), 2}));
+    CHECK(zeroPhaseLowpass(x, fs, {Hertz(1e9), 2}) == zeroPhaseLowpass(x, fs, {Hertz(0.4999 * fs), 2}));
+    CHECK(zeroPhaseLowpass(x, fs, {Hertz(500.0), 15}) != zeroPhaseLowpass(x, fs, {Hertz(500.0), 16}));
+    CHECK(zeroPhaseLowpass({}, fs).empty());
+    const auto flatness = [&](CentroidFlatnessParams params)
+    {
+        return centroidFlatnessClip(x, fs, params);
+    };
+    CentroidFlatnessParams a, b;
+    const auto check = [&](auto member, double given, double counts)
+    {
+        a = b = {};
+        a.*member = Hertz(given);
+        b.*member = Hertz(counts);
+        CHECK(same(flatness(a), flatness(b)));
+    };
+    check(&CentroidFlatnessParams::lowCentroid, 0.2, 1.0);
+    check(&CentroidFlatnessParams::lowPitch, 0.2, 1.0);
+    check(&CentroidFlatnessParams::highPitch, 10.0, 80.0);
+    check(&CentroidFlatnessParams::highPitch, 1e6, 0.45 * fs);
+    check(&CentroidFlatnessParams::highCentroid, 20.0, 200.0);
+    check(&CentroidFlatnessParams::highestPartial, 100.0, 400.0);
+    check(&CentroidFlatnessParams::highestPartial, 1e6, 0.45 * fs);
+    check(&CentroidFlatnessParams::lowPitch, 1e6, 0.2 * fs);
+    MethodCurveParams many;
+    many.breakpoints = 1e9;
+    CHECK(clampedBreakpoints(many) == 1000.0);
+    many.breakpoints = -1.0;
+    CHECK(clampedBreakpoints(many) == 0.0);
+}
+
+TEST_CASE("Flatness of the spectrum within every range is what it was", "[methods]")
+{
+    const auto x = noise(3000, 8);
+    for (const auto& [low, high] :
+         {std::pair{0.0, 1e9}, {100.0, 3000.0}, {500.0, 501.0}, {1000.0, 900.0}, {3990.0, 1e9}})
+    {
+        std::vector<double> values;
+        for (const Breakpoint& point : spectralFlatness(x, 8000.0, {{}, Hertz(low), Hertz(high)}))
+            values.insert(values.end(), {point.time, point.value});
+        checkPinned("analysis/flatness from " + std::to_string(static_cast<int>(low)) + " to " +
+                        std::to_string(static_cast<int>(std::min(high, 1e6))),
+                    values);
+    }
+    std::vector<double> partials;
+    for (const double tonality : {0.0, 0.3, 0.7, 1.0})
+        for (const auto& weights : {std::array{1.0, 1.0, 1.0, 1.0}, std::array{1.0, 0.5, 0.0, 0.0}})
+        {
+            double power = 0.0;
+            for (const double a : detail::sineToSquare(tonality, weights))
+            {
+                partials.push_back(a);
+                power += a * a;
+            }
+            CHECK(power == Approx(1.0));
+        }
+    checkPinned("analysis/partials from sine to square", partials);
+    checkPinned("analysis/partials from sine to square, first", std::span<const double>(partials).first(24));
 }

@@ -62,3 +62,16 @@ TEST_CASE("Without parameters the low-pass halves 1 kHz", "[methods]")
     CHECK(std::abs(spectrumAt<float>(response, 500.0, fs)) > 0.99);
     CHECK(std::abs(spectrumAt<float>(response, 2000.0, fs)) < 0.004);
 }
+
+TEST_CASE("What a slow low-pass rings beyond the end comes back whole", "[methods]")
+{
+    for (const int order : {1, 4})
+    {
+        std::vector<float> x(3000, 1.0f);
+        const auto found = zeroPhaseLowpass(x, 8000.0, {Hertz(20.0), order});
+        x.resize(20000, 0.0f);
+        const auto expected = zeroPhaseLowpass(x, 8000.0, {Hertz(20.0), order});
+        for (std::size_t n = 0; n < found.size(); ++n)
+            REQUIRE(found[n] == Approx(expected[n]).epsilon(0.0).margin(3e-7));
+    }
+}
