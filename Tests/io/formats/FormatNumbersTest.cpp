@@ -208,3 +208,43 @@ TEST_CASE("All texts of one vibration effect have the numbers that they had", "[
          {"android-xml", "android-kotlin", "android-java", "openxr", "wav8", "wav16", "raw8", "raw16", "c"})
         checkNumbers(format, "one voice", numbersOneVoice());
 }
+
+TEST_CASE("Bands that are not levelled have the numbers in HJIF that they had", "[formats]")
+{
+    Clip clip = numbersLong();
+    clip.duration = 12.5;
+    clip.bands[0].amplitude = {{0.5, 1.31}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 0.7}, {2.0004, 0.2}, {3.0, 0.0}, {3.0, 0.4}};
+    clip.bands[1].amplitude = {{0.0, 0.0}, {1.0, 0.45}, {1.0, 0.0}, {4.0, 0.0}, {5.0, 0.013}, {12.5, 0.0021}};
+    clip.bands[1].pitch = {{0.25, 400.4}, {1.1, 1200.7}, {4.6, 555.5}};
+    clip.bands[2].amplitude = {{0.0, 0.0}, {12.5, 0.0}};
+    clip.transients = {{0.1, 0.4, 0.1}, {1.5, 0.8, 0.9}, {1.5004, 0.3, 0.5}, {6.0, 0.0, 0.5}, {7.7771, 0.6, 0.63}};
+    clip.noise.push_back({70.0, 210.0, {{0.2, 0.0}, {0.5, 0.31}}});
+    checkNumbers("hjif", "not levelled", clip);
+    Clip many;
+    many.duration = 0.5;
+    for (int k = 0; k < 70; ++k)
+        many.bands.push_back({20.0 + 10.0 * k, 22.5 + 10.0 * k, 25.0 + 10.0 * k, k, {{0.0, 0.01 + 0.001 * k}}, {}});
+    checkNumbers("hjif", "70 bands", many, 1);
+    many.transients = {{0.2, 1.0, 0.9}};
+    checkNumbers("hjif", "70 bands and an event", many, 1);
+    many.bands.resize(7);
+    checkNumbers("hjif", "7 bands", many, 1);
+}
+
+TEST_CASE("Files for an actuator with a range of its own have the numbers that they had", "[formats]")
+{
+    ExportParams params;
+    params.quick = true;
+    for (const char* profile : {"lra-175", "erm-coin", "phone-taptic"})
+    {
+        params.profile = test::shippedProfile(profile);
+        for (const char* format : {"haptic", "haps", "android", "tact", "openxr-json"})
+        {
+            const auto exported = clipFormatNamed(format)->write(numbersFourBands(), params);
+            REQUIRE(exported);
+            std::vector<double> numbers;
+            test::addNumbers(numbers, exported->files.at(0).bytes);
+            checkPinned(std::string("formats/") + format + " for " + profile, numbers, 1e-8);
+        }
+    }
+}

@@ -693,6 +693,7 @@ TEST_CASE("Voices of HJIF without a search have the numbers that they had", "[fo
     const Clip searched = hjifVoicesOf(clip, none, HjifEffort::search);
     CHECK(searched.bands.size() >= 4);
     CHECK(searched.bands.size() <= 6);
+    checkPinned("formats/hjif voices, searched", test::numbersOf(searched), 1e-4);
 }
 
 TEST_CASE("Streams of wavelet coefficients have the numbers that they had", "[formats]")
