@@ -1,0 +1,192 @@
+// The table of formats: which one a file is of, and which one is written to an extension.
+
+#include "io/formats/ClipFormat.h"
+
+#include "io/formats/FormatSamples.h"
+#include "io/formats/json/ClipJson.h"
+#include "io/formats/json/JsonFormat.h"
+#include "support/Catch.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+std::string formatFound(std::string_view extension, std::string_view bytes)
+{
+    const ClipFormat* format = clipFormatOf(extension, bytes);
+    return format == nullptr ? "none" : std::string(format->name);
+}
+
+std::string formatWritten(std::string_view extension)
+{
+    const ClipFormat* format = clipFormatWrittenTo(extension);
+    return format == nullptr ? "none" : std::string(format->name);
+}
+} // namespace
+
+TEST_CASE("A file is of the format that its content says, and else of that of its extension", "[formats]")
+{
+    const std::string own = R"({"format": "pacini.clip", "version": 1, "duration": 1, "bands": []})";
+    CHECK(formatFound(".json", own) == "json");
+    CHECK(formatFound(".haptic", own) == "json");
+    CHECK(formatFound("", own) == "json");
+    CHECK(formatFound(".hjif", test::hjifSample()) == "hjif");
+    CHECK(formatFound(".json", test::hjifSample()) == "hjif");
+    CHECK(formatFound(".ahap", test::hjifSample()) == "hjif");
+    CHECK(formatFound(".json", test::androidWaveformSample()) == "android");
+    CHECK(formatFound("", test::androidEnvelopeSample(true)) == "android");
+    CHECK(formatFound("", test::androidEnvelopeSample(false)) == "android");
+    CHECK(formatFound("", test::hapsSample()) == "haps");
+    CHECK(formatFound("", test::tactSample()) == "tact");
+    CHECK(formatFound("", test::csvSample()) == "csv");
+    CHECK(formatFound("", "time;x") == "csv");
+    CHECK(formatFound("", "time\tx") == "csv");
+    CHECK(formatFound("", "time") == "none");
+    CHECK(formatFound("", R"({"project")") == "none");
+    CHECK(formatFound("", R"({"tracks")") == "none");
+    CHECK(formatFound("", R"({"timings")") == "none");
+    CHECK(formatFound("", R"({"amplitudes")") == "none");
+    CHECK(formatFound("", R"({"signals" "envelopes")") == "haptic");
+    CHECK(formatFound("", R"({"signals")") == "none");
+    CHECK(formatFound("", R"({"voices" "envelopes")") == "vij");
+    CHECK(formatFound("", R"({"voices")") == "none");
+    CHECK(formatFound("", R"({"clips" "clipId")") == "hasp");
+    CHECK(formatFound("", R"({"clips")") == "none");
+    CHECK(formatFound("", R"({"Pattern")") == "none");
+    for (const char* other : {"Event", "ParameterCurve", "Version"})
+        CHECK(formatFound("", std::string(R"({"Pattern" ")") + other + "\"") == "ahap");
+    CHECK(formatFound("", "<vibration-effect>") == "android-xml");
+    CHECK(formatFound("", "#ifndef HAPTIC_X") == "c");
+    CHECK(formatFound(".h", "/* XR_FB_haptic_pcm: ") == "openxr");
+    CHECK(formatFound("", R"("pcmVibration")") == "openxr-json");
+    CHECK(formatFound("", R"("amplitudeEnvelopeVibration")") == "openxr-json");
+    // Of two that recognise it the one with the extension counts, else the first.
+    const std::string both = R"({"signals" "envelopes" "Pattern" "Version")";
+    CHECK(formatFound(".ahap", both) == "ahap");
+    CHECK(formatFound(".haptic", both) == "haptic");
+    CHECK(formatFound(".json", both) == "haptic");
+    // What none recognises.
+    CHECK(formatFound(".haptic", "x") == "haptic");
+    CHECK(formatFound(".csv", "x") == "csv");
+    CHECK(formatFound(".json", "x") == "none");
+    CHECK(formatFound(".pacb", "x") == "none");
+    CHECK(formatFound(".xml", "x") == "none");
+    CHECK(formatFound(".s8", "x") == "raw8");
+    CHECK(formatFound(".s16", "x") == "raw16");
+    CHECK(formatFound(".wav", "x") == "none");
+    CHECK(formatFound(".h", "x") == "none");
+    CHECK(formatFound(".other", "x") == "none");
+}
+
+TEST_CASE("The first format that is written to an extension is that of its files", "[formats]")
+{
+    const std::vector<std::pair<const char*, const char*>> all{{".json", "json"},
+                                                               {".pacb", "packed"},
+                                                               {".haptic", "haptic"},
+                                                               {".vij", "none"},
+                                                               {".hasp", "none"},
+                                                               {".ahap", "ahap"},
+                                                               {".hjif", "hjif"},
+                                                               {".haps", "haps"},
+                                                               {".xml", "android-xml"},
+                                                               {".kt", "android-kotlin"},
+                                                               {".java", "android-java"},
+                                                               {".h", "openxr"},
+                                                               {".tact", "tact"},
+                                                               {".csv", "csv"},
+                                                               {".wav", "wav8"},
+                                                               {".s8", "raw8"},
+                                                               {".s16", "raw16"},
+                                                               {".other", "none"},
+                                                               {"", "none"}};
+    for (const auto& [extension, name] : all)
+    {
+        CAPTURE(extension);
+        CHECK(formatWritten(extension) == name);
+        CHECK(isOwnExtension(extension) ==
+              (std::string_view(extension) == ".json" || std::string_view(extension) == ".pacb"));
+    }
+    CHECK(jsonFormat().name == "json");
+    CHECK(packedFormat().name == "packed");
+    CHECK(clipFormatNamed("none") == nullptr);
+    std::set<std::string_view> names;
+    for (const ClipFormat& format : clipFormats())
+    {
+        CHECK(names.insert(format.name).second);
+        CHECK(clipFormatNamed(format.name) == &format);
+        CHECK(format.isSamples == (format.keeps.starts_with("Samples of the drive signal for")));
+        CHECK(format.companion == (format.name == "ahap" ? "-transients" : ""));
+        CHECK((format.isRead() || format.isWritten()));
+    }
+    CHECK(names.size() == 21);
+    const std::vector<std::pair<LossKind, std::string>> kinds{
+        {LossKind::bands, "bands"},         {LossKind::points, "points"},     {LossKind::length, "length"},
+        {LossKind::frequency, "frequency"}, {LossKind::timeStep, "timeStep"}, {LossKind::amplitude, "amplitude"},
+        {LossKind::crowding, "crowding"},   {LossKind::event, "event"},       {LossKind::noise, "noise"},
+        {LossKind::empty, "empty"},         {LossKind::text, "text"}};
+    for (const auto& [kind, name] : kinds)
+        CHECK(lossName(kind) == name);
+    const ExportParams usual;
+    CHECK_FALSE(usual.split);
+    CHECK_FALSE(usual.quick);
+    const FormatLoss loss;
+    CHECK(loss == FormatLoss{LossKind::points, 0.0, 0.0, 0.0, ""});
+}
+
+TEST_CASE("Text is taken for JSON by its first brace, behind a mark or blanks", "[formats]")
+{
+    using namespace std::string_literals;
+    for (const std::string& text : {"{"s, " \t\r\n{"s, "\xEF\xBB\xBF{"s, "\xFF\xFE{\0"s, "\xFE\xFF\0{"s})
+        CHECK(looksLikeJson(text));
+    for (const std::string& text : {""s, " "s, "["s, "x{"s, "\xFF\xFE{"s, "\xFF\xFE{a"s, "\xFE\xFF\0"s, "\xFE\xFF\0a"s})
+        CHECK_FALSE(looksLikeJson(text));
+    CHECK(isClipJson("{\"pacini.clip\""));
+    CHECK_FALSE(isClipJson("{\"pacini\""));
+    CHECK_FALSE(isClipJson("x\"pacini.clip\""));
+    CHECK(isClipJson("{" + std::string(1023 - 11, ' ') + "pacini.clip"));
+    CHECK_FALSE(isClipJson("{" + std::string(1024 - 11, ' ') + "pacini.clip"));
+    CHECK(largestClipText == 536870912);
+    CHECK(clipFormatVersion == 1);
+}
+
+TEST_CASE("A table tells bands of the same frequencies apart by a millionth", "[formats]")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands.resize(3);
+    for (Band& band : clip.bands)
+    {
+        band.lowFrequency = 50.0;
+        band.centreFrequency = 60.0;
+        band.highFrequency = 100.0;
+        band.amplitude = {{0.0, 0.5}};
+    }
+    const auto exported = clipFormatNamed("csv")->write(clip);
+    REQUIRE(exported.ok());
+    const auto read = clipFormatNamed("csv")->read(exported->files.at(0).bytes);
+    REQUIRE(read.ok());
+    REQUIRE(read->clip.bands.size() == 3);
+    CHECK(read->clip.bands[0].highFrequency == 100.0);
+    CHECK(read->clip.bands[1].highFrequency == Approx(100.000101).epsilon(1e-12));
+    CHECK(read->clip.bands[2].highFrequency == Approx(100.000202).epsilon(1e-12));
+    REQUIRE(exported->losses.size() == 1);
+    CHECK(exported->losses[0].kind == LossKind::frequency);
+    CHECK(exported->losses[0].duration == 1.0);
+    CHECK(exported->losses[0].error == Approx(2e-6 / 0.6931471805599453).epsilon(1e-4));
+    for (Band& band : clip.bands)
+        band.highFrequency = 400000.0;
+    CHECK(clipFormatNamed("csv")->write(clip)->files.at(0).bytes.find(
+              "amplitude 50 60 400000,amplitude 50 60 400000,") != std::string::npos);
+    clip.bands.resize(2);
+    clip.bands[1].lowFrequency = 51.0;
+    CHECK(clipFormatNamed("csv")->write(clip)->losses.empty());
+    clip.bands[1].lowFrequency = 50.0;
+    clip.bands[1].centreFrequency = 61.0;
+    CHECK(clipFormatNamed("csv")->write(clip)->losses.empty());
+}
