@@ -201,6 +201,14 @@ TEST_CASE("Levels are those of the signal, without the noise that is expected in
     CHECK(summariseLevel(responses, -20.0, frequency, 1.0 / 6.0, 1800.0).distortion[3] ==
           Approx(100.0 * std::sqrt(harmonic2)));
 
+    // The harmonic of a frequency is taken at its multiple.
+    for (std::size_t k = 0; k < 400; ++k)
+        responses.harmonics[1][0].power[k] = 1e-4 * responses.harmonics[1][0].frequency[k];
+    responses.harmonics[1][0].noise.assign(400, 0.0);
+    const auto sloped = summariseLevel(responses, -20.0, frequency, 0.0, 1800.0);
+    CHECK(sloped.harmonics[1].response.level[0] == Approx(10.0 * std::log10(0.015 / 0.07)));
+    CHECK(sloped.harmonics[1].response.level[2] == Approx(10.0 * std::log10(0.12 / 0.07)));
+
     // Where all is noise a tenth is left; digital silence is -300 dB.
     responses.linear = {analysedPower(2.0, 1.99)};
     responses.harmonics = {{analysedPower(0.5, 0.6)}};
