@@ -155,6 +155,12 @@ TEST_CASE("The drift equations are those of weighted least squares", "[linearize
     auto points = driftPoints(9, 3e-5, {{3.0, 0.002}}, 1e-4);
     points[2].deviation = 1e-9; // counts as 1 us
     points[5].deviation = 1e-6;
+    SECTION("of points that are certain") {}
+    SECTION("of points that are not, whose weights are small")
+    {
+        for (DelayPoint& point : points)
+            point.deviation *= 1e6;
+    }
     const detail::DriftEquations equations(points);
     // by the normal equations of columns [sinceThen, 1 from the split on], solved by Cramer's rule
     const std::size_t split = 4;
@@ -195,8 +201,6 @@ TEST_CASE("The drift equations are those of weighted least squares", "[linearize
     const auto turned = equations.solve(std::vector<std::size_t>{3, 6});
     CHECK(two.values(1) == Approx(turned.values(2)));
     CHECK(two.values(2) == Approx(turned.values(1)));
-    checkPinned("linearize/drift equations of two steps",
-                {1e6 * two.values(0), 1e6 * two.values(1), 1e6 * two.values(2), two.error}, 1e-6);
 }
 
 TEST_CASE("Points are kept when they are near the median of the five around them", "[linearize]")

@@ -183,6 +183,7 @@ TEST_CASE("A recording at another rate than it says is told by how its sweeps st
         const auto position = locateSweeps(recording, schedule, 8000.0, measuringSweep(params));
         return likelierRate(recording, schedule, params, stated, position);
     };
+    CHECK(widestDrift == 0.005);
     CHECK(likelier(8820.0).value() == 8000.0);
     CHECK_FALSE(likelier(8000.0).has_value());
     recording = timedRecording(params, rig);
@@ -279,6 +280,19 @@ TEST_CASE("Frames that are missing are found where they got lost", "[linearize]"
             values.push_back(v);
     }
     checkPinned("linearize/timing of lost frames", values, 1e-3);
+    // the second of two sweeps, which lasts from 4.45 to 7.45 s
+    params.levels = {-6.0, -8.0};
+    auto channels = recordOnRig(makeSweepSignal(params).value(), rig);
+    drop(channels, 23000, 60);
+    RecordedChannels recording{4000.0, {}};
+    recording.channels.emplace_back(channels[0].begin(), channels[0].end());
+    const auto schedule = makeSweepSchedule(params);
+    const auto timing =
+        timeSweeps(recording, params, schedule, locateSweeps(recording, schedule, 4000.0, measuringSweep(params)));
+    REQUIRE(timing.steps.size() == 1);
+    CHECK(timing.steps[0].seconds == Approx(-0.015).margin(1e-4));
+    CHECK(timing.steps[0].time == Approx(5.75 - rig.latency).margin(0.1));
+    checkPinned("linearize/timing of frames lost in the second sweep", timingValues(timing), 1e-3);
 }
 
 TEST_CASE("A sweep is heard by the recorder's clock and without what it lost", "[linearize]")
