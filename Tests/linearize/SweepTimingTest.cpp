@@ -184,6 +184,18 @@ TEST_CASE("A recording at another rate than it says is told by how its sweeps st
         return likelierRate(recording, schedule, params, stated, position);
     };
     CHECK(widestDrift == 0.005);
+    // four times as much is asked for
+    RecordedChannels quick = recording;
+    quick.rate = 8820.0;
+    const double stretch = 8000.0 / 8820.0;
+    const double most =
+        locateSweeps(quick, schedule, 8000.0, measuringSweep(params).byClock(stretch - 1.0), stretch).contrast;
+    const auto against = [&](double contrast)
+    {
+        return likelierRate(quick, schedule, params, 8820.0, SweepPosition{0.0, contrast, 1.0});
+    };
+    CHECK(against(most / 4.2).value() == 8000.0);
+    CHECK_FALSE(against(most / 3.8).has_value());
     CHECK(likelier(8820.0).value() == 8000.0);
     CHECK_FALSE(likelier(8000.0).has_value());
     recording = timedRecording(params, rig);
