@@ -120,6 +120,7 @@ TEST_CASE("Each range of too little signal is named with its ends and its least"
     REQUIRE(below.size() == 1);
     CHECK(below[0].where == "below 80.0 Hz");
     CHECK(below[0].message.substr(0, 27) == "the signal is down to 3 dB ");
+    CHECK(snrWarnings({3.0, 10.0, 20.0}, 10.0).at(0).where == "below 50.0 Hz"); // enough is enough
     const auto above = snrWarnings({20.0, 20.0, 7.0, 8.0}, 10.0);
     REQUIRE(above.size() == 1);
     CHECK(above[0].where == "above 50.0 Hz");
