@@ -1,12 +1,17 @@
 #include "support/Catch.h"
 #include "support/Golden.h"
 #include "support/Measure.h"
+#include "support/Pinned.h"
 
 #include <pacini/linearize/Deconvolution.h>
 #include <pacini/linearize/LevelAnalysis.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <vector>
 
 using namespace pacini;
 
@@ -114,4 +119,55 @@ TEST_CASE("The endless sweep's spectrum is that of a long sweep", "[linearize]")
         const auto ratio = test::spectrumAt<double>(x, f, fs) * endlessSweepInverse(f, sweep, fs, start);
         CHECK(std::abs(ratio - 1.0) < 0.01);
     }
+}
+
+TEST_CASE("A deconvolver's spectra are those of its definition", "[linearize]")
+{
+    const std::vector<double> played{1.0, -0.5, 0.25, 2.0, 0.0, -1.5};
+    const std::vector<double> recorded{0.5, 3.0, -1.0, 0.75, 0.2, 0.0, 1.0};
+    for (const double regularisation : {-60.0, -20.0})
+    {
+        Deconvolver deconvolver(played, 8, regularisation);
+        CHECK(deconvolver.size() == 8);
+        double largest = 0.0;
+        for (int k = 0; k <= 4; ++k)
+            largest = std::max(largest, std::norm(test::spectrumAt<double>(played, k, 8.0)));
+        const auto spectrum = deconvolver.spectrum(recorded);
+        const auto response = deconvolver.response(spectrum);
+        REQUIRE(response.re.size() == 5);
+        for (int k = 0; k <= 4; ++k)
+        {
+            const auto x = test::spectrumAt<double>(played, k, 8.0);
+            const auto y = test::spectrumAt<double>(recorded, k, 8.0);
+            const auto inverse = std::conj(x) / (std::norm(x) + largest * std::pow(10.0, regularisation / 10.0));
+            const auto i = static_cast<std::size_t>(k);
+            CHECK(spectrum.re[i] == Approx(y.real()).margin(1e-12));
+            CHECK(spectrum.im[i] == Approx(y.imag()).margin(1e-12));
+            CHECK(response.re[i] == Approx((y * inverse).real()).margin(1e-12));
+            CHECK(response.im[i] == Approx((y * inverse).imag()).margin(1e-12));
+            CHECK(deconvolver.noisePower(k / 8.0) == Approx(std::norm(inverse)));
+            CHECK(deconvolver.noisePower((k + 0.4) / 8.0) == Approx(std::norm(inverse)));
+        }
+        CHECK(deconvolver.noisePower(3.0) == deconvolver.noisePower(0.5));
+        // there and back
+        const auto back = deconvolver.signal(spectrum);
+        for (std::size_t n = 0; n < 8; ++n)
+            CHECK(back[n] == Approx(n < 7 ? recorded[n] : 0.0).margin(1e-12));
+    }
+    // by default 60 dB down, and nothing played gives nothing
+    Deconvolver usual(played, 8), sixty(played, 8, -60.0), silent(std::vector<double>(4, 0.0), 8);
+    CHECK(usual.noisePower(0.25) == sixty.noisePower(0.25));
+    CHECK(silent.noisePower(0.25) == 0.0);
+}
+
+TEST_CASE("A delayed sweep begins that many samples later and lasts to its end", "[linearize]")
+{
+    const ExponentialSweep sweep(20.0, 400.0, 0.5, 0.0, 0.0);
+    const auto x = delayedSweep(sweep, 1000.0, 2.25);
+    REQUIRE(x.size() == 503);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        CHECK(x[n] == sweep.at((static_cast<double>(n) - 2.25) / 1000.0));
+    CHECK(delayedSweep(sweep, 1000.0, -100.0).size() == 400);
+    CHECK(delayedSweep(sweep, 1000.0, -100.0)[0] == sweep.at(0.1));
+    CHECK(delayedSweep(sweep, 1000.0, -600.0).empty());
 }

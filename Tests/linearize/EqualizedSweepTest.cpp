@@ -1,9 +1,12 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/linearize/EqualizedSweep.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace pacini;
@@ -98,4 +101,30 @@ TEST_CASE("A sweep that cannot be lowered far enough is refused at its levels", 
     CHECK(made.error().code == ErrorCode::invalidArgument);
     CHECK(made.error().where == "levels");
     CHECK(makeEqualizedSweep(shortSweep({3.0}), {}).error().where == "levels[0]");
+}
+
+TEST_CASE("Sweeps through equalisers are what they were", "[linearize]")
+{
+    for (const bool raised : {false, true})
+        for (const double gain : {-20.0, 2.0, 14.0})
+        {
+            CAPTURE(raised, gain);
+            const auto made = makeEqualizedSweep(shortSweep({-9.0, -12.0}), raising(gain, 60.0), raised).value();
+            const std::string name = "linearize/equalised sweep, " + std::to_string(static_cast<int>(gain)) + " dB" +
+                                     (raised ? ", raised" : "");
+            checkPinned(name, std::vector<double>(made.signal.begin(), made.signal.end()), 1e-5);
+            checkPinned(name + ", gains", {made.lowered, made.gain, made.peak, made.sweep.levels[0]}, 1e-5);
+        }
+    // as it is without any section, and silence stays so
+    const auto plain = makeEqualizedSweep(shortSweep({-9.0}), {}).value();
+    CHECK(plain.signal == makeSweepSignal(shortSweep({-9.0})).value());
+    CHECK(plain.lowered == 0.0);
+    CHECK(plain.peak == Approx(peakOf(plain.signal)));
+    CHECK(EqualizedSweep{}.lowered == 0.0);
+    CHECK(EqualizedSweep{}.gain == 0.0);
+    CHECK(EqualizedSweep{}.peak == 0.0);
+    const auto refused = makeEqualizedSweep(shortSweep({-79.0, -1.0}), raising(12.0, 100.0)).error();
+    CHECK(refused.message.find("cannot be lowered by the 12 dB by which the equaliser raises the sweep beyond full "
+                               "scale: the lowest would be below -80 dB") == 0);
+    CHECK(makeEqualizedSweep(shortSweep({-60.0, -1.0}), raising(12.0, 100.0))->sweep.levels[0] == -72.0);
 }

@@ -1,5 +1,6 @@
 #include "EqualizerReference.h"
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/linearize/EqualizerCost.h>
 
@@ -74,4 +75,49 @@ TEST_CASE("What a profile does not say is not predicted", "[linearize]")
     CHECK_FALSE(cost.excursion.has_value());
     CHECK(cost.powerChange > 0.0);
     CHECK(std::isfinite(equalizerCost(profile, {}, 1000.0).excursionChange));
+}
+
+TEST_CASE("Costs of equalisers are those that they were", "[linearize]")
+{
+    const EqualizerSections sections = {{EqualizerType::peak, 30.0, 16.0, 1.5, 2},
+                                        {EqualizerType::lowShelf, 90.0, -6.0, 0.7, 2},
+                                        {EqualizerType::peak, 700.0, 9.0, 2.0, 2}};
+    std::vector<double> values;
+    for (const double fs : {1500.0, 48000.0})
+        for (const auto reference : {ReferenceSpectrum::flat, ReferenceSpectrum::pink})
+            for (const double high : {60.0, 1000.0})
+            {
+                Profile profile = coilProfile();
+                profile.range.lowFrequency = 40.0;
+                profile.range.highFrequency = high;
+                const auto cost = equalizerCost(profile, sections, fs, reference);
+                values.insert(values.end(), {cost.powerChange, *cost.power, std::log(cost.excursionFrequency),
+                                             cost.excursionChange, *cost.excursion});
+            }
+    checkPinned("linearize/cost", values);
+    // pink noise is the usual reference
+    CHECK(equalizerCost(coilProfile(), sections, 48000.0).powerChange ==
+          equalizerCost(coilProfile(), sections, 48000.0, ReferenceSpectrum::pink).powerChange);
+    // each of two numbers is needed
+    for (int missing = 0; missing < 4; ++missing)
+    {
+        Profile profile = coilProfile();
+        if (missing == 0)
+            profile.drive.impedance.reset();
+        if (missing == 1)
+            profile.drive.maxVoltageRms.reset();
+        if (missing == 2)
+            profile.drive.excursion.reset();
+        if (missing == 3)
+            profile.drive.maxExcursion.reset();
+        const auto cost = equalizerCost(profile, sections, 48000.0);
+        CHECK(cost.power.has_value() == (missing > 1));
+        CHECK(cost.excursion.has_value() == (missing < 2));
+    }
+    Profile loud = coilProfile();
+    loud.drive.maxVoltageRms = 3.0;
+    CHECK(*equalizerCost(loud, {}, 48000.0).power == Approx(9.0 / 8.8));
+    CHECK(EqualizerCost{}.powerChange == 0.0);
+    CHECK(EqualizerCost{}.excursionFrequency == 0.0);
+    CHECK(EqualizerCost{}.excursionChange == 0.0);
 }

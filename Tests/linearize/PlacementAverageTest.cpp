@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/foundation/Gaussian.h>
 #include <pacini/linearize/PlacementAverage.h>
@@ -217,4 +218,103 @@ TEST_CASE("The limits of the average may be 0 to 60 dB, and only its range is co
                                               FrequencyResponse{logSpaced(20.0, 1000.0, 8), std::vector<double>(8)});
     CHECK(averagePlacements(std::span(many).first(1000)).ok());
     CHECK(averagePlacements(many).error().where == "placements");
+}
+
+TEST_CASE("Averages of placements of any kind are those that they were", "[linearize]")
+{
+    std::vector<double> values;
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 7u, 10u})
+        for (const double loose : {0.0, -7.0})
+        {
+            auto placements = wearers(count, count, BodyPoint::device);
+            for (double& level : placements[count / 2].level)
+                level += loose;
+            for (std::size_t k = 40; k < 60; ++k)
+                placements[0].level[k] += 9.0; // what Huber's mean holds back
+            PlacementAverageParams params;
+            params.lowFrequency = 40.0;
+            params.highFrequency = 500.0;
+            const auto average = averagePlacements(placements, params).value();
+            for (const auto* list : {&average.response.level, &average.spread, &average.offsets})
+                for (const double v : *list)
+                    values.push_back(v);
+            for (const PlacementOutlier& outlier : average.outliers)
+                values.insert(values.end(), {static_cast<double>(outlier.index), outlier.offset, outlier.shape});
+        }
+    checkPinned("linearize/placements", values, 1e-6);
+
+    Random random(2);
+    std::vector<double> means;
+    for (const std::size_t count : {1u, 2u, 3u, 5u, 8u, 13u})
+        for (int i = 0; i < 4; ++i)
+        {
+            std::vector<double> column;
+            for (std::size_t k = 0; k < count; ++k)
+                column.push_back(30.0 * std::pow(random.uniform(-1.0, 1.0), 5));
+            const auto half = detail::shortestHalf(column);
+            means.insert(means.end(), {detail::huberMean(column), half.centre, half.deviation});
+        }
+    checkPinned("linearize/robust means", means, 1e-6);
+    CHECK(detail::shortestHalf({0.0, 1.0, 10.0, 11.0, 11.5}).centre == Approx(10.75));
+    CHECK(detail::shortestHalf({0.0, 1.0, 10.0, 11.0, 11.5}).deviation == Approx(1.4826 * 0.75));
+    CHECK(detail::shortestHalf({3.0}).centre == 3.0);
+    CHECK(detail::shortestHalf({3.0, 5.0}).centre == 4.0);
+    CHECK(detail::shortestHalf({9.0, 1.0, 3.0, 2.0}).centre == 2.0);
+    CHECK(detail::Concentration{}.centre == 0.0);
+    CHECK(detail::Concentration{}.deviation == 0.0);
+
+    const PlacementAverageParams defaults;
+    CHECK(defaults.lowFrequency == 30.0);
+    CHECK(defaults.highFrequency == 1000.0);
+    CHECK(defaults.offsetLimit == 2.5);
+    CHECK(defaults.shapeLimit == 3.0);
+    CHECK(PlacementOutlier{}.index == 0);
+    CHECK(PlacementOutlier{}.offset == 0.0);
+    CHECK(PlacementOutlier{}.shape == 0.0);
+}
+
+TEST_CASE("A placement exactly at the limits belongs to the others, and both ends of the range are compared",
+          "[linearize]")
+{
+    const auto flat = [](double level)
+    {
+        return FrequencyResponse{{10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0}, std::vector<double>(8, level)};
+    };
+    PlacementAverageParams params;
+    params.lowFrequency = 30.0;
+    params.highFrequency = 60.0;
+    params.offsetLimit = 4.0;
+    params.shapeLimit = 2.0;
+    // the others are all at 0 dB
+    std::vector<FrequencyResponse> placements{flat(0.0), flat(0.0), flat(0.0), flat(4.0), flat(-4.0)};
+    CHECK(averagePlacements(placements, params)->outliers.empty());
+    placements[3] = flat(4.001);
+    CHECK(averagePlacements(placements, params)->outliers.size() == 1);
+    // four points are compared; of distances 0, 0, 4 and 4 around their median 2 all are 2
+    placements = {flat(0.0), flat(0.0), flat(0.0), flat(0.0), flat(0.0)};
+    placements[1].level = {90.0, 90.0, 4.0, 4.0, 0.0, 0.0, 90.0, 90.0};
+    const auto average = averagePlacements(placements, params).value();
+    CHECK(average.outliers.empty());
+    CHECK(average.offsets[1] - average.offsets[0] == Approx(2.0));
+    params.shapeLimit = 1.999;
+    const auto strict = averagePlacements(placements, params).value();
+    REQUIRE(strict.outliers.size() == 1);
+    CHECK(strict.outliers[0].index == 1);
+    CHECK(strict.outliers[0].shape == Approx(2.0));
+    CHECK(strict.outliers[0].offset == Approx(2.0));
+    // without a shape that fits all are taken
+    params.shapeLimit = 0.0;
+    for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t k = 0; k < 8; ++k)
+            placements[i].level[k] = static_cast<double>((3 * k * (i + 2) + k * k * (i + 1)) % 11);
+    const auto all = averagePlacements(placements, params).value();
+    CHECK(all.outliers.empty());
+    params.highFrequency = 30.0;
+    CHECK(averagePlacements(placements, params).ok());
+    params.lowFrequency = 31.0;
+    params.highFrequency = 39.0;
+    CHECK(averagePlacements(placements, params).error().message == "leaves no frequency to compare the responses at");
+    placements[2].level[1] = 401.0;
+    params = {};
+    CHECK(averagePlacements(placements, params).error().where == "placements[2].points[1].level");
 }

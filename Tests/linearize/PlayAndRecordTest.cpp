@@ -3,7 +3,9 @@
 
 #include <pacini/linearize/PlayAndRecord.h>
 
+#include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 using namespace pacini;
@@ -144,4 +146,85 @@ TEST_CASE("A measurement that cannot be prepared says why", "[linearize]")
     auto params = shortSweep();
     params.levels = {};
     CHECK(recorder.prepare(params, 1).error().where == "levels");
+}
+
+TEST_CASE("A recorder takes one to three inputs and a tail of up to a minute, half a second by default", "[linearize]")
+{
+    PlayAndRecord recorder;
+    CHECK(recorder.progress() == 0.0);
+    CHECK(recorder.state() == PlayAndRecordState::idle);
+    const std::vector<float> samples(100, 0.5f);
+    for (const std::size_t channels : {1u, 3u})
+        CHECK(recorder.prepare(samples, 1000.0, channels).ok());
+    CHECK(recorder.prepare(samples, 1000.0, 0).error().message == "must be 1 to 3");
+    CHECK(recorder.prepare(samples, 1000.0, 4).error().where == "channels");
+    for (const double tail : {0.0, 60.0})
+        CHECK(recorder.prepare(samples, 1000.0, 1, tail).ok());
+    for (const double tail : {-0.001, 60.001, std::numeric_limits<double>::quiet_NaN()})
+    {
+        CHECK(recorder.prepare(samples, 1000.0, 1, tail).error().where == "tail");
+        CHECK(recorder.prepare(samples, 1000.0, 1, tail).error().message == "must be 0 to 60 s");
+    }
+    const auto lengthOf = [&]
+    {
+        std::vector<float> out(20000);
+        recorder.start();
+        recorder.process({}, out);
+        CHECK(recorder.state() == PlayAndRecordState::finished);
+        CHECK(recorder.progress() == 1.0);
+        return recorder.recording()[0].size();
+    };
+    REQUIRE(recorder.prepare(samples, 1000.0, 1).ok());
+    CHECK(recorder.state() == PlayAndRecordState::idle); // prepared anew
+    CHECK(lengthOf() == 600);
+    REQUIRE(recorder.prepare(samples, 1000.0, 1, 0.0).ok());
+    CHECK(recorder.progress() == 0.0);
+    CHECK(lengthOf() == 100);
+    REQUIRE(recorder.prepare(shortSweep(), 1).ok());
+    CHECK(lengthOf() == makeSweepSignal(shortSweep())->size() + 4000);
+}
+
+TEST_CASE("A measurement that begins anew records anew, and every input has its meter", "[linearize]")
+{
+    PlayAndRecord recorder;
+    std::vector<float> samples(40);
+    for (std::size_t i = 0; i < 40; ++i)
+        samples[i] = static_cast<float>(i + 1);
+    REQUIRE(recorder.prepare(samples, 1000.0, 3, 0.01).ok());
+    std::vector<float> out(30), in(30, 0.5f), loud(30, -0.75f), third(30, 0.0f), fourth(30, 9.0f);
+    third[29] = std::numeric_limits<float>::max();
+    const std::span<const float> inputs[] = {in, loud, third, fourth};
+    recorder.start();
+    recorder.process(inputs, out);
+    CHECK(recorder.progress() == Approx(30.0 / 50.0));
+    CHECK(out[29] == 30.0f);
+    CHECK(recorder.takePeak(0) == 0.5f);
+    CHECK(recorder.takePeak(1) == 0.75f);
+    CHECK(recorder.takePeak(2) == std::numeric_limits<float>::max()); // finite
+    CHECK(recorder.takePeak(3) == 0.0f);
+    recorder.start();
+    recorder.process(inputs, out);
+    CHECK(out[0] == 1.0f);
+    CHECK(recorder.progress() == Approx(30.0 / 50.0));
+    recorder.process(inputs, out); // 20 more, of which ten are the tail
+    CHECK(out[9] == 40.0f);
+    CHECK(out[10] == 0.0f);
+    CHECK(recorder.state() == PlayAndRecordState::finished);
+    REQUIRE(recorder.recording().size() == 3);
+    CHECK(recorder.recording()[1] == std::vector<float>(50, -0.75f));
+    CHECK(recorder.takePeak(1) == 0.75f);
+    recorder.process(std::span(inputs).first(1), out); // idle after the end, meters go on
+    CHECK(out == std::vector<float>(30, 0.0f));
+    CHECK(recorder.takePeak(0) == 0.5f);
+    CHECK(recorder.recording()[1] == std::vector<float>(50, -0.75f));
+    // an input that is missing is silence, over what was recorded before
+    recorder.start();
+    recorder.process(std::span(inputs).first(1), out);
+    recorder.process(std::span(inputs).first(1), out);
+    CHECK(recorder.recording()[0] == std::vector<float>(50, 0.5f));
+    CHECK(recorder.recording()[1] == std::vector<float>(50, 0.0f));
+    in[3] = std::numeric_limits<float>::infinity();
+    in[4] = 0.25f;
+    recorder.process(inputs, out);
+    CHECK(recorder.takePeak(0) == std::numeric_limits<float>::infinity());
 }

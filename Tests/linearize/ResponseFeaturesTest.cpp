@@ -1,4 +1,5 @@
 #include "support/Catch.h"
+#include "support/Pinned.h"
 
 #include <pacini/foundation/Gaussian.h>
 #include <pacini/linearize/ResponseFeatures.h>
@@ -172,4 +173,62 @@ TEST_CASE("A resonance seen through a smoothing has the mean power of its neighb
                 }
                 CHECK(model.level(f, octaves) == Approx(10.0 * std::log10(power) - 7.0).margin(0.01));
             }
+}
+
+TEST_CASE("Features of responses of any kind are those that they were", "[linearize]")
+{
+    std::vector<double> values;
+    for (const double f0 : {30.0, 67.0, 240.0, 400.0})
+        for (const double q : {0.7, 4.0, 20.0})
+        {
+            const auto fine = resonant(f0, q, 2, 1.0 / 12.0, 0.3, 5);
+            FrequencyResponse response; // of fewer points, to be quick
+            for (std::size_t i = 0; i < fine.size(); i += 4)
+            {
+                response.frequency.push_back(fine.frequency[i]);
+                response.level.push_back(fine.level[i]);
+            }
+            ResponseFeatureParams params;
+            params.evenWithin = 2.0;
+            params.feltBelow = 12.0;
+            params.highFrequency = 900.0;
+            for (const bool threshold : {false, true})
+            {
+                if (threshold)
+                    params.threshold = FrequencyResponse{logSpaced(15.0, 1200.0, 9), {9, 8, 7, 6, 5, 6, 8, 11, 14}};
+                const auto features = responseFeatures(response, params).value();
+                values.insert(values.end(),
+                              {std::log(features.resonance.frequency), std::log(features.resonance.q), features.plateau,
+                               std::log(1.0 + features.even.low), std::log(1.0 + features.even.high),
+                               std::log(1.0 + features.felt.low), std::log(1.0 + features.felt.high)});
+            }
+        }
+    checkPinned("linearize/features", values, 1e-4);
+    const ResponseFeatureParams defaults;
+    CHECK(defaults.lowFrequency == 20.0);
+    CHECK(defaults.highFrequency == 1000.0);
+    CHECK(defaults.smoothing == 1.0 / 12.0);
+    CHECK(defaults.evenWithin == 3.0);
+    CHECK(defaults.feltBelow == 20.0);
+    CHECK(FrequencyRange{} == FrequencyRange{0.0, 0.0});
+    CHECK(ResponseFeatures{}.plateau == 0.0);
+
+    std::vector<double> times;
+    for (const double q : {1.0, 3.0, 8.0})
+        for (const double f : {40.0, 67.0, 120.0})
+        {
+            ImpulseResponse response{4000.0, 30, std::vector<double>(30, 0.0)};
+            for (int n = 0; n < 3000; ++n)
+                response.samples.push_back(std::exp(-0.5 * 0.105 * n / q) * std::sin(0.105 * n + 0.3));
+            const auto burst = burstTimes(response, f).value();
+            times.insert(times.end(), {burst.riseTime, burst.fallTime});
+        }
+    checkPinned("linearize/burst times", times, 1e-6);
+    // one sample at the arrival: there at once, and gone with it
+    const auto instant = burstTimes({1000.0, 2, {0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0}}, 100.0).value();
+    CHECK(instant.riseTime == 0.0);
+    CHECK(instant.fallTime == 0.0);
+    CHECK(burstTimes({1000.0, 0, {1.0}}, 500.0).error().message ==
+          "must be above 0 Hz and below half of the sample rate");
+    CHECK(burstTimes({1000.0, 0, {1.0}}, 0.0).error().code == ErrorCode::invalidArgument);
 }

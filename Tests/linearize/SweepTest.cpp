@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 using namespace pacini;
@@ -162,4 +163,131 @@ TEST_CASE("Wrong sweep parameters are named", "[linearize]")
     long_.duration = 600.0;
     long_.repeats = 100;
     CHECK(makeSweepSignal(long_).error().code == ErrorCode::tooLarge);
+}
+
+TEST_CASE("Sweep parameters may be at the ends of their ranges but not beyond", "[linearize]")
+{
+    const auto where = [](auto change)
+    {
+        SweepParams params;
+        change(params);
+        const auto valid = validate(params);
+        return valid.ok() ? std::string() : valid.error().where + ": " + valid.error().message;
+    };
+    const std::string fine;
+    using Params = SweepParams;
+    const auto small = [](Params& p)
+    {
+        p.lowFrequency = 1.0;
+        p.highFrequency = 1.5;
+    };
+    CHECK(where([&](Params& p) { small(p), p.sampleRate = 2000.0; }) == fine);
+    CHECK(where([&](Params& p) { p.sampleRate = 384000.0; }) == fine);
+    for (const double bad : {1999.0, 384001.0, 4000.5})
+        CHECK(where([&](Params& p) { small(p), p.sampleRate = bad; }) ==
+              "sampleRate: must be a whole number of 2000 to 384000 Hz");
+    CHECK(where([](Params& p) { p.lowFrequency = 2000.0, p.highFrequency = 3000.0; }) == fine);
+    CHECK(where([](Params& p) { p.lowFrequency = 0.999; }) == "lowFrequency: must be 1 to 2000 Hz");
+    CHECK(where([](Params& p) { p.lowFrequency = 2000.1, p.highFrequency = 4000.0; }) ==
+          "lowFrequency: must be 1 to 2000 Hz");
+    CHECK(where([](Params& p) { p.highFrequency = 15.0; }) == fine);
+    CHECK(where([](Params& p) { p.highFrequency = 0.45 * 48000.0; }) == fine);
+    for (const double bad : {14.99, 21600.1})
+        CHECK(where([&](Params& p) { p.highFrequency = bad; }) ==
+              "highFrequency: must be 1.5 times the low frequency to 0.45 of the sample rate");
+    CHECK(where([](Params& p) { p.duration = 0.5; }) == fine);
+    CHECK(where([](Params& p) { p.duration = 600.0; }) == fine);
+    for (const double bad : {0.499, 600.1})
+        CHECK(where([&](Params& p) { p.duration = bad; }) == "duration: must be 0.5 to 600 s");
+    CHECK(where([](Params& p) { p.fadeIn = 10.0, p.fadeOut = 0.0; }) == fine);
+    CHECK(where([](Params& p) { p.fadeIn = 10.01, p.fadeOut = 0.0; }) == "fadeIn: must be 0 s to half of the duration");
+    CHECK(where([](Params& p) { p.fadeIn = -0.01; }) == "fadeIn: must be 0 s to half of the duration");
+    CHECK(where([](Params& p) { p.fadeIn = 4.0, p.fadeOut = 6.0; }) == fine);
+    for (const double bad : {-0.01, 6.01})
+        CHECK(where([&](Params& p) { p.fadeIn = 4.0, p.fadeOut = bad; }) ==
+              "fadeOut: must be 0 s or more, together with fadeIn at most half of the duration");
+    CHECK(where([](Params& p) { p.duration = 1.0, p.repeats = 100; }) == fine);
+    CHECK(where([](Params& p) { p.duration = 1.0, p.repeats = 101; }) == "repeats: must be 1 to 100");
+    CHECK(where([](Params& p) { p.repeats = 0; }) == "repeats: must be 1 to 100");
+    for (const double good : {0.2, 30.0})
+        CHECK(where([&](Params& p) { p.pause = good; }) == fine);
+    for (const double bad : {0.199, 30.1})
+        CHECK(where([&](Params& p) { p.pause = bad; }) == "pause: must be 0.2 to 30 s");
+    CHECK(where([](Params& p) { p.levels.assign(32, 0.0); }) == fine);
+    CHECK(where([](Params& p) { p.levels.assign(33, 0.0); }) == "levels: must be 1 to 32 levels");
+    CHECK(where([](Params& p) { p.levels = {0.0, -80.0}; }) == fine);
+    for (const double bad : {0.01, -80.01})
+        CHECK(where([&](Params& p) { p.levels = {0.0, bad}; }) == "levels[1]: must be -80 to 0 dB");
+    for (const double good : {0.0, 0.2, 5.0})
+        CHECK(where([&](Params& p) { p.markerDuration = good; }) == fine);
+    for (const double bad : {-1.0, 0.199, 5.01})
+        CHECK(where([&](Params& p) { p.markerDuration = bad; }) == "markerDuration: must be 0.2 to 5 s, or 0 for none");
+    // two hours: 12 of 599 s and a pause of 1 s
+    CHECK(where([](Params& p) { p.duration = 599.0, p.levels = {0.0, -10.0}, p.repeats = 6; }) == fine);
+    CHECK(where(
+              [](Params& p) {
+                  p.duration = 599.1, p.levels = {0.0, -10.0}, p.repeats = 6;
+              }) == "repeats: all sweeps together last more than two hours");
+    const SweepParams defaults;
+    CHECK(defaults.lowFrequency == 10.0);
+    CHECK(defaults.highFrequency == 1500.0);
+    CHECK(defaults.duration == 20.0);
+    CHECK(defaults.fadeIn == 0.1);
+    CHECK(defaults.fadeOut == 0.02);
+    CHECK(defaults.repeats == 1);
+    CHECK(defaults.pause == 1.0);
+    CHECK(defaults.levels == std::vector<double>{-10.0});
+    CHECK(defaults.markerDuration == 0.5);
+    CHECK(defaults.sampleRate == 48000.0);
+}
+
+TEST_CASE("The schedule has its markers at the level of the loudest sweep, on whole frames", "[linearize]")
+{
+    SweepParams params;
+    params.sampleRate = 8000.0;
+    params.duration = 1.00006;
+    params.pause = 0.25007;
+    params.markerDuration = 0.3;
+    params.levels = {-30.0, -6.0, -12.0};
+    const auto schedule = makeSweepSchedule(params);
+    CHECK(schedule.markerLevel == -6.0);
+    CHECK(schedule.firstMarker.value() == 2001);
+    REQUIRE(schedule.sweeps.size() == 3);
+    CHECK(schedule.sweeps[0] == ScheduledSweep{2001 + 2400 + 2001, 0, -30.0, 0});
+    CHECK(schedule.sweeps[2].startFrame == 2001 + 2400 + 2001 + 2 * (8000 + 2001));
+    CHECK(schedule.secondMarker.value() == 2001 + 2400 + 2001 + 3 * (8000 + 2001));
+    CHECK(schedule.frames == 2001 + 2400 + 2001 + 3 * (8000 + 2001) + 2400 + 2001);
+    CHECK(ScheduledSweep{} == ScheduledSweep{0, 0, 0.0, 0});
+    CHECK(SweepSchedule{}.markerLevel == 0.0);
+    CHECK(SweepSchedule{}.frames == 0);
+
+    const auto marker = markerSweep(params);
+    CHECK(marker.seconds() == 0.3);
+    CHECK(marker.lowFrequency() == 10.0);
+    CHECK(marker.frequencyAt(0.3) == Approx(1500.0));
+    // fades of 6 ms: half way at 3 ms, on both sides
+    const ExponentialSweep plain(10.0, 1500.0, 0.3, 0.0, 0.0);
+    for (const double t : {0.003, 0.297})
+        CHECK(marker.at(t) == Approx(0.5 * plain.at(t)).margin(1e-9));
+    for (const double t : {0.0061, 0.15, 0.2939})
+        CHECK(marker.at(t) == plain.at(t));
+    CHECK(plain.at(-1e-9) == 0.0);
+    CHECK(plain.at(0.3) == 0.0);
+    CHECK(plain.at(0.2999) != 0.0);
+    const auto signal = makeSweepSignal(params).value();
+    const auto samples = sampleSweep(marker, 8000.0, std::pow(10.0, -6.0 / 20.0));
+    REQUIRE(samples.size() == 2400);
+    for (std::size_t n = 0; n < 2400; ++n)
+    {
+        CHECK(signal[2001 + n] == Approx(samples[n]).margin(1e-7));
+        CHECK(signal[*schedule.secondMarker + n] == signal[2001 + n]);
+    }
+    const auto whole = sampleSweep(plain, 1000.0);
+    CHECK(whole[150] == Approx(plain.at(0.15)).margin(1e-7));
+    const auto slow = plain.byClock(0.25);
+    CHECK(slow.seconds() == Approx(0.375));
+    CHECK(slow.growthTime() == Approx(1.25 * plain.growthTime()));
+    CHECK(slow.lowFrequency() == Approx(8.0));
+    CHECK(marker.byClock(0.25).at(1.25 * 0.003) == Approx(marker.at(0.003)));
+    CHECK(marker.byClock(0.25).at(1.25 * 0.298) == Approx(marker.at(0.298)));
 }

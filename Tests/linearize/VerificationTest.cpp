@@ -145,3 +145,58 @@ TEST_CASE("A range below 1 Hz is kept to")
     CHECK(judgeLinearity(slow, {0.5, 3.0, 1.0})->lowFrequency == Approx(0.5));
     CHECK(judgeLinearity(slow, {0.0, 0.9, 1.0}).value().highFrequency == Approx(0.9));
 }
+
+TEST_CASE("Means are those of the trapezoid rule over octaves, whatever the spacing")
+{
+    FrequencyResponse response;
+    const double steps[] = {1.0, 0.1, 0.5, 2.0, 0.25, 0.3, 0.7, 1.1, 0.05, 0.4};
+    double f = 20.0;
+    for (int i = 0; i < 11; ++i)
+    {
+        response.frequency.push_back(f);
+        response.level.push_back(6.0 * std::sin(1.7 * i) + i);
+        f *= std::exp2(i < 10 ? steps[i] : 1.0);
+    }
+    const auto mean = [&](auto value, std::size_t first, std::size_t last)
+    {
+        double sum = 0.0, width = 0.0;
+        for (std::size_t i = first; i < last; ++i)
+        {
+            sum += steps[i] * (value(response.level[i]) + value(response.level[i + 1])) / 2.0;
+            width += steps[i];
+        }
+        return sum / width;
+    };
+    for (const auto& [first, last] :
+         {std::pair<std::size_t, std::size_t>(0, 10), std::pair<std::size_t, std::size_t>(1, 8)})
+    {
+        const auto judged =
+            judgeLinearity(response, {response.frequency[first], response.frequency[last], 4.0}).value();
+        const double level = mean([](double v) { return v; }, first, last);
+        CHECK(judged.lowFrequency == response.frequency[first]);
+        CHECK(judged.highFrequency == response.frequency[last]);
+        CHECK(judged.level == Approx(level));
+        CHECK(judged.meanDeviation == Approx(mean([&](double v) { return std::abs(v - level); }, first, last)));
+        CHECK(judged.standardDeviation ==
+              Approx(std::sqrt(mean([&](double v) { return (v - level) * (v - level); }, first, last))));
+        // the ends, as they come back from a text file
+        CHECK(judgeLinearity(response,
+                             {response.frequency[first] * (1.0 + 5e-10), response.frequency[last] * (1.0 - 5e-10), 4.0})
+                  .value()
+                  .level == judged.level);
+    }
+    CHECK(LinearityParams{}.lowFrequency == 0.0);
+    CHECK(LinearityParams{}.highFrequency == 0.0);
+    CHECK(LinearityParams{}.tolerance == 4.0);
+    // exactly the tolerance passes: levels of 2 and -2 dB at four points of equal distance each side of 0
+    FrequencyResponse square;
+    for (int i = 0; i < 9; ++i)
+    {
+        square.frequency.push_back(std::exp2(i + 4));
+        square.level.push_back(i == 2 ? 2.0 : (i == 6 ? -2.0 : 0.0));
+    }
+    CHECK(judgeLinearity(square, {0.0, 0.0, 2.0})->passed());
+    CHECK_FALSE(judgeLinearity(square, {0.0, 0.0, 1.999})->passed());
+    CHECK(judgeLinearity(square, {0.0, 0.0, 1.999})->outliers.size() == 2);
+    CHECK(judgeLinearity(square, {0.0, 0.0, 1.999})->worstFrequency == 64.0);
+}

@@ -56,10 +56,10 @@ namespace detail
             std::size_t end = i + 1;
             while (end < n && end <= i + longest && apart(i, end))
                 ++end;
-            if (end == n || !apart(i, end))
-                for (std::size_t j = i + 1; j < end; ++j)
-                    dropouts[index(j)] = true;
-            i = end > i + longest ? i + 1 : end;
+            const bool back = end == n || !apart(i, end);
+            for (std::size_t j = i + 1; back && j < end; ++j)
+                dropouts[index(j)] = true;
+            i = back ? end : i + 1;
         }
     };
     // A run at the very start has no point before it: the other direction finds it.

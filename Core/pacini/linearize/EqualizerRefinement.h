@@ -251,7 +251,6 @@ private:
                 return;
             normal.row(i).head(i).setZero();
             normal.col(i).tail(normal.rows() - i - 1).setZero();
-            normal(i, i) = 1.0;
             gradient[i] = 0.0;
         };
         for (std::size_t k = 0; k < sections.size(); ++k)
