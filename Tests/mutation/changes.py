@@ -17,6 +17,8 @@ BINARY = {"+": ("plus", "-"), "-": ("minus", "+"), "*": ("times", "/"), "/": ("o
           "!=": ("unequal", "==")}
 STATEMENT = re.compile(r"[ ]+((?!return\b|break\b|continue\b|throw\b|using\b|delete\b|else\b|goto\b|if\b|for\b|while\b|do\b)"
                        r"[A-Za-z_][\w.:\[\]]*(?:->[\w.\[\]]+|\([^;]*\)|\[[^;]*\])*(?: [-+*/|&]?= [^;]+|\([^;]*\)));$")
+# A constant: known while running only, so that it can change. A function has a bracket before any = or {.
+CONSTANT = re.compile(r"^[ \t]*((?:(?:static|inline) )*)constexpr (?=[^(){;=]*[={])", re.M)
 OPENING, CLOSING = {"(": ")", "[": "]", "{": "}"}, {")", "]", "}"}
 
 
@@ -58,6 +60,25 @@ def partners(tokens):
     return pairs
 
 
+@dataclass
+class Constant:
+    start: int
+    end: int
+    head: str  # "static constexpr "
+
+
+def constants_of(text, tokens, pairs):
+    """The definitions of constants, of one line or many."""
+    found = []
+    for match in CONSTANT.finditer(text):
+        i = next(i for i, token in enumerate(tokens) if token.start >= match.end())
+        while tokens[i].text != ";":
+            i = pairs.get(i, i) + 1 if tokens[i].text in OPENING else i + 1
+        start = match.start(1)
+        found.append(Constant(start, tokens[i].start, text[start:match.end()]))
+    return found
+
+
 def other_number(text, choice):
     """Another number of the same type, not far away."""
     if re.fullmatch(r"\d[\d']*[uUlLzZ]*", text):
@@ -74,6 +95,7 @@ def other_number(text, choice):
 def changes_of(path, text):
     tokens, found = tokens_of(text), []
     pairs = partners(tokens)
+    constants = constants_of(text, tokens, pairs)
     starts = [0] + [match.end() for match in re.finditer("\n", text)]
     lines = text.split("\n")
 
@@ -87,14 +109,11 @@ def changes_of(path, text):
     def add(position, what, *edits):
         line = line_of(position)
         extra = []
-        if constant := re.match(r"\s*(?:static |inline )*constexpr (?=[^()]*=)", lines[line]):
-            # A constant: known while running only, so that it can change.
-            start = starts[line] + constant.start()
-            if any(edit[0] < start + constant.end() for edit in edits):
+        if constant := next((one for one in constants if one.start <= position < one.end), None):
+            if any(edit[0] < constant.start + len(constant.head) for edit in edits):
                 return
-            indent = re.match(r"\s*", lines[line]).group()
-            inline = "inline " if "inline" in constant.group() else "static inline " if "static" in constant.group() else ""
-            extra = [(start, start + constant.end(), f"{indent}{inline}const ")]
+            inline = "inline " if "inline" in constant.head else "static inline " if "static" in constant.head else ""
+            extra = [(constant.start, constant.start + len(constant.head), f"{inline}const ")]
             # Else the compiler would work it out all the same, as it does for every constant that it can.
             edits = [(start, end, new.replace("<N", "<mutants::most + N")) for start, end, new in edits]
         elif FIXED.search(lines[line]):
