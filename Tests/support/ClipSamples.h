@@ -38,8 +38,15 @@ inline Clip randomClip(std::uint64_t seed)
     {
         return static_cast<std::size_t>(random.uniform(0.0, most));
     };
-    clip.envelope = randomCurve(random, clip.duration, points(40.0), 0.0, 1.0, random.uniform() < 0.3);
-    clip.centroid = randomCurve(random, clip.duration, points(10.0), 30.0, 900.0, false);
+    // The order in which a compiler works out arguments is its own; this one is ours.
+    const auto curve = [&](double mostPoints, double low, double high, double chanceOfSteps)
+    {
+        const bool steps = chanceOfSteps > 0.0 && random.uniform() < chanceOfSteps;
+        const std::size_t count = points(mostPoints);
+        return randomCurve(random, clip.duration, count, low, high, steps);
+    };
+    clip.envelope = curve(40.0, 0.0, 1.0, 0.3);
+    clip.centroid = curve(10.0, 30.0, 900.0, 0.0);
     for (std::size_t k = points(9.0); k > 0; --k)
     {
         Band band;
@@ -47,14 +54,14 @@ inline Clip randomClip(std::uint64_t seed)
         band.centreFrequency = band.lowFrequency * 1.1;
         band.highFrequency = band.lowFrequency * 1.3;
         band.priority = static_cast<int>(points(8.0));
-        band.amplitude = randomCurve(random, clip.duration, points(60.0), 0.0, 1.2, random.uniform() < 0.3);
-        band.pitch = randomCurve(random, clip.duration, points(5.0), 20.0, 1000.0, false);
+        band.amplitude = curve(60.0, 0.0, 1.2, 0.3);
+        band.pitch = curve(5.0, 20.0, 1000.0, 0.0);
         clip.bands.push_back(band);
     }
     for (const Breakpoint& p : randomCurve(random, clip.duration, points(20.0), 0.0, 1.0, true))
         clip.transients.push_back({p.time, p.value, random.uniform()});
     if (random.uniform() < 0.3)
-        clip.noise.push_back({100.0, 200.5, randomCurve(random, clip.duration, points(10.0), 0.0, 0.5, false)});
+        clip.noise.push_back({100.0, 200.5, curve(10.0, 0.0, 0.5, 0.0)});
     if (random.uniform() < 0.3)
         clip.markers = {{0.0, "start"}, {clip.duration, std::string("e\0nd\1", 5)}};
     return clip;
