@@ -80,7 +80,11 @@ void checkPinned(const std::string& name, std::span<const double> values, double
     if (std::getenv("PACINI_PIN") != nullptr)
         pin(name, found);
     INFO("Tests/pinned: " << name << "; made anew by PACINI_PIN=1, see support/Pinned.h");
-    const auto lines = linesOf(fileOf(name));
+    static std::map<std::filesystem::path, Lines> files;
+    const auto path = fileOf(name);
+    if (std::getenv("PACINI_PIN") != nullptr || !files.contains(path))
+        files[path] = linesOf(path);
+    const Lines& lines = files[path];
     const auto line = lines.find(name.substr(name.find('/') + 1));
     REQUIRE(line != lines.end());
     std::istringstream text(line->second);
