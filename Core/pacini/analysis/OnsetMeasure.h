@@ -53,7 +53,7 @@ namespace detail
 /// Offset from `frame` (-12..8) of the frame in which the attack around it starts: going back from where half the peak
 /// amplitude is reached, the first frame that stands out from the background before, that is exceeds 8 % of the peak
 /// amplitude and 2.5 times the background's median (but at most half the peak). `frame` must have 17 frames before it
-/// and 9 after; the result is not below -`index`, the frame's distance from the start of the sound.
+/// and 9 after; it does not go back beyond `index` frames, the frame's distance from the start of the sound.
 inline std::ptrdiff_t attackStart(const OnsetFrame* frame, std::ptrdiff_t index)
 {
     float peak = 0.0f;

@@ -17,11 +17,11 @@ namespace pacini
 {
 
 /// Decimation by a whole factor with a linear-phase windowed sinc (Kaiser 1974; Crochiere and Rabiner, "Multirate
-/// Digital Signal Processing", 1983, ch. 2). What folds onto the range below `pass` is 60 dB down; between `pass` and
-/// the inner Nyquist frequency it may fold, so that the filter can be short: its delay is latencyFrames() input frames,
-/// 0.4 ms at 6 kHz. Beside it stands the peak of all input since the frame before, which also tells of what the filter
-/// removes. Frame k is made when input k * factor arrives: an interpolator that starts there needs no further delay.
-/// Not finite input counts as 0, input is limited to +-100.
+/// Digital Signal Processing", 1983, ch. 2). What folds onto the range below `pass` is 56 dB down or more; between
+/// `pass` and the inner Nyquist frequency it may fold, so that the filter can be short: its delay is latencyFrames()
+/// input frames, 0.4 ms at 6 kHz. Beside it stands the peak of all input since the frame before, which also tells of
+/// what the filter removes. Frame k is made when input k * factor arrives: an interpolator that starts there needs no
+/// further delay. Not finite input counts as 0, input is limited to +-100.
 class WholeDecimator
 {
 public:

@@ -143,7 +143,7 @@ public:
         }
     }
 
-    /// A lower bound of cost + error over all starts in the window that are at least `lag` samples old, lag as above:
+    /// A lower bound of cost + error over all starts in the window that are more than `lag` samples old, lag as above:
     /// every such line passes through the newest sample, so its error over the last `lag` samples is at least that of
     /// the best line through it, Syy - Suy^2 / Suu; and it costs at least the lowest cost among those starts.
     [[nodiscard]] double lowerBound(std::size_t lag) const noexcept

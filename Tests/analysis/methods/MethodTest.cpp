@@ -5,6 +5,7 @@
 #include "support/Pinned.h"
 
 #include <pacini/analysis/methods/Method.h>
+#include <pacini/analysis/methods/MethodCurves.h>
 
 #include <algorithm>
 #include <array>
@@ -477,4 +478,17 @@ TEST_CASE("Flatness of the spectrum within every range is what it was", "[method
         }
     checkPinned("analysis/partials from sine to square", partials);
     checkPinned("analysis/partials from sine to square, first", std::span<const double>(partials).first(24));
+}
+
+TEST_CASE("A curve with a point at the very end of the sound has one point there", "[methods]")
+{
+    MethodSound sound;
+    sound.duration = Seconds(1.0);
+    sound.active = Seconds(1.0);
+    const Curve dense{{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.25}, {1.5, 1.0}};
+    MethodCurveParams params;
+    params.breakpoints = 10.0;
+    CHECK(methodCurve(dense, sound, params) == Curve{{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.25}});
+    sound.duration = Seconds(0.75);
+    CHECK(methodCurve(dense, sound, params) == Curve{{0.0, 0.0}, {0.5, 1.0}, {0.75, 0.625}});
 }

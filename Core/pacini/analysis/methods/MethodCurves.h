@@ -106,7 +106,7 @@ private:
     const Breakpoint last{sound.duration.value, valueAt(curve, sound.duration.value)};
     if (curve.back().time > last.time)
     {
-        while (!curve.empty() && curve.back().time > last.time)
+        while (!curve.empty() && curve.back().time >= last.time)
             curve.pop_back();
         curve.push_back(last);
     }
