@@ -176,7 +176,7 @@ class Tests:
 
     def golden(self, number):
         """Whether the golden test of the command fails with this change."""
-        environment = {"PACINI_COMMAND": str(WORK / "build/bin/pacini"), "PACINI_SOURCE_DIR": str(WORK / "source"),
+        environment = {"PACINI_COMMAND": str(WORK / "build/bin/pacini"), "PACINI_SOURCE_DIR": str(ROOT),  # profiles are found above the program
                        "PACINI_SANITIZE": ""}
         if number is not None:
             environment["PACINI_MUTANT"] = str(number)
