@@ -892,3 +892,23 @@ TEST_CASE("Where the excursion limiter goes ahead freely it would have admitted 
             CHECK((freely < 400 || excursion < 1e-6));
         }
 }
+
+TEST_CASE("The lowest tone of a protection is 1 Hz to 20 kHz", "[actuator][protection]")
+{
+    const auto afterStep = [](double low)
+    {
+        ProtectionParams params;
+        params.excursion = ExcursionParams{Hertz(67.0), 1.0, 1e-3, 1e-3, std::nullopt};
+        params.lowFrequency = Hertz(low);
+        Protection protection;
+        protection.prepare({8000.0, 8000});
+        protection.setParams(params);
+        std::vector<float> y(8000, 0.01f);
+        protection.process(y, y);
+        return y;
+    };
+    CHECK(afterStep(0.25) == afterStep(1.0));
+    CHECK(afterStep(0.0) == afterStep(1.0));
+    CHECK(afterStep(2.0) != afterStep(1.0));
+    CHECK(afterStep(1e9) == afterStep(20000.0));
+}
