@@ -75,7 +75,11 @@ TEST_CASE("The level limiter reports what it takes", "[actuator]")
     limiter.process(x, x);
     CHECK(limiter.meter().gainReduction == Approx(20.0 * std::log10(2.0)).epsilon(1e-3));
     CHECK(limiter.meter().level);
+    limiter.setParams({100_Hz, 0.0005_s}); // which plays nothing
+    CHECK(limiter.meter().level);
     limiter.reset();
+    CHECK(limiter.meter().gainReduction == 0.0);
+    CHECK_FALSE(limiter.meter().level);
     x = sine(4800, 100.0, 48000.0, 0.99);
     limiter.process(x, x);
     CHECK(limiter.meter().gainReduction == 0.0);

@@ -137,6 +137,34 @@ TEST_CASE("What is exactly at a limit costs nothing", "[linearize]")
     CHECK(EqualizerCandidate{}.cost == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("Between points that are far apart, the first and the last two too, the edges are no limit", "[linearize]")
+{
+    // An octave from point to point, between which guards lie.
+    FrequencyResponse response;
+    for (int i = 0; i < 10; ++i)
+        response.frequency.push_back(30.0 * std::exp2(i));
+    response.level.assign(10, 0.0);
+    const double last = response.frequency.back();
+    for (const bool outside : {false, true})
+    {
+        CAPTURE(outside);
+        EqualizerFitParams params;
+        params.boostOutside = outside;
+        const auto problem = makeEqualizerFitProblem(response, params).value();
+        REQUIRE(problem.allPoints() > 50);
+        EqualizerRefinement refinement(problem);
+        const auto excessOf = [&](double frequency)
+        {
+            refinement.evaluate({{EqualizerType::peak, frequency, 6.0, 4.0}});
+            return refinement.largestExcess();
+        };
+        for (int i = 0; i < 9; ++i)
+            CHECK(excessOf(30.0 * std::exp2(i + 0.5)) == 0.0);
+        for (const double beyond : {30.0 * std::exp2(-0.5), last * std::exp2(0.5)})
+            CHECK(excessOf(beyond) == Approx(outside ? 0.0 : 5.5).margin(0.5));
+    }
+}
+
 TEST_CASE("A shelf that raises one side is refined as the one that lowers the other", "[linearize]")
 {
     const auto problem = refinedProblem();

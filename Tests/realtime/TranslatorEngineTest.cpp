@@ -307,6 +307,46 @@ TEST_CASE("a reset engine is a new one", "[realtime]")
     }
 }
 
+TEST_CASE("an engine that takes another design begins with the gains that belong to it", "[realtime]")
+{
+    // Of a motor everything is played directly, of the others as much as the parameters say.
+    const TranslatorDesign motor = designTranslator(engineSetup(Technology::erm, 120.0, 200.0, 30.0, 0), 6000.0);
+    TranslatorSetup wide;
+    wide.bands = {.bands = 5, .low = Hertz(40.0), .high = Hertz(700.0)};
+    const TranslatorDesign plain = designTranslator({}, 6000.0), other = designTranslator(wide, 6000.0);
+    TranslatorParams params;
+    params.direct = 0.4;
+    params.rumble.level = 6.0;
+    params.texture.level = -6.0;
+    params.brightness = 3.0;
+    params.transients.muted = true; // what is an event depends on what came before
+    const EngineSound sound = engineSound(6000.0);
+    const auto play = [&](TranslatorEngine& engine)
+    {
+        const std::size_t begin = 4200, frames = 2400; // noise at first, of all that is heard
+        std::vector<float> out(frames);
+        CHECK(engine.process(std::span(sound.frames).subspan(begin, frames),
+                             std::span(sound.peaks).subspan(begin, frames), out,
+                             [](std::uint64_t, double) {}) == frames);
+        return out;
+    };
+    for (const TranslatorDesign* before : {&motor, &other})
+    {
+        CAPTURE(before == &motor);
+        TranslatorEngine fresh;
+        fresh.setParams(params);
+        fresh.adopt(plain);
+        fresh.reset();
+        TranslatorEngine engine;
+        engine.setParams(params);
+        engine.adopt(*before);
+        std::vector<float> silence(40 * controlHop), out(silence.size());
+        CHECK(engine.process(silence, silence, out, [](std::uint64_t, double) {}) == out.size());
+        engine.adopt(plain);
+        CHECK(play(engine) == play(fresh));
+    }
+}
+
 TEST_CASE("a gate opens at its threshold, stays open above half of it and for its release, and closes in a line",
           "[realtime]")
 {

@@ -36,12 +36,9 @@ public:
 
     void reset() noexcept
     {
-        for (BandListener& listener : listeners)
-            listener.reset();
         for (CarrierOscillator& oscillator : oscillators)
             oscillator.reset();
-        wide.reset();
-        listening = {};
+        listening = {}; // whoever listens next is reset by aim()
         any = levelling = false;
     }
 
