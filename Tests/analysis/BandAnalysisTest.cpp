@@ -154,6 +154,20 @@ TEST_CASE("How the sound is cut into calls does not show in the analysis", "[ana
     }
 }
 
+TEST_CASE("A new analysis is ready for a sound of one channel", "[analysis]")
+{
+    const auto x = noise(9000, 5);
+    BandAnalysis analysis(sixBands());
+    CHECK(analysis.found().tracks.size() == 6);
+    CHECK(analysis.found().envelope.empty());
+    const std::span<const float> channel(x);
+    analysis.push({&channel, 1});
+    CHECK(same(analysis.finish(), analysed(x)));
+    BandAnalysis silent(sixBands());
+    BandAnalysis started(sixBands());
+    CHECK(same(silent.finish(), analysed(started, {{}})));
+}
+
 TEST_CASE("Frames cover the sound whatever its length", "[analysis]")
 {
     BandAnalysis analysis(sixBands());

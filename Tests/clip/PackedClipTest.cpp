@@ -4,6 +4,7 @@
 #include <pacini/clip/PackedClip.h>
 
 #include <limits>
+#include <span>
 
 using namespace pacini;
 
@@ -216,4 +217,38 @@ TEST_CASE("Curves that repeat themselves for very long come back from their few 
     REQUIRE(back.ok());
     CHECK(back->envelope.size() == clip.envelope.size());
     CHECK(packClip(*back, {6, 1000}) == packed);
+}
+
+TEST_CASE("A byte of a packed clip holds 64 points at most, and more than 512 beyond that are not believed", "[clip]")
+{
+    const std::size_t leastBytes = 4000, points = 64 * leastBytes;
+    Clip clip;
+    clip.duration = 3000.0;
+    for (std::size_t i = 0; i < points + 63; ++i)
+        clip.envelope.push_back({0.01 * static_cast<double>(i), 1.0});
+    const auto headed = detail::packedHeaderBytes;
+    CHECK(packClip(clip).size() == headed + leastBytes);
+    clip.envelope.resize(points - 1);
+    CHECK(packClip(clip).size() == headed + leastBytes - 1);
+    clip.envelope.push_back({0.01 * static_cast<double>(points - 1), 1.0});
+    const auto packed = packClip(clip);
+    REQUIRE(packed.size() == headed + leastBytes);
+    const auto whole = unpackClip(packed);
+    REQUIRE(whole.ok());
+    CHECK(whole->envelope.size() == points);
+    // What fills it up is zeros, which may be missing.
+    const auto ofBytes = [&](std::size_t count)
+    {
+        return unpackClip(detail::withHeader(std::span(packed).subspan(headed, count)));
+    };
+    const auto enough = ofBytes(leastBytes - 7);
+    REQUIRE(enough.ok());
+    CHECK(*enough == *whole);
+    for (const std::size_t count : {leastBytes - 8, leastBytes - 9, leastBytes - 100})
+    {
+        CAPTURE(count);
+        const auto tooFew = ofBytes(count);
+        REQUIRE_FALSE(tooFew.ok());
+        CHECK(tooFew.error().text() == "contents: make no sense: the file is damaged");
+    }
 }

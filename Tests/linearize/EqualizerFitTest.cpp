@@ -347,6 +347,22 @@ TEST_CASE("Random responses always give valid sections within the limits that ar
     }
 }
 
+TEST_CASE("A section that does nothing is left out, however many were asked for", "[linearize]")
+{
+    // Responses for which the fit moves one of its sections to next to no gain.
+    for (const std::uint64_t seed : {74u, 77u, 245u})
+        for (const double maxBoost : {0.0, 1.0, 12.0})
+        {
+            CAPTURE(seed, maxBoost);
+            EqualizerFitParams params = withSections(16);
+            params.maxBoost = maxBoost;
+            const EqualizerFit fit = fitOf(randomResponse(seed), params);
+            CHECK_FALSE(fit.sections.empty());
+            for (const EqualizerSection& section : fit.sections)
+                CHECK(std::abs(section.gain) >= 0.001);
+        }
+}
+
 TEST_CASE("Many points are fitted as well as few", "[linearize]")
 {
     FrequencyResponse dense;

@@ -62,6 +62,28 @@ TEST_CASE("Every method keeps the count, the end points and the input's own poin
             }
 }
 
+TEST_CASE("A curve that has no more points than it may have comes back as it is, whatever could be improved",
+          "[simplify]")
+{
+    for (auto [name, dense] : test::testCurves(60))
+    {
+        dense.push_back(dense.back()); // which any method would leave out
+        for (SimplifyMethod method : everyMethod)
+            for (const bool refit : {false, true})
+            {
+                CAPTURE(name, static_cast<int>(method), refit);
+                for (const std::size_t more : {0u, 1u, 100u})
+                {
+                    auto params = toCount(method, dense.size() + more);
+                    params.refit = refit;
+                    params.lowest = 0.5;
+                    CHECK(simplify(dense, params).value() == dense);
+                }
+                CHECK(simplify(dense, toCount(method, dense.size() - 1)).value().size() < dense.size());
+            }
+    }
+}
+
 TEST_CASE("Methods that can spend the whole count do, where the curve has use for it", "[simplify]")
 {
     for (const char* name : {"noise", "strikes"})

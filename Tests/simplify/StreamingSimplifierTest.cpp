@@ -180,14 +180,23 @@ TEST_CASE("Points that are not finite or go back in time are passed over", "[sim
     {
         if (k % 50 == 10)
         {
-            bad.push_back({good[k].time, std::numeric_limits<double>::quiet_NaN()});
-            bad.push_back({std::numeric_limits<double>::infinity(), 0.0});
+            const double infinity = std::numeric_limits<double>::infinity();
+            for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 2e100, -2e100})
+                bad.push_back({good[k].time, value});
+            for (const double time : {std::numeric_limits<double>::quiet_NaN(), infinity, 2e100})
+                bad.push_back({time, 0.0});
             bad.push_back({good[k].time - 1.0, 5.0});
         }
         bad.push_back(good[k]);
     }
     for (const StreamingParams& params : allParams())
+    {
         CHECK(stream(bad, params) == stream(good, params));
+        const Curve largest{{-1e100, -1e100}, {1.0, 1e100}, {1e100, 1.0}}; // these count
+        CHECK(stream(largest, params).front() == largest.front());
+        CHECK(stream(largest, params).back() == largest.back());
+        CHECK(stream({{0.0, 1.0}, {1.0, 1e100}}, params).size() == 2);
+    }
 }
 
 TEST_CASE("Empty streams and streams of one point work", "[simplify]")
