@@ -252,3 +252,16 @@ TEST_CASE("A byte of a packed clip holds 64 points at most, and more than 512 be
         CHECK(tooFew.error().text() == "contents: make no sense: the file is damaged");
     }
 }
+
+TEST_CASE("Markers beside curves that repeat themselves for very long are all kept", "[clip]")
+{
+    Clip clip;
+    clip.duration = 3000.0;
+    for (std::size_t i = 0; i < 250000; ++i)
+        clip.envelope.push_back({0.01 * static_cast<double>(i), 1.0});
+    for (int i = 0; i < 2000; ++i)
+        clip.markers.push_back({static_cast<double>(i), ""});
+    const auto read = unpackClip(packClip(clip));
+    REQUIRE(read.ok());
+    CHECK(read->markers == clip.markers);
+}

@@ -374,6 +374,7 @@ private:
             if constexpr (reading)
                 clip.markers.push_back(std::move(marker));
         }
+        points += count;
     }
 
     Coder& coder;
