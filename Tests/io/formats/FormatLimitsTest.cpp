@@ -351,6 +351,24 @@ TEST_CASE("Vibration effects have whole milliseconds, amplitudes of -1 to 255 an
                   "has no control point");
 }
 
+TEST_CASE("A vibration effect has at most five million steps", "[formats]")
+{
+    std::string many = "0";
+    for (int i = 1; i < 5000000; ++i)
+        many += ",0";
+    // Not shown where it fails: the texts are long.
+    const auto errorOf = [](const std::string& timings, const std::string& amplitudes)
+    {
+        const auto read = clipFormatNamed("android")->read(R"({"name": "w", "waveform": {"timings": [)" + timings +
+                                                           R"(], "amplitudes": [)" + amplitudes + "]}}");
+        return read ? "" : read.error().text();
+    };
+    CHECK(errorOf(many, "0") == "waveform.amplitudes: has 1 numbers beside 5000000 timings");
+    many += ",0";
+    CHECK(errorOf(many, "0") == "waveform.timings: has more than 5000000 numbers");
+    CHECK(errorOf("0", many) == "waveform.amplitudes: has more than 5000000 numbers");
+}
+
 TEST_CASE("A table is read by the names of its columns, up to as many as there may be", "[formats]")
 {
     const auto warningsOf = [](const std::string& text)

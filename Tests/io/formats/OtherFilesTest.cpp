@@ -152,6 +152,15 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     const std::string several = errorOf("hasp", hasp(haspClip("Door") + "," + haspClip("Window")));
     CHECK(several.starts_with("clips: has 2 clips ('Door', 'Window'): this is a project of Haptics Studio"));
     CHECK(several.find(".haptic") != std::string::npos);
+    const auto named = [](int count)
+    {
+        std::string clips;
+        for (int i = 0; i < count; ++i)
+            clips += (i > 0 ? "," : "") + haspClip(std::string(1, static_cast<char>('a' + i)));
+        return errorOf("hasp", hasp(clips));
+    };
+    CHECK(named(5).starts_with("clips: has 5 clips ('a', 'b', 'c', 'd', 'e'): "));
+    CHECK(named(6).starts_with("clips: has 6 clips ('a', 'b', 'c', 'd', 'e', ...): "));
     CHECK(errorOf("hasp", hasp("")).find("project of Haptics Studio") != std::string::npos);
     CHECK(errorOf("hasp", "{}").starts_with("clips: is missing"));
     CHECK(errorOf("hasp", hasp(haspClip("Door", -1.0)))
