@@ -271,6 +271,8 @@ TEST_CASE("Frequencies of 0 to 1 are a line between the ends of their range", "[
     CHECK(usual.frequencyPoints == 30.0);
     CHECK(usual.events.ducking == 1.0);
     CHECK(usual.scale == LevelScale::amplitude);
+    for (const double sharpness : {0.0, 0.5, 1.0})
+        CHECK(usual.events.lengthOf(sharpness) == 0.0); // nothing of the voice is under an event
 }
 
 TEST_CASE("Roots and squares of a curve are within a step of 8 bits between its points", "[formats]")
@@ -809,6 +811,20 @@ TEST_CASE("Waves of HJIF become bands and events as they stand", "[formats]")
     HjifBand none;
     setHjifFrequencies(set, none);
     CHECK(set.centreFrequency == 0.0);
+    // Octaves begin at 1 Hz, and the middle stays within the band.
+    const auto middleOf = [](double low, double high)
+    {
+        HjifBand band;
+        band.low = low;
+        band.high = high;
+        Band result;
+        setHjifFrequencies(result, band);
+        return result.centreFrequency;
+    };
+    CHECK(middleOf(0.0, 100.0) == Approx(10.0));
+    CHECK(middleOf(0.25, 100.0) == Approx(10.0));
+    CHECK(middleOf(0.25, 0.5) == 0.5);
+    CHECK(middleOf(4.0, 100.0) == Approx(20.0));
 }
 
 TEST_CASE("A wave of 30 ms or less that rises and falls once is an event of HJIF", "[formats]")
