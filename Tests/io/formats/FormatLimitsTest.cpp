@@ -766,3 +766,26 @@ TEST_CASE("Rates of drive samples are 2 to 48 kHz, and samples go up to full sca
     CHECK(static_cast<unsigned char>(wav->files.at(0).bytes[40]) == 101);
     CHECK(static_cast<unsigned char>(wav->files.at(0).bytes[4]) == 36 + 102);
 }
+
+TEST_CASE("A name that is too long is cut in every format that has one", "[formats]")
+{
+    const std::string most(125000, 'n');
+    for (auto [format, text] : {std::pair<std::string, std::string>{"tact", test::tactSample()},
+                                {"hjif", test::hjifSample()},
+                                {"haps", test::hapsSample()},
+                                {"android", test::androidWaveformSample()}})
+    {
+        CAPTURE(format);
+        const std::string key = format == "hjif"   ? R"("description": "sample)"
+                                : format == "haps" ? R"("m_description": "d)"
+                                : format == "tact" ? R"("name": "t)"
+                                                   : R"("name": "w)";
+        const auto place = text.find(key);
+        REQUIRE(place != std::string::npos);
+        const auto start = text.find('"', text.find(':', place)) + 1;
+        text.replace(start, place + key.size() - start, most + "\u20AC");
+        const auto read = clipFormatNamed(format)->read(text);
+        REQUIRE(read.ok());
+        CHECK((read->clip.name == most)); // not shown, being long
+    }
+}

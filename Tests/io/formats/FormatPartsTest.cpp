@@ -140,6 +140,22 @@ TEST_CASE("Names in code are in snake case and never empty", "[formats]")
     CHECK(numbersInLines(std::vector<int>{1, 2, 3, 4, 5}, 2, digit, " ") == "\n 1, 2,\n 3, 4,\n 5");
 }
 
+TEST_CASE("A long name of another program's clip ends with a whole character", "[formats]")
+{
+    const std::string most(125000, 'x');
+    CHECK(importedName("") == "");
+    CHECK(importedName("Tür") == "Tür");
+    CHECK(importedName(most) == most);
+    CHECK(importedName(most + "y") == most);
+    for (const std::string character : {"é", "€", "\xF0\x9F\x9A\xAA"})
+        for (std::size_t fits = 0; fits <= character.size(); ++fits)
+        {
+            CAPTURE(character, fits);
+            const std::string before = most.substr(fits);
+            CHECK((importedName(before + character + "z") == before + (fits < character.size() ? "" : character)));
+        }
+}
+
 TEST_CASE("UTF-16 is told from text with one character or none", "[formats]")
 {
     std::vector<std::string> warnings;

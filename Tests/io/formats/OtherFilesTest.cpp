@@ -149,6 +149,8 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     CHECK(one.clip.name == "Door");
     CHECK(one.clip.transients.size() == 1);
     CHECK(one.clip.duration == Approx(0.3));
+    const std::string longest(125000, 'n');
+    CHECK((readAs("hasp", hasp(haspClip(longest + "\u20AC"))).clip.name == longest)); // not shown, being long
     const std::string several = errorOf("hasp", hasp(haspClip("Door") + "," + haspClip("Window")));
     CHECK(several.starts_with("clips: has 2 clips ('Door', 'Window'): this is a project of Haptics Studio"));
     CHECK(several.find(".haptic") != std::string::npos);

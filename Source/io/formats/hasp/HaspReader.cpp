@@ -75,7 +75,7 @@ std::optional<Error> readProject(const nlohmann::json& project, ImportedClip& im
     }
     imported.clip = std::move(haptic->clip);
     if (!clips[0].name.empty())
-        imported.clip.name = clips[0].name.substr(0, limits::text / 2);
+        imported.clip.name = importedName(clips[0].name);
     for (const std::string& warning : haptic->warnings)
         imported.warnings.push_back(where + "." + warning);
     return {};
