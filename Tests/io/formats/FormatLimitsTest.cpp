@@ -952,3 +952,42 @@ TEST_CASE("A name that is too long is cut in every format that has one", "[forma
         CHECK((read->clip.name == most)); // not shown, being long
     }
 }
+
+TEST_CASE("Lists that hold everything else have at most as many elements as any player knows", "[formats]")
+{
+    struct Limited
+    {
+        const char* format;
+        std::string before, after, where;
+        std::size_t most;
+        const char* elements;
+    };
+    const std::string head = R"({"version": "2023", "timescale": 1000, "perceptions": [)";
+    const std::string channels = head + R"({"perception_modality": "Vibrotactile", "channels": [)";
+    const std::vector<Limited> all{
+        {"haps", R"({"m_version": "5", "m_vibration": {"m_melodies": [)", "]}}", "m_vibration.m_melodies", 100000,
+         "melodies"},
+        {"tact", R"({"project": {"name": "n", "tracks": [)", "]}}", "project.tracks", 10000, "tracks"},
+        {"hjif", head, "]}", "perceptions", 65535, "perceptions"},
+        {"hjif", channels, "]}]}", "perceptions[0].channels", 65535, "channels"},
+        {"hjif", channels + R"({"gain": 1, "bands": [)", "]}]}]}", "perceptions[0].channels[0].bands", 65535, "bands"}};
+    for (const Limited& list : all)
+    {
+        CAPTURE(list.format, list.where);
+        const auto errorOf = [&](const std::string& elements)
+        {
+            const auto read = clipFormatNamed(list.format)->read(list.before + elements + list.after);
+            return read ? Error{} : read.error();
+        };
+        std::string numbers = "0";
+        for (std::size_t i = 1; i < list.most; ++i)
+            numbers += ",0";
+        const Error inside = errorOf(numbers); // there are not too many, but they are wrong
+        CHECK(inside.where == list.where + "[0]");
+        CHECK(inside.code == ErrorCode::invalidData);
+        const Error beyond = errorOf(numbers + ",0");
+        CHECK(beyond.where == list.where);
+        CHECK(beyond.message == "has more than " + std::to_string(list.most) + " " + list.elements);
+        CHECK(beyond.code == ErrorCode::tooLarge);
+    }
+}
