@@ -28,9 +28,7 @@ std::vector<ProjectClip> clipsOf(const nlohmann::json& clips)
     std::vector<ProjectClip> found;
     for (std::size_t i = 0; i < clips.size(); ++i)
     {
-        if (!clips[i].is_object())
-            continue;
-        const auto haptic = clips[i].find("haptic");
+        const auto haptic = clips[i].find("haptic"); // nothing in what is no object
         if (haptic == clips[i].end() || !haptic->is_object())
             continue;
         const auto name = clips[i].find("name");
