@@ -114,10 +114,11 @@ std::string_view nearestKey(std::string_view given, const std::vector<std::strin
     const auto [nearest, least] = nearestOf(lower, known, lower.size() < 6 ? 2 : 3);
     // A single wrong letter is a slip; beyond that another word for a key is more likely.
     if (least > 1)
-        for (const auto& [word, key] : otherWords)
-            if ((lower == word || (word.size() >= 5 && typingDistance(lower, word) == 1)) &&
-                std::find(known.begin(), known.end(), key) != known.end())
-                return key;
+        for (const bool exact : {true, false})
+            for (const auto& [word, key] : otherWords)
+                if ((exact ? lower == word : word.size() >= 5 && typingDistance(lower, word) == 1) &&
+                    std::find(known.begin(), known.end(), key) != known.end())
+                    return key;
     if (!nearest.empty() || lower.size() < 3)
         return nearest;
     // "freq", "dur", "panning"

@@ -120,6 +120,23 @@ TEST_CASE("An ACF file with one frequency is an actuator of amplitude only, and 
     CHECK(back.highFrequency == 60.0);
 }
 
+TEST_CASE("An actuator of the lowest frequencies that an ACF file can tell has a resonance of 1 Hz", "[io]")
+{
+    Acf acf = *readAcf(sample);
+    const auto resonanceOf = [&](double dull, double crisp)
+    {
+        acf.ends[0].frequency = dull;
+        acf.ends[1].frequency = crisp;
+        const auto profile = profileOfAcf(acf).profile;
+        CHECK((validate(profile).ok() ? "" : validate(profile).error().text()) == "");
+        return profile.resonance.frequency;
+    };
+    CHECK(resonanceOf(1.0, 1.0) == 1.0);
+    CHECK(resonanceOf(1.0, 1.3) == 1.0);
+    CHECK(resonanceOf(1.2, 1.2) == Approx(1.0));
+    CHECK(resonanceOf(1.8, 1.8) == Approx(1.5));
+}
+
 TEST_CASE("From ACF to profile and back, what both know stays", "[io]")
 {
     Random random(11);

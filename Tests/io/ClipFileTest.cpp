@@ -25,6 +25,30 @@ TEST_CASE("A clip file is recognised by its content, not by its name", "[io]")
     CHECK(folder.entries() == 2);
 }
 
+TEST_CASE("A file of a format of ours is told by its first bytes, whatever its name", "[io]")
+{
+    const TempFolder folder;
+    const auto clip = randomFullClip(4);
+    std::size_t own = 0;
+    for (const ClipFormat& format : clipFormats())
+        if (format.isOwn())
+        {
+            CAPTURE(format.name);
+            ++own;
+            REQUIRE(writeClip(folder / "clip.wav", clip, format).ok());
+            CHECK(ownFormatOf(folder / "clip.wav") == &format);
+        }
+    CHECK(own == 2);
+    CHECK(ownFormatOf(put(folder / "cut.json", writeClipJson(clip).substr(0, 60))) == &jsonFormat());
+    const auto foreign = clipFormatNamed("csv")->write(clip, {});
+    REQUIRE(foreign.ok());
+    CHECK(ownFormatOf(put(folder / "clip.json", foreign->files.at(0).bytes)) == nullptr);
+    CHECK(ownFormatOf(put(folder / "sound.json", "RIFF....WAVEfmt ")) == nullptr);
+    CHECK(ownFormatOf(put(folder / "empty.json", "")) == nullptr);
+    CHECK(ownFormatOf(folder / "missing.json") == nullptr);
+    CHECK(ownFormatOf(folder.path()) == nullptr);
+}
+
 TEST_CASE("Files that hold no clip are refused with one clear line", "[io]")
 {
     const TempFolder folder;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pacini
@@ -35,6 +36,14 @@ Result<nlohmann::json> readForeignTree(std::string_view bytes, std::vector<std::
     if (tree && !tree->is_object())
         return Error{ErrorCode::invalidData, "", "is not an object in braces"};
     return tree;
+}
+
+std::string importedName(std::string_view name)
+{
+    std::size_t bytes = std::min(name.size(), limits::text / 2);
+    while (bytes > 0 && bytes < name.size() && (static_cast<unsigned char>(name[bytes]) & 0xC0u) == 0x80u)
+        --bytes;
+    return std::string(name.substr(0, bytes));
 }
 
 std::string decimal(double value, int decimals)

@@ -45,6 +45,9 @@ template <typename Read>
     return imported;
 }
 
+/// `name` as that of a clip: whole characters up to half of what all its texts may have.
+[[nodiscard]] std::string importedName(std::string_view name);
+
 /// `value` in decimal, rounded to `decimals` digits after the point, without needless zeros; never `-0`.
 [[nodiscard]] std::string decimal(double value, int decimals);
 

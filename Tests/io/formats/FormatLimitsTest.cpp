@@ -351,6 +351,24 @@ TEST_CASE("Vibration effects have whole milliseconds, amplitudes of -1 to 255 an
                   "has no control point");
 }
 
+TEST_CASE("A vibration effect has at most five million steps", "[formats]")
+{
+    std::string many = "0";
+    for (int i = 1; i < 5000000; ++i)
+        many += ",0";
+    // Not shown where it fails: the texts are long.
+    const auto errorOf = [](const std::string& timings, const std::string& amplitudes)
+    {
+        const auto read = clipFormatNamed("android")->read(R"({"name": "w", "waveform": {"timings": [)" + timings +
+                                                           R"(], "amplitudes": [)" + amplitudes + "]}}");
+        return read ? "" : read.error().text();
+    };
+    CHECK(errorOf(many, "0") == "waveform.amplitudes: has 1 numbers beside 5000000 timings");
+    many += ",0";
+    CHECK(errorOf(many, "0") == "waveform.timings: has more than 5000000 numbers");
+    CHECK(errorOf("0", many) == "waveform.amplitudes: has more than 5000000 numbers");
+}
+
 TEST_CASE("A table is read by the names of its columns, up to as many as there may be", "[formats]")
 {
     const auto warningsOf = [](const std::string& text)
@@ -420,6 +438,169 @@ TEST_CASE("A table is read by the names of its columns, up to as many as there m
         most += ",x";
     CHECK(warningsOf(most + "\n0").size() == 575);
     limitsRefused("csv", most + ",x\n0", "line 1, column 577", "there are more than 576 columns");
+}
+
+TEST_CASE(".vij: times are 0 to 24 hours and values 0 to 1", "[formats]")
+{
+    const auto file = [](const std::string& envelopes, const std::string& transients, const std::string& more = "")
+    {
+        return R"({"voices": {"envelopes": [)" + envelopes + R"(], "transients": [)" + transients + "]" + more + "}}";
+    };
+    const auto point = [](const std::string& time, const std::string& value)
+    {
+        return R"({"time": )" + time + R"(, "amplitude": )" + value + "}";
+    };
+    const auto stated = [&](const std::string& duration)
+    {
+        std::string text = file("[" + point("0", "1") + "]", "");
+        return text.insert(1, R"("metadata": {"duration": )" + duration + "}, ");
+    };
+    const std::string hold = "[" + point("0", "0.5") + "," + point("1", "0.25") + "]";
+    const auto plain = limitsTaken("vij", file(hold, ""));
+    CHECK(plain.warnings.empty());
+    CHECK(plain.clip.duration == 1.0);
+    REQUIRE(plain.clip.bands.size() == 1);
+    CHECK(plain.clip.bands[0].lowFrequency == 55.0);
+    CHECK(plain.clip.bands[0].centreFrequency == 127.5);
+    CHECK(plain.clip.bands[0].highFrequency == 200.0);
+    CHECK(plain.clip.bands[0].amplitude == Curve{{0.0, 0.5}, {1.0, 0.25}});
+    CHECK(plain.clip.bands[0].pitch.empty());
+
+    // The duration is what is stated, but not before the last amplitude and until the last event has sounded.
+    CHECK(limitsTaken("vij", stated("0")).clip.duration == 0.0);
+    CHECK(limitsTaken("vij", stated("86400")).clip.duration == 86400.0);
+    for (const char* duration : {"-0.5", "86400.5"})
+        limitsRefused("vij", stated(duration), "metadata.duration", "must be 0 to 24 hours");
+    CHECK(limitsTaken("vij", file("[" + point("86400", "1") + "]", "")).clip.duration == 86400.0);
+    limitsRefused("vij", file("[" + point("86400.5", "1") + "]", ""), "voices.envelopes[0][0].time",
+                  "is later than 24 hours", ErrorCode::tooLarge);
+    limitsRefused("vij", file("[" + point("-0.5", "1") + "]", ""), "voices.envelopes[0][0].time", "is before 0");
+    limitsRefused("vij", file(hold + ", [" + point("1", "1") + "," + point("0.5", "1") + "]", ""),
+                  "voices.envelopes[1][1].time", "is earlier than the point before it");
+    CHECK(limitsTaken("vij", file(hold + ", [" + point("0.5", "1") + "," + point("0.5", "0") + "]", "")).warnings ==
+          std::vector<std::string>{});
+    limitsRefused("vij", file("[]", ""), "voices.envelopes", "has no point of amplitude");
+    const auto tap = limitsTaken("vij", file(hold, "[" + point("3", "1") + "], [" + point("3", "0") + "]"));
+    CHECK(tap.clip.duration == Approx(3.02).margin(1e-4));
+    CHECK(tap.clip.transients == std::vector<Transient>{{3.0, 1.0, 0.0}});
+    // Frequencies after the end stand at it.
+    const auto late = limitsTaken("vij", file(hold + ", [" + point("0.5", "0") + "," + point("1.5", "1") + "]", ""));
+    CHECK(late.clip.duration == 1.0);
+    CHECK(late.clip.bands.at(0).pitch == Curve{{0.5, 55.0}, {1.0, 200.0}});
+
+    const std::string limited = ": is outside of 0 to 1 and is limited to this range";
+    const auto loud = limitsTaken("vij", file("[" + point("0", "1.5") + "," + point("1", "-0.5") + "]", ""));
+    CHECK(loud.clip.bands.at(0).amplitude == Curve{{0.0, 1.0}, {1.0, 0.0}});
+    CHECK(loud.warnings == std::vector<std::string>{"voices.envelopes[0][0].amplitude" + limited,
+                                                    "voices.envelopes[0][1].amplitude" + limited});
+    CHECK(limitsTaken("vij", file("[" + point("0", "1") + "," + point("1", "0") + "]", "")).warnings.empty());
+
+    // Sharpness is read at the times of the strengths, and in the middle where there is none.
+    const std::string strengths = "[" + point("0.25", "1") + "," + point("0.5", "0.5") + "]";
+    const auto few = limitsTaken("vij", file(hold, strengths + ", [" + point("0.25", "0.75") + "]"));
+    CHECK(few.clip.transients == std::vector<Transient>{{0.25, 1.0, 0.75}, {0.5, 0.5, 0.75}});
+    const std::vector<std::string> unequal{
+        "voices.transients: there are not as many sharpnesses as strengths; the nearest one is used"};
+    CHECK(few.warnings == unequal);
+    const auto none = limitsTaken("vij", file(hold, strengths));
+    CHECK(none.clip.transients == std::vector<Transient>{{0.25, 1.0, 0.5}, {0.5, 0.5, 0.5}});
+    CHECK(none.warnings == unequal);
+    const auto both =
+        limitsTaken("vij", file(hold, strengths + ", [" + point("0", "0") + "," + point("1", "1") + "], [3]"));
+    CHECK(both.clip.transients == std::vector<Transient>{{0.25, 1.0, 0.25}, {0.5, 0.5, 0.5}});
+    CHECK(both.warnings.empty());
+    CHECK(limitsTaken("vij", file(hold, "", R"(, "bands": [[]])")).warnings ==
+          std::vector<std::string>{"voices.bands: is not kept"});
+    CHECK(limitsTaken("vij", file(hold, "", R"(, "bands": [])")).warnings.empty());
+}
+
+TEST_CASE(".haptic: numbers are taken up to the ends of their ranges", "[formats]")
+{
+    const std::string pattern = R"({"version": {"major": @, "minor": @, "patch": @}, "metadata": {@}, "signals":
+        {"continuous": {"envelopes": {"amplitude": [@], "frequency": [@]}}}})";
+    const std::string points = R"({"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.25})";
+    const auto with = [&](const std::vector<std::pair<std::size_t, std::string>>& changes)
+    {
+        std::vector<std::string> values{"1", "0", "0", "", points, ""};
+        for (const auto& [i, value] : changes)
+            values.at(i) = value;
+        return limitsFilled(pattern, values);
+    };
+    const auto level = [](const std::string& time, const std::string& value, const std::string& emphasis = "")
+    {
+        return R"({"time": )" + time + R"(, "amplitude": )" + value + emphasis + "}";
+    };
+    const auto pitch = [](const std::string& time, const std::string& value)
+    {
+        return R"({"time": )" + time + R"(, "frequency": )" + value + "}";
+    };
+    const auto plain = limitsTaken("haptic", with({}));
+    CHECK(plain.warnings.empty());
+    CHECK(plain.clip.bands.at(0).lowFrequency == 55.0);
+    CHECK(plain.clip.bands.at(0).centreFrequency == 127.5);
+    CHECK(plain.clip.bands.at(0).highFrequency == 200.0);
+
+    limitsRefused("haptic", with({{0, "2"}}), "version.major", "is 2, but only version 1 is read",
+                  ErrorCode::unsupportedVersion);
+    limitsRefused("haptic", with({{0, "0"}}), "version.major", "is 0, but only version 1 is read",
+                  ErrorCode::unsupportedVersion);
+    for (const auto& [place, name] : {std::pair<std::size_t, std::string>{1, "minor"}, {2, "patch"}})
+    {
+        CHECK(limitsTaken("haptic", with({{place, "4294967295"}})).warnings.size() == (place == 1 ? 1 : 0));
+        for (const char* number : {"4294967296", "-1", "0.5"})
+            limitsRefused("haptic", with({{place, number}}), "version." + name, "must be a whole number from 0");
+    }
+    CHECK(limitsTaken("haptic", with({{1, "1"}})).warnings ==
+          std::vector<std::string>{"version.minor: is 1; entries newer than version 1.0 are not kept"});
+
+    const std::vector<std::string> notKept{"metadata: author, description and tags are not kept"};
+    for (const char* one :
+         {R"("author": "a")", R"("description": "d")", R"("tags": ["t"])", R"("tags": ["", "t", ""])"})
+        CHECK(limitsTaken("haptic", with({{3, one}})).warnings == notKept);
+    for (const char* one : {R"("author": "")", R"("description": "")", R"("tags": [""])", R"("editor": "e")"})
+        CHECK(limitsTaken("haptic", with({{3, one}})).warnings.empty());
+    limitsRefused("haptic", with({{3, R"("editor": 3)"}}), "metadata.editor", "must be a text in quotes");
+    CHECK(limitsTaken("haptic", with({{3, R"("source": "a/b\\c/d.wav")"}})).clip.source.file == "d.wav");
+    CHECK(limitsTaken("haptic", with({{3, R"("source": "d.wav")"}})).clip.source.file == "d.wav");
+
+    const std::string amplitude = "signals.continuous.envelopes.amplitude";
+    const std::string frequency = "signals.continuous.envelopes.frequency";
+    CHECK(limitsTaken("haptic", with({{4, level("0", "0") + "," + level("86400", "1")}})).clip.duration == 86400.0);
+    limitsRefused("haptic", with({{4, level("0", "0") + "," + level("86401", "1")}}), amplitude + "[1].time",
+                  "is later than 24 hours", ErrorCode::tooLarge);
+    limitsRefused("haptic", with({{4, level("-0.5", "0")}}), amplitude + "[0].time", "is before 0");
+    limitsRefused("haptic", with({{4, level("1", "0") + "," + level("0.5", "0")}}), amplitude + "[1].time",
+                  "is earlier than the point before it");
+    limitsRefused("haptic", with({{4, ""}}), amplitude, "has no point");
+    for (const char* value : {"-0.001", "1.001"})
+    {
+        limitsRefused("haptic", with({{4, level("0", value)}}), amplitude + "[0].amplitude", "is outside of 0 to 1");
+        limitsRefused("haptic", with({{5, pitch("0", value)}}), frequency + "[0].frequency", "is outside of 0 to 1");
+        const std::string emphasis = std::string(R"(, "emphasis": {"amplitude": 1, "frequency": )") + value + "}";
+        limitsRefused("haptic", with({{4, level("0", "0", emphasis)}}), amplitude + "[0].emphasis.frequency",
+                      "is outside of 0 to 1");
+    }
+    limitsRefused("haptic", with({{4, level("0", "0.5", R"(, "emphasis": {"amplitude": 0.25, "frequency": 0})")}}),
+                  amplitude + "[0].emphasis.amplitude", "is below the amplitude of its point");
+    const auto tap =
+        limitsTaken("haptic", with({{4, level("0", "1", R"(, "emphasis": {"amplitude": 1, "frequency": 1})") + "," +
+                                            level("1", "0", R"(, "emphasis": null)")}}));
+    CHECK(tap.clip.transients == std::vector<Transient>{{0.0, 1.0, 1.0}});
+
+    CHECK(limitsTaken("haptic", with({{4, level("0.5", "1")}})).warnings ==
+          std::vector<std::string>{amplitude + ": has no duration; strict readers refuse it"});
+    const std::vector<std::string> beyond{frequency +
+                                          ": goes beyond the amplitudes and is cut there; strict readers refuse it"};
+    const auto cut = limitsTaken("haptic", with({{5, pitch("0", "0") + "," + pitch("2", "1")}}));
+    CHECK(cut.warnings == beyond);
+    CHECK(cut.clip.bands.at(0).pitch == Curve{{0.0, 55.0}, {1.0, 127.5}});
+    const auto after = limitsTaken("haptic", with({{5, pitch("1.5", "0") + "," + pitch("2", "1")}}));
+    CHECK(after.warnings == beyond);
+    CHECK(after.clip.bands.at(0).pitch == Curve{{1.0, 55.0}});
+    CHECK(limitsTaken("haptic", with({{5, pitch("0", "0") + "," + pitch("1", "1")}})).warnings.empty());
+    const std::string started = level("0.25", "0") + "," + level("1", "1");
+    CHECK(limitsTaken("haptic", with({{4, started}, {5, pitch("0", "0")}})).warnings == beyond);
+    CHECK(limitsTaken("haptic", with({{4, started}, {5, pitch("0.25", "0")}})).warnings.empty());
 }
 
 TEST_CASE("AHAP: what is out of range is limited, refused or left out in these words", "[formats]")
@@ -747,4 +928,66 @@ TEST_CASE("Rates of drive samples are 2 to 48 kHz, and samples go up to full sca
     CHECK(wav->files.at(0).bytes.size() == 44 + 102);
     CHECK(static_cast<unsigned char>(wav->files.at(0).bytes[40]) == 101);
     CHECK(static_cast<unsigned char>(wav->files.at(0).bytes[4]) == 36 + 102);
+}
+
+TEST_CASE("A name that is too long is cut in every format that has one", "[formats]")
+{
+    const std::string most(125000, 'n');
+    for (auto [format, text] : {std::pair<std::string, std::string>{"tact", test::tactSample()},
+                                {"hjif", test::hjifSample()},
+                                {"haps", test::hapsSample()},
+                                {"android", test::androidWaveformSample()}})
+    {
+        CAPTURE(format);
+        const std::string key = format == "hjif"   ? R"("description": "sample)"
+                                : format == "haps" ? R"("m_description": "d)"
+                                : format == "tact" ? R"("name": "t)"
+                                                   : R"("name": "w)";
+        const auto place = text.find(key);
+        REQUIRE(place != std::string::npos);
+        const auto start = text.find('"', text.find(':', place)) + 1;
+        text.replace(start, place + key.size() - start, most + "\u20AC");
+        const auto read = clipFormatNamed(format)->read(text);
+        REQUIRE(read.ok());
+        CHECK((read->clip.name == most)); // not shown, being long
+    }
+}
+
+TEST_CASE("Lists that hold everything else have at most as many elements as any player knows", "[formats]")
+{
+    struct Limited
+    {
+        const char* format;
+        std::string before, after, where;
+        std::size_t most;
+        const char* elements;
+    };
+    const std::string head = R"({"version": "2023", "timescale": 1000, "perceptions": [)";
+    const std::string channels = head + R"({"perception_modality": "Vibrotactile", "channels": [)";
+    const std::vector<Limited> all{
+        {"haps", R"({"m_version": "5", "m_vibration": {"m_melodies": [)", "]}}", "m_vibration.m_melodies", 100000,
+         "melodies"},
+        {"tact", R"({"project": {"name": "n", "tracks": [)", "]}}", "project.tracks", 10000, "tracks"},
+        {"hjif", head, "]}", "perceptions", 65535, "perceptions"},
+        {"hjif", channels, "]}]}", "perceptions[0].channels", 65535, "channels"},
+        {"hjif", channels + R"({"gain": 1, "bands": [)", "]}]}]}", "perceptions[0].channels[0].bands", 65535, "bands"}};
+    for (const Limited& list : all)
+    {
+        CAPTURE(list.format, list.where);
+        const auto errorOf = [&](const std::string& elements)
+        {
+            const auto read = clipFormatNamed(list.format)->read(list.before + elements + list.after);
+            return read ? Error{} : read.error();
+        };
+        std::string numbers = "0";
+        for (std::size_t i = 1; i < list.most; ++i)
+            numbers += ",0";
+        const Error inside = errorOf(numbers); // there are not too many, but they are wrong
+        CHECK(inside.where == list.where + "[0]");
+        CHECK(inside.code == ErrorCode::invalidData);
+        const Error beyond = errorOf(numbers + ",0");
+        CHECK(beyond.where == list.where);
+        CHECK(beyond.message == "has more than " + std::to_string(list.most) + " " + list.elements);
+        CHECK(beyond.code == ErrorCode::tooLarge);
+    }
 }

@@ -140,6 +140,22 @@ TEST_CASE("Names in code are in snake case and never empty", "[formats]")
     CHECK(numbersInLines(std::vector<int>{1, 2, 3, 4, 5}, 2, digit, " ") == "\n 1, 2,\n 3, 4,\n 5");
 }
 
+TEST_CASE("A long name of another program's clip ends with a whole character", "[formats]")
+{
+    const std::string most(125000, 'x');
+    CHECK(importedName("") == "");
+    CHECK(importedName("Tür") == "Tür");
+    CHECK(importedName(most) == most);
+    CHECK(importedName(most + "y") == most);
+    for (const std::string character : {"é", "€", "\xF0\x9F\x9A\xAA"})
+        for (std::size_t fits = 0; fits <= character.size(); ++fits)
+        {
+            CAPTURE(character, fits);
+            const std::string before = most.substr(fits);
+            CHECK((importedName(before + character + "z") == before + (fits < character.size() ? "" : character)));
+        }
+}
+
 TEST_CASE("UTF-16 is told from text with one character or none", "[formats]")
 {
     std::vector<std::string> warnings;
@@ -271,6 +287,8 @@ TEST_CASE("Frequencies of 0 to 1 are a line between the ends of their range", "[
     CHECK(usual.frequencyPoints == 30.0);
     CHECK(usual.events.ducking == 1.0);
     CHECK(usual.scale == LevelScale::amplitude);
+    for (const double sharpness : {0.0, 0.5, 1.0})
+        CHECK(usual.events.lengthOf(sharpness) == 0.0); // nothing of the voice is under an event
 }
 
 TEST_CASE("Roots and squares of a curve are within a step of 8 bits between its points", "[formats]")
@@ -533,6 +551,85 @@ TEST_CASE("Steps of waveforms have the numbers that they had", "[formats]")
     };
     CHECK(bridged(0.049) == std::vector<AndroidStep>{{100, 0}, {100, 255}, {49, 1}, {50, 255}, {50, 0}});
     CHECK(bridged(0.05) == std::vector<AndroidStep>{{100, 0}, {100, 255}, {50, 0}, {50, 255}, {50, 0}});
+}
+
+TEST_CASE("Envelopes of Android say what some devices do not play", "[formats]")
+{
+    const auto exportOf = [](const Curve& amplitude, double hertz)
+    {
+        Clip clip;
+        clip.duration = amplitude.back().time;
+        clip.bands.push_back({hertz, hertz, hertz, 0, amplitude, {}});
+        return androidEffectsOf(clip, {});
+    };
+    const auto pointsOf = [&](const Curve& amplitude)
+    {
+        std::vector<std::pair<std::int64_t, double>> points;
+        for (const AndroidPoint& point : exportOf(amplitude, 150.0).effects.envelope.points)
+            points.emplace_back(point.duration, point.amplitude);
+        return points;
+    };
+    const auto lossesOf = [&](const Curve& amplitude, LossKind kind, const std::string& start, double hertz = 150.0)
+    {
+        std::vector<FormatLoss> found;
+        AndroidExport made = exportOf(amplitude, hertz);
+        for (const FormatLoss& loss : std::move(made.losses).sorted())
+            if (loss.kind == kind && loss.message.starts_with(start))
+                found.push_back(loss);
+        return found;
+    };
+    using Points = std::vector<std::pair<std::int64_t, double>>;
+    // A segment lasts at most a second, a longer one becomes as few as can be.
+    CHECK(pointsOf({{0.0, 0.0}, {1.0, 0.75}, {1.5, 0.0}}) == Points{{1000, 0.75}, {500, 0.0}});
+    CHECK(pointsOf({{0.0, 0.0}, {1.001, 0.75}, {1.5, 0.0}}) == Points{{500, 0.375}, {501, 0.75}, {499, 0.0}});
+    const Points three = pointsOf({{0.0, 0.0}, {0.5, 0.75}, {3.0, 0.0}});
+    REQUIRE(three.size() == 4);
+    CHECK(three[1].first == 833);
+    CHECK(three[2].first == 833);
+    CHECK(three[3].first == 834);
+    CHECK(three[1].second == Approx(0.5));
+    CHECK(three[2].second == Approx(0.25));
+    CHECK(three[3].second == Approx(0.0).margin(1e-12));
+    // What does not end at 0 falls there in a millisecond, and a step takes one.
+    CHECK(pointsOf({{0.0, 0.5}, {0.5, 0.5}}) == Points{{1, 0.5}, {499, 0.5}, {1, 0.0}});
+    CHECK(pointsOf({{0.0, 0.0}, {0.25, 0.0}, {0.25, 0.5}, {0.5, 0.0}}) == Points{{250, 0.0}, {1, 0.5}, {249, 0.0}});
+    CHECK(pointsOf({{0.0, 0.0}, {0.5, 0.0}}) == Points{{500, 0.0}});
+
+    const std::string crowded = "envelopes: segments of less than 20 ms";
+    CHECK(lossesOf({{0.0, 0.0}, {0.02, 1.0}, {0.5, 0.0}}, LossKind::crowding, crowded).empty());
+    const auto steep = lossesOf({{0.0, 0.0}, {0.1, 0.0}, {0.119, 1.0}, {0.5, 0.0}}, LossKind::crowding, crowded);
+    REQUIRE(steep.size() == 1);
+    CHECK(steep[0].time == Approx(0.1));
+    CHECK(steep[0].duration == Approx(0.019));
+    CHECK(lossesOf({{0.0, 0.0}, {0.02, 1.0}, {0.5, 0.0}}, LossKind::timeStep, "").empty());
+    const auto moved = lossesOf({{0.0, 0.0}, {0.0204, 1.0}, {0.5, 0.0}}, LossKind::timeStep, "");
+    REQUIRE(moved.size() == 1);
+    CHECK(moved[0].error == Approx(0.0004));
+    CHECK(moved[0].duration == 0.5);
+
+    const auto zigzag = [](int points)
+    {
+        Curve curve{{0.0, 0.0}};
+        for (int i = 1; i <= points; ++i)
+            curve.push_back({0.05 * i, i < points && i % 2 != 0 ? 0.9 : 0.0});
+        return curve;
+    };
+    CHECK(lossesOf(zigzag(16), LossKind::points, "envelopes: ").empty());
+    const auto many = lossesOf(zigzag(17), LossKind::points, "envelopes: ");
+    REQUIRE(many.size() == 1);
+    CHECK(many[0].message == "envelopes: 17 control points; devices need not play more than 16 at once, Android "
+                             "splits the effect");
+
+    const Curve hill{{0.0, 0.0}, {0.25, 1.0}, {0.5, 0.0}};
+    for (const double hertz : {65.0, 182.5, 300.0})
+        CHECK(lossesOf(hill, LossKind::frequency, "basic envelope", hertz).empty());
+    for (const auto& [hertz, end] : {std::pair{60.0, 65.0}, {330.0, 300.0}})
+    {
+        const auto bent = lossesOf(hill, LossKind::frequency, "basic envelope", hertz);
+        REQUIRE(bent.size() == 1);
+        CHECK(bent[0].error == Approx(std::abs(std::log2(hertz / end))));
+        CHECK(bent[0].message == "basic envelope: frequencies outside 65 to 300 Hz are limited to this range");
+    }
 }
 
 TEST_CASE("Sums of bands are limited to the same numbers as ever", "[formats]")
@@ -809,6 +906,20 @@ TEST_CASE("Waves of HJIF become bands and events as they stand", "[formats]")
     HjifBand none;
     setHjifFrequencies(set, none);
     CHECK(set.centreFrequency == 0.0);
+    // Octaves begin at 1 Hz, and the middle stays within the band.
+    const auto middleOf = [](double low, double high)
+    {
+        HjifBand band;
+        band.low = low;
+        band.high = high;
+        Band result;
+        setHjifFrequencies(result, band);
+        return result.centreFrequency;
+    };
+    CHECK(middleOf(0.0, 100.0) == Approx(10.0));
+    CHECK(middleOf(0.25, 100.0) == Approx(10.0));
+    CHECK(middleOf(0.25, 0.5) == 0.5);
+    CHECK(middleOf(4.0, 100.0) == Approx(20.0));
 }
 
 TEST_CASE("A wave of 30 ms or less that rises and falls once is an event of HJIF", "[formats]")

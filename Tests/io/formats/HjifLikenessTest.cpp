@@ -26,6 +26,14 @@ Clip tap()
     return clip;
 }
 
+/// A hum that begins at once at `start`.
+Clip begin(double start)
+{
+    Clip clip = hum(0.0);
+    clip.bands[0].amplitude = {{0.0, 0.0}, {start, 0.0}, {start, 0.5}, {1.0, 0.5}};
+    return clip;
+}
+
 Clip silence()
 {
     Clip clip;
@@ -56,4 +64,21 @@ TEST_CASE("An event that only one of clip and file has is far and told with its 
     const HjifDistance kept = HjifLikeness(tap(), {}).distanceTo(tap());
     CHECK(kept.events.empty());
     CHECK(kept.value < 0.5 * lost.value);
+}
+
+TEST_CASE("Events within 6 ms of each other are the same, others are told both", "[formats]")
+{
+    HjifLikeness likeness(begin(0.5), {});
+    for (const double apart : {-0.005, -0.003, 0.0, 0.003, 0.005})
+    {
+        CAPTURE(apart);
+        CHECK(likeness.distanceTo(begin(0.5 + apart)).events.empty());
+    }
+    for (const double apart : {-0.2, -0.008, 0.008, 0.2})
+    {
+        CAPTURE(apart);
+        const auto events = likeness.distanceTo(begin(0.5 + apart)).events;
+        REQUIRE(events.size() == 2);
+        CHECK(events[1] - events[0] == Approx(apart).margin(0.002));
+    }
 }

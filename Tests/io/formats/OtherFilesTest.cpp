@@ -149,9 +149,20 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     CHECK(one.clip.name == "Door");
     CHECK(one.clip.transients.size() == 1);
     CHECK(one.clip.duration == Approx(0.3));
+    const std::string longest(125000, 'n');
+    CHECK((readAs("hasp", hasp(haspClip(longest + "\u20AC"))).clip.name == longest)); // not shown, being long
     const std::string several = errorOf("hasp", hasp(haspClip("Door") + "," + haspClip("Window")));
     CHECK(several.starts_with("clips: has 2 clips ('Door', 'Window'): this is a project of Haptics Studio"));
     CHECK(several.find(".haptic") != std::string::npos);
+    const auto named = [](int count)
+    {
+        std::string clips;
+        for (int i = 0; i < count; ++i)
+            clips += (i > 0 ? "," : "") + haspClip(std::string(1, static_cast<char>('a' + i)));
+        return errorOf("hasp", hasp(clips));
+    };
+    CHECK(named(5).starts_with("clips: has 5 clips ('a', 'b', 'c', 'd', 'e'): "));
+    CHECK(named(6).starts_with("clips: has 6 clips ('a', 'b', 'c', 'd', 'e', ...): "));
     CHECK(errorOf("hasp", hasp("")).find("project of Haptics Studio") != std::string::npos);
     CHECK(errorOf("hasp", "{}").starts_with("clips: is missing"));
     CHECK(errorOf("hasp", hasp(haspClip("Door", -1.0)))
@@ -162,6 +173,22 @@ TEST_CASE(".hasp: a project of one clip is that clip, one of several says how to
     const auto warned = readAs("hasp", hasp("{}, " + author));
     REQUIRE(warned.warnings.size() == 1);
     CHECK(warned.warnings[0].starts_with("clips[1].haptic.metadata: author"));
+    // What is no clip with haptics is passed over, and a clip needs no name.
+    const std::string others = R"(3, null, {}, {"name": "n"}, {"name": "n", "haptic": 3}, )";
+    for (const char* name : {R"("name": "Door", )", R"("name": 3, )", ""})
+    {
+        CAPTURE(name);
+        std::string clip = haspClip("Door");
+        clip.replace(clip.find(R"("name")"), std::string(R"("name": "Door", )").size(), name);
+        const auto read = readAs("hasp", hasp(others + clip));
+        CHECK(read.clip.name == (std::string(name).find("Door") == std::string::npos ? "" : "Door"));
+        CHECK(read.clip.duration == 1.0);
+    }
+    CHECK(errorOf("hasp", hasp(others + haspClip("Door", -1.0)))
+              .starts_with("clips[5].haptic.signals.continuous.envelopes.amplitude[1].time: is before 0"));
+    CHECK(errorOf("hasp", hasp(others + R"({"name": "n"})"))
+              .starts_with("clips: has no clip with haptics: this is a project of Haptics Studio; export them"));
+    CHECK(errorOf("hasp", R"({"clips": {}})") == "clips: must be a list in brackets");
     // By its content it is told from a clip whatever it is called.
     CHECK(clipFormatOf(".json", hasp(haspClip("Door")))->name == "hasp");
     CHECK(clipFormatOf(".haptic", hasp(haspClip("Door")))->name == "hasp");

@@ -122,7 +122,7 @@ std::optional<Error> readEffect(const nlohmann::json& tree, ImportedClip& import
 {
     AndroidReader reader{FieldsReader(tree), imported.warnings};
     reader.reader.optionalText("name", imported.clip.name);
-    std::string name = imported.clip.name.substr(0, limits::text / 2);
+    std::string name = importedName(imported.clip.name);
     if (tree.contains("waveformEnvelope"))
         imported.clip = reader.envelope(false);
     else if (tree.contains("basicEnvelope"))

@@ -263,7 +263,7 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
     if (importer.report.error)
         return importer.report.error;
     imported.clip = std::move(importer.clip);
-    imported.clip.name = description.substr(0, limits::text / 2);
+    imported.clip.name = importedName(description);
     if (imported.clip.bands.empty() && imported.clip.transients.empty())
         imported.warnings.emplace_back("m_vibration: nothing sounds");
     return {};

@@ -28,9 +28,7 @@ std::vector<ProjectClip> clipsOf(const nlohmann::json& clips)
     std::vector<ProjectClip> found;
     for (std::size_t i = 0; i < clips.size(); ++i)
     {
-        if (!clips[i].is_object())
-            continue;
-        const auto haptic = clips[i].find("haptic");
+        const auto haptic = clips[i].find("haptic"); // nothing in what is no object
         if (haptic == clips[i].end() || !haptic->is_object())
             continue;
         const auto name = clips[i].find("name");
@@ -75,7 +73,7 @@ std::optional<Error> readProject(const nlohmann::json& project, ImportedClip& im
     }
     imported.clip = std::move(haptic->clip);
     if (!clips[0].name.empty())
-        imported.clip.name = clips[0].name.substr(0, limits::text / 2);
+        imported.clip.name = importedName(clips[0].name);
     for (const std::string& warning : haptic->warnings)
         imported.warnings.push_back(where + "." + warning);
     return {};

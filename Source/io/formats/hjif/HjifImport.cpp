@@ -103,7 +103,7 @@ private:
         if (!(channel.gain >= -1e6 && channel.gain <= 1e6))
             return report.fail(where + ".gain", "must be -1000000 to 1000000");
         scale.level = std::abs(channel.gain) * std::pow(10.0, exponent) * share;
-        if (channel.rate && channel.samples && *channel.rate > 0.0 && *channel.samples >= 0.0)
+        if (channel.rate && channel.samples && *channel.rate > 0.0)
             wantedDuration = std::max(wantedDuration, *channel.samples / *channel.rate);
         const std::size_t firstEvent = clip.transients.size();
         drawn = std::any_of(channel.bands.begin(), channel.bands.end(), isWavelet);

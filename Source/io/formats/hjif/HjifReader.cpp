@@ -19,7 +19,7 @@ std::optional<Error> readHjifClip(const nlohmann::json& tree, ImportedClip& impo
     if (!clip)
         return clip.error();
     imported.clip = std::move(clip).value();
-    imported.clip.name = file->description.substr(0, limits::text / 2);
+    imported.clip.name = importedName(file->description);
     if (imported.clip.bands.empty() && imported.clip.transients.empty())
     {
         const bool hadMore = std::any_of(file->perceptions.begin(), file->perceptions.end(),

@@ -161,7 +161,7 @@ void setHjifFrequencies(Band& lane, const HjifBand& band)
         lane.lowFrequency = std::min(lane.lowFrequency, point.value);
         lane.highFrequency = std::max(lane.highFrequency, point.value);
     }
-    double centre = std::sqrt(std::max(band.low, 1.0) * std::max(band.high, 1.0));
+    double centre = std::sqrt(std::max(band.low, 1.0) * band.high);
     if (!lane.pitch.empty())
     {
         double octaves = 0.0;

@@ -304,7 +304,7 @@ private:
     [[nodiscard]] std::string wavePulse(std::int64_t tick, const HjifEvent& told) const
     {
         constexpr std::int64_t pieces = 8;
-        const std::int64_t half = std::max<std::int64_t>(1, std::llround(0.5 * told.length * ticksPerSecond));
+        const std::int64_t half = std::llround(0.5 * told.length * ticksPerSecond); // 3 ms at least
         std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":0,"keyframes":[)", tick);
         std::int64_t last = -1;
         for (std::int64_t n = 0; n <= pieces; ++n)

@@ -249,7 +249,7 @@ std::optional<Error> readTactProject(const nlohmann::json& tree, ImportedClip& i
     voice.amplitude = largestOf(std::move(reader.pieces), reader.duration);
     voice.frequency = {{0.0, tactMotorFrequency}};
     imported.clip = clipOfVoice(std::move(voice));
-    imported.clip.name = reader.name.substr(0, limits::text / 2);
+    imported.clip.name = importedName(reader.name);
     imported.warnings.emplace_back("project.tracks: the strongest motor of all places is read as one amplitude");
     return {};
 }
