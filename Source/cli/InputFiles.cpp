@@ -61,7 +61,7 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
             {folder, {ErrorCode::io, "", "cannot be listed: " + error.message() + "; check its permissions"}});
     std::sort(paths.begin(), paths.end());
     for (const auto& path : paths)
-        found.files.push_back({path, fs::relative(path, folder, error)});
+        found.files.push_back({path, path.lexically_relative(folder)}); // of a link where it stands, not where it leads
     if (paths.empty() && !error)
         found.failures.push_back({folder, {ErrorCode::invalidData, "", "holds no files that this command reads"}});
 }

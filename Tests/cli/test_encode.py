@@ -40,6 +40,15 @@ class Encode(CommandTest):
         self.assertEqual([file["output"] for file in report["files"]], ["out/a.pacb", "out/deep/b.pacb"])
         self.assertTrue((self.folder / "out/deep/b.pacb").exists())
 
+    def test_a_link_in_a_folder_is_encoded_where_it_stands(self):
+        self.put("elsewhere/long.wav", wav(sine(100, 0.2)))
+        (self.folder / "in").mkdir()
+        (self.folder / "in/link.wav").symlink_to(self.folder / "elsewhere/long.wav")
+        for folder, out in (("in", "out"), ("./in/", "out2")):
+            self.succeeds("encode", folder, "-o", out, "--format", "packed")
+            self.assertEqual([path.name for path in (self.folder / out).iterdir()], ["link.pacb"])
+        self.assertEqual([path.name for path in (self.folder / "elsewhere").iterdir()], ["long.wav"])
+
     def test_several_files_go_into_a_folder_that_is_made(self):
         for name in ("a.wav", "b.wav"):
             self.put(name, wav(sine(100, 0.2)))
