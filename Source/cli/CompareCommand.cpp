@@ -156,6 +156,9 @@ CLI::App* CompareCommand::declare(CLI::App& app)
               wholeNumberFrom(1u, 256u), "N");
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
+        "  match           how well people would say that it matches the sound, 0 to 100: a prediction, of the mean "
+        "of\n"
+        "                  ratings. It reads from 35 to 71; the JSON has its parts and that of the sound itself\n"
         "  HTS             haptic translation similarity, 0 to 100: envelope and events as heard, spectrum as felt\n"
         "  of REF          the HTS of the sound itself, played as it is: the score of keeping everything. It is below\n"
         "                  100 where much of the sound cannot be felt; a translation that makes this part felt can\n"

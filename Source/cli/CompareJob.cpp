@@ -77,6 +77,8 @@ struct Features
     HtsFeatures hts;
     HtsFeatures itself; ///< of a source: as its own candidate
     SignalFeatures judge;
+    HeardTrack heard; ///< of a source
+    TouchTrack felt;
 };
 } // namespace
 
@@ -109,8 +111,12 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
                 features.judge = signalFeatures(*judge, samples, sound->sampleRate).value();
                 HtsFeatures& asCandidate = role == HtsRole::source ? features.itself : features.hts;
                 asCandidate = htsCandidateFeatures(hts, samples, sound->sampleRate).value();
+                features.felt = touchTrack(touch, samples, sound->sampleRate).value();
                 if (role == HtsRole::source)
+                {
                     features.hts = htsSourceFeatures(hts, samples, sound->sampleRate).value();
+                    features.heard = heardTrack(samples, sound->sampleRate).value();
+                }
             });
         return features;
     };
@@ -142,6 +148,11 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
             result.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
             result.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
             result.measures = compare(source.judge, target.judge);
+            if (!source.heard.loudness.empty())
+            {
+                result.match = matchParts(source.heard, target.felt);
+                result.matchCeiling = predictedMatch(matchParts(source.heard, source.felt));
+            }
             const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;
             if (onsets == nullptr)
                 return;

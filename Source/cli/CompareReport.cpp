@@ -37,7 +37,17 @@ std::optional<double> scored(const CompareResult& r)
     return (r.*member) ? std::optional((r.*member)->f) : std::nullopt;
 }
 
-constexpr std::array<Column, 11> columns{{
+constexpr std::array<Column, 13> columns{{
+    {"match", "match", 1,
+     [](const CompareResult& r)
+     {
+         return r.match ? std::optional(predictedMatch(*r.match)) : std::nullopt;
+     }},
+    {"matchCeiling", "", 1,
+     [](const CompareResult& r)
+     {
+         return r.match ? std::optional(r.matchCeiling) : std::nullopt;
+     }},
     {"hts", "HTS", 1,
      [](const CompareResult& r)
      {
@@ -118,6 +128,12 @@ Json toJson(const HtsScore& score)
     return {{"wide", score.wide}, {"band", score.band}, {"spectrum", score.spectrum}, {"event", score.event}};
 }
 
+Json toJson(const MatchParts& parts)
+{
+    return {{"attacks", parts.attacks},       {"envelope", parts.envelope}, {"roughness", parts.roughness},
+            {"brightness", parts.brightness}, {"movement", parts.movement}, {"silence", parts.silence}};
+}
+
 Json toJson(const CompareTask& task)
 {
     const CompareResult& r = *task.result;
@@ -127,6 +143,7 @@ Json toJson(const CompareTask& task)
               {"candidateDuration", r.candidateDuration}};
     for (const Column& column : columns)
         json[column.key] = orNull(column.value(r));
+    json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
     json["htsParts"] = toJson(r.hts);
     json["htsFParts"] = toJson(r.htsFidelity);
     json["lag"] = orNull(r.measures.lag);

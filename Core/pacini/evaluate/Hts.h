@@ -202,15 +202,7 @@ template <typename Sample>
 [[nodiscard]] Result<HtsFeatures> htsCandidateFeatures(HtsAnalyzer& analyzer, std::span<const Sample> samples,
                                                        int sampleRate)
 {
-    std::vector<Sample> finite; // a copy only when something has to be changed
-    if (!std::all_of(samples.begin(), samples.end(), [](Sample v) { return std::isfinite(v); }))
-    {
-        finite.assign(samples.begin(), samples.end());
-        std::replace_if(
-            finite.begin(), finite.end(), [](Sample v) { return !std::isfinite(v); }, Sample(0));
-        samples = finite;
-    }
-    const auto x = resample(samples, sampleRate, HtsFeatures::sampleRate);
+    const auto x = resampleFinite(samples, sampleRate, HtsFeatures::sampleRate);
     if (!x)
         return x.error();
     return analyzer.analyze(std::span<const Sample>(*x), HtsRole::candidate);

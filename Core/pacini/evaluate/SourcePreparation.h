@@ -1,6 +1,6 @@
 #pragma once
 
-// Preprocessing of a source sound before a haptic signal is compared with it.
+// Preprocessing of signals before they are compared.
 
 #include <pacini/evaluate/SectionCascade.h>
 #include <pacini/filters/Butterworth.h>
@@ -77,6 +77,23 @@ template <typename Sample>
         for (Sample& v : out)
             v = static_cast<Sample>(static_cast<double>(v) / peak);
     return out;
+}
+
+/// `samples` resampled to `outputRate`, with 0 for those that are not finite. ErrorCode::invalidArgument for rates
+/// outside 2000 to 768000 Hz.
+template <typename Sample>
+[[nodiscard]] Result<std::vector<Sample>> resampleFinite(std::span<const Sample> samples, int sampleRate,
+                                                         int outputRate)
+{
+    std::vector<Sample> finite; // a copy only when something has to be changed
+    if (!std::all_of(samples.begin(), samples.end(), [](Sample v) { return std::isfinite(v); }))
+    {
+        finite.assign(samples.begin(), samples.end());
+        std::replace_if(
+            finite.begin(), finite.end(), [](Sample v) { return !std::isfinite(v); }, Sample(0));
+        samples = finite;
+    }
+    return resample(samples, sampleRate, outputRate);
 }
 
 } // namespace pacini

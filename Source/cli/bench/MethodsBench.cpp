@@ -7,6 +7,7 @@
 #include <pacini/clip/PackedClip.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/SignalMetrics.h>
+#include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/DecoderChoice.h>
 
@@ -30,12 +31,14 @@ public:
         : sound(soundToJudge),
           judge(signalAnalysisLength(sound.mono.size(), sound.sampleRate)),
           judged(signalFeatures(judge, std::span(sound.mono), sound.sampleRate).value()),
-          felt(htsSourceFeatures(hts, std::span(sound.mono), sound.sampleRate).value())
+          felt(htsSourceFeatures(hts, std::span(sound.mono), sound.sampleRate).value()),
+          heard(heardTrack(sound.mono, sound.sampleRate).value())
     {
     }
 
     struct Verdict
     {
+        double match = 0.0;
         double hts = 0.0;
         SignalMetrics measures;
         std::vector<double> detected; ///< s, events in the candidate by the neutral detector
@@ -45,8 +48,9 @@ public:
     {
         auto found = signalFeatures(judge, candidate, sampleRate).value();
         const auto feltCandidate = htsCandidateFeatures(hts, candidate, sampleRate).value();
-        return {compare(felt, feltCandidate, HtsMode::translation).score, compare(judged, found),
-                std::move(found.onsets)};
+        const auto touched = touchTrack(touch, candidate, sampleRate).value();
+        return {predictedMatch(matchParts(heard, touched)), compare(felt, feltCandidate, HtsMode::translation).score,
+                compare(judged, found), std::move(found.onsets)};
     }
 
 private:
@@ -55,6 +59,8 @@ private:
     HtsAnalyzer hts;
     SignalFeatures judged;
     HtsFeatures felt;
+    HeardTrack heard;
+    TouchAnalyzer touch;
 };
 
 /// Hits twice, and events that are there or claimed: F-measure over any number of sounds is the ratio of the sums.
@@ -149,9 +155,9 @@ private:
             return cell;
         };
         rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, renderSeconds,
-                  std::move(bytesPerSecond), std::move(pointsPerSecond), verdict.hts, measure(m.logSpectralDistance),
-                  measure(m.wideSnr), measure(m.centroidError), stated.agreeing, stated.all, detected.agreeing,
-                  detected.all});
+                  std::move(bytesPerSecond), std::move(pointsPerSecond), measure(verdict.match), verdict.hts,
+                  measure(m.logSpectralDistance), measure(m.wideSnr), measure(m.centroidError), stated.agreeing,
+                  stated.all, detected.agreeing, detected.all});
     }
 
     const BenchSound& sound;
@@ -226,7 +232,8 @@ Bench methodsBench()
         "Translation methods",
         "Each sound is encoded, packed, unpacked and rendered at 8 kHz; quality and time come from the same run. "
         "Means over the sounds, times real time as total over total. B/s is the size of the file; signals have none. "
-        "HTS: haptic translation similarity, 0 to 100. LSD: log spectral distance. Events F1 (within 25 ms of the "
+        "Match: the rating by people, 0 to 100, that is predicted. HTS: haptic translation similarity, 0 to 100. LSD: "
+        "log spectral distance. Events F1 (within 25 ms of the "
         "annotated onsets, pooled over the sounds) once for the events that a clip states and once for those that a "
         "neutral detector finds in the rendered signal.",
         columnsOf({"method", "variant"},
@@ -235,6 +242,7 @@ Bench methodsBench()
                    summed("renderSeconds", "s"),
                    {"bytesPerSecond", "B/s"},
                    {"pointsPerSecond", "1/s"},
+                   {"match", ""},
                    {"hts", ""},
                    {"lsd", "dB"},
                    {"wideSnr", "dB"},

@@ -1,0 +1,73 @@
+#pragma once
+
+// How loud and how sharp a sound is over time (ISO 532-1 for time-varying sounds, DIN 45692).
+
+#include <pacini/evaluate/match/LoudnessDecay.h>
+#include <pacini/evaluate/match/SpecificLoudness.h>
+#include <pacini/evaluate/match/ThirdOctaveLevels.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// What is heard of a sound, after Zwicker (ISO 532-1:2017, clause 6, free field), piece by piece. Silence has loudness
+/// 0; the tables end at 120 dB. Not real-time safe.
+class LoudnessMeter
+{
+public:
+    static constexpr double sampleRate = ThirdOctaveLevels::sampleRate; ///< Hz
+    static constexpr double rate = 500.0;                               ///< Hz, of what comes out
+
+    /// The next samples of the pressure in Pa at 48 kHz, as many as there are. Calls sink(total, pattern) for each 2 ms
+    /// from the first sample on: `total` in sone with the memory of short sounds (6.5), and the LoudnessPattern of that
+    /// moment without it. The last set comes with the next samples or with finish().
+    template <typename Sink>
+    void process(std::span<const float> pressure, Sink&& sink)
+    {
+        constexpr std::size_t piece = 4800; // so that the levels stay in the cache
+        for (std::size_t done = 0; done < pressure.size(); done += piece)
+        {
+            levels.clear();
+            thirdOctaves.process(pressure.subspan(done).first(std::min(piece, pressure.size() - done)), levels);
+            for (const BandLevels& set : levels)
+                push(coreLoudness(set), sink);
+        }
+    }
+
+    /// After the last samples comes silence.
+    template <typename Sink>
+    void finish(Sink&& sink)
+    {
+        push(CoreLoudness{}, sink);
+        waiting.reset();
+    }
+
+private:
+    template <typename Sink>
+    void push(const CoreLoudness& core, Sink& sink)
+    {
+        if (waiting)
+        {
+            const auto pattern = loudnessPattern(decay.step(*waiting, core));
+            const double total = memory.next(pattern.total);
+            constexpr std::size_t keep = 4; // of the sets each .5 ms
+            if (sets++ % keep == 0)
+                sink(total, pattern);
+        }
+        waiting = core;
+    }
+
+    ThirdOctaveLevels thirdOctaves;
+    LoudnessDecay decay;
+    LoudnessMemory memory;
+    std::vector<BandLevels> levels;
+    std::optional<CoreLoudness> waiting;
+    std::size_t sets = 0;
+};
+
+} // namespace pacini

@@ -1,0 +1,145 @@
+#pragma once
+
+// How loudness fades: forward masking, and the slow rise of the loudness of short sounds (ISO 532-1, 6.4 and 6.5).
+
+#include <pacini/evaluate/match/SpecificLoudness.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <tuple>
+
+namespace pacini
+{
+
+namespace detail
+{
+inline constexpr double loudnessRate = 2000.0; ///< Hz, of the sets of levels
+inline constexpr int loudnessSubsteps = 24;    ///< between two sets, which are joined by straight lines
+} // namespace detail
+
+/// A one-pole low-pass of `tau` seconds for straight lines between values, exactly as 24 steps between two values would
+/// give it, started at rest.
+class LoudnessSmoothing
+{
+public:
+    explicit LoudnessSmoothing(double tau) noexcept
+    {
+        // With u(m) = u + m d, m = 1..n: y(n) = a^n y + (1 - a) sum a^(n - m) u(m).
+        constexpr int n = detail::loudnessSubsteps;
+        const double a = std::exp(-1.0 / (detail::loudnessRate * n * tau));
+        share = 1.0 - a;
+        for (int m = n; m >= 1; --m)
+        {
+            first += share * kept;
+            second += share * kept * m / n;
+            kept *= a;
+        }
+    }
+
+    /// The output at the time of `value`.
+    double next(double value) noexcept
+    {
+        y = last ? kept * y + first * *last + second * (value - *last) : share * value;
+        last = value;
+        return y;
+    }
+
+private:
+    double share = 0.0;
+    double kept = 1.0;
+    double first = 0.0;
+    double second = 0.0;
+    double y = 0.0;
+    std::optional<double> last;
+};
+
+/// Total loudness over time as it is heard: a fast and a slow memory (ISO 532-1, 6.5).
+class LoudnessMemory
+{
+public:
+    double next(double total) noexcept { return 0.47 * fast.next(total) + 0.53 * slow.next(total); }
+
+private:
+    LoudnessSmoothing fast{0.0035};
+    LoudnessSmoothing slow{0.070};
+};
+
+/// Core loudness that follows rises at once and falls as two coupled capacitors do, the slower the longer the sound
+/// was (ISO 532-1:2017, 6.4; time constants 5, 15 and 75 ms).
+class LoudnessDecay
+{
+public:
+    /// What is left of earlier sets at the time of `input`, .5 ms after the set before and before `next`.
+    CoreLoudness step(const CoreLoudness& input, const CoreLoudness& next) noexcept
+    {
+        CoreLoudness result{};
+        for (std::size_t band = 0; band < states.size(); ++band)
+        {
+            State& state = states[band];
+            double value = input[band];
+            const double rise = (next[band] - value) / detail::loudnessSubsteps;
+            tick(state, value);
+            result[band] = state.output;
+            if (value == 0.0 && next[band] == 0.0 && state.output == 0.0)
+                continue; // silence after silence: the memory alone falls, and no output shows it before a rise
+            for (int m = 1; m < detail::loudnessSubsteps; ++m)
+                tick(state, value += rise);
+        }
+        return result;
+    }
+
+private:
+    struct State
+    {
+        double output = 0.0;
+        double memory = 0.0;
+    };
+
+    void tick(State& state, double input) const noexcept
+    {
+        const State last = state;
+        if (input < last.output && last.output > last.memory)
+        {
+            state.output = std::max(input, last.output * falling - last.memory * fallingByMemory);
+            state.memory = std::min(state.output, last.output * filling - last.memory * fillingByMemory);
+        }
+        else if (input < last.output)
+        {
+            state.output = std::max(input, last.output * together);
+            state.memory = state.output;
+        }
+        else
+        {
+            state.output = input;
+            const bool same = input - last.output < 1e-5 && input <= last.memory;
+            state.memory = same ? input : (last.memory - input) * rising + input;
+        }
+    }
+
+    std::array<State, std::tuple_size_v<CoreLoudness> - 1> states{};
+
+    // The two-capacitor circuit's exact step over 1/48000 s.
+    static constexpr double shortTau = 0.005;
+    static constexpr double longTau = 0.015;
+    static constexpr double memoryTau = 0.075;
+    static constexpr double substep = 1.0 / (detail::loudnessRate * detail::loudnessSubsteps);
+    static constexpr double p = (memoryTau + longTau) / (memoryTau * shortTau);
+    static constexpr double q = 1.0 / (memoryTau * shortTau);
+    const double root = std::sqrt(0.25 * p * p - q);
+    const double lambda1 = -0.5 * p + root;
+    const double lambda2 = -0.5 * p - root;
+    const double e1 = std::exp(lambda1 * substep);
+    const double e2 = std::exp(lambda2 * substep);
+    const double den = memoryTau * (lambda1 - lambda2);
+    const double filling = (e1 - e2) / den;
+    const double fillingByMemory = ((memoryTau * lambda2 + 1.0) * e1 - (memoryTau * lambda1 + 1.0) * e2) / den;
+    const double falling = ((memoryTau * lambda1 + 1.0) * e1 - (memoryTau * lambda2 + 1.0) * e2) / den;
+    const double fallingByMemory = (memoryTau * lambda1 + 1.0) * (memoryTau * lambda2 + 1.0) * (e1 - e2) / den;
+    const double together = std::exp(-substep / longTau);
+    const double rising = std::exp(-substep / memoryTau);
+};
+
+} // namespace pacini

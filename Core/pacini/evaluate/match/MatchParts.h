@@ -1,0 +1,254 @@
+#pragma once
+
+// How well a vibration matches a sound, by part: what people's judgement is predicted from.
+
+#include <pacini/evaluate/HannSmoothing.h>
+#include <pacini/evaluate/match/HeardTrack.h>
+#include <pacini/evaluate/match/TouchTrack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace pacini
+{
+
+/// Agreement of what is heard with what is felt, each 0 (none) to 1.
+struct MatchParts
+{
+    double attacks = 0.0;    ///< rises of loudness and of felt strength, within some 10 ms
+    double envelope = 0.0;   ///< course of loudness and of felt strength, within some 50 ms
+    double roughness = 0.0;  ///< depth of the fluctuations at 20 to 100 Hz
+    double brightness = 0.0; ///< course of sharpness and of felt frequency
+    double movement = 0.0;   ///< how far the felt frequency moves, up to an octave: no one tone for everything
+    double silence = 0.0;    ///< nothing is felt where nothing is heard
+    bool operator==(const MatchParts&) const = default;
+};
+
+namespace detail
+{
+static_assert(LoudnessMeter::rate == TouchTrack::rate);
+
+/// A Hann kernel of the width of a Gaussian of this standard deviation.
+[[nodiscard]] inline HannKernel trackKernel(double seconds)
+{
+    return HannKernel(seconds / 0.3615 * TouchTrack::rate);
+}
+
+/// Before the first and after the last value counts what they are: where a recording is cut, nothing rises or falls.
+[[nodiscard]] inline std::vector<float> smoothed(std::span<const float> x, const HannKernel& kernel)
+{
+    const std::size_t reach = kernel.reachFrames();
+    std::vector<float> held(reach, x.front());
+    held.insert(held.end(), x.begin(), x.end());
+    held.resize(held.size() + reach, x.back());
+    std::vector<float> y(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        y[i] = kernel.at(held, i + reach);
+    return y;
+}
+
+/// What rises, frame by frame.
+[[nodiscard]] inline std::vector<float> rises(std::span<const float> x)
+{
+    std::vector<float> y;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        y.push_back(std::max(0.0f, x[i + 1] - x[i]));
+    return y;
+}
+
+/// Pearson's correlation with weights. `steadyX` and `steadyY` are variances that count as noise: what hardly moves
+/// correlates with nothing. 0 when either stands still.
+[[nodiscard]] inline double correlation(std::span<const float> x, std::span<const float> y,
+                                        std::span<const float> weights = {}, double steadyX = 0.0, double steadyY = 0.0)
+{
+    const auto weight = [&](std::size_t i)
+    {
+        return weights.empty() ? 1.0 : static_cast<double>(weights[i]);
+    };
+    double total = 0.0;
+    double meanX = 0.0;
+    double meanY = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        total += weight(i);
+        meanX += weight(i) * static_cast<double>(x[i]);
+        meanY += weight(i) * static_cast<double>(y[i]);
+    }
+    if (!(total > 0.0))
+        return 0.0;
+    meanX /= total;
+    meanY /= total;
+    double xx = 0.0;
+    double yy = 0.0;
+    double xy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const double u = static_cast<double>(x[i]) - meanX;
+        const double v = static_cast<double>(y[i]) - meanY;
+        xx += weight(i) * u * u;
+        yy += weight(i) * v * v;
+        xy += weight(i) * u * v;
+    }
+    const double power = (xx / total + steadyX) * (yy / total + steadyY);
+    return power > 0.0 ? xy / total / std::sqrt(power) : 0.0;
+}
+/// Variance of what is not noticed: 10 % of the mean of an amplitude, of whose square root `x` is.
+[[nodiscard]] inline double unnoticed(std::span<const float> x) noexcept
+{
+    double sum = 0.0;
+    for (const float v : x)
+        sum += static_cast<double>(v);
+    const double mean = sum / static_cast<double>(x.size());
+    return 0.0025 * mean * mean;
+}
+
+/// Weighted standard deviation.
+[[nodiscard]] inline double deviation(std::span<const float> x, std::span<const float> weights)
+{
+    double total = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const auto weight = static_cast<double>(weights[i]);
+        const double v = static_cast<double>(x[i] - x[0]); // near 0: no cancellation
+        total += weight;
+        sum += weight * v;
+        squares += weight * v * v;
+    }
+    return total > 0.0 ? std::sqrt(std::max(0.0, squares / total - (sum / total) * (sum / total))) : 0.0;
+}
+
+/// Mean depth of the fluctuations of `x` at 20 to 100 Hz, relative to its slow course, weighted by the loudness.
+[[nodiscard]] inline double fluctuationDepth(std::span<const float> x, std::span<const float> slow,
+                                             std::span<const float> weights)
+{
+    auto power = smoothed(x, trackKernel(0.0024));
+    const auto coarse = smoothed(x, trackKernel(0.012));
+    for (std::size_t i = 0; i < power.size(); ++i)
+        power[i] = (power[i] - coarse[i]) * (power[i] - coarse[i]);
+    power = smoothed(power, trackKernel(0.050));
+    const float floor = 0.05f * *std::max_element(slow.begin(), slow.end());
+    double total = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < power.size(); ++i)
+    {
+        const auto weight = static_cast<double>(weights[i]);
+        total += weight;
+        sum += weight * static_cast<double>(std::sqrt(std::max(0.0f, power[i])) / (slow[i] + floor));
+    }
+    return total > 0.0 ? sum / total : 0.0;
+}
+
+/// 1 for the same depth of fluctuation on both sides, 1/2 for half or twice as much. Depths below .02 are no roughness.
+[[nodiscard]] inline double roughnessAgreement(double heard, double felt) noexcept
+{
+    constexpr double smooth = 0.02;
+    const double ratio = (felt + smooth) / (heard + smooth);
+    return std::min(ratio, 1.0 / ratio);
+}
+
+/// 1 minus how strong the vibration is, relative to its mean, where the loudness is below .0025 of its largest; 1 where
+/// that is hardly ever.
+[[nodiscard]] inline double silenceAgreement(std::span<const float> loudness, std::span<const float> strength)
+{
+    const float quiet = 0.05f * *std::max_element(loudness.begin(), loudness.end()); // square roots
+    double sum = 0.0;
+    double felt = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < loudness.size(); ++i)
+    {
+        sum += static_cast<double>(strength[i]);
+        if (loudness[i] >= quiet)
+            continue;
+        felt += static_cast<double>(strength[i]);
+        ++count;
+    }
+    if (count * 50 < loudness.size() || !(sum > 0.0))
+        return 1.0;
+    const double mean = sum / static_cast<double>(loudness.size());
+    return 1.0 - std::min(1.0, felt / static_cast<double>(count) / mean);
+}
+
+/// Sharpness and felt frequency in the frames of the latter, which count as much as they are heard, where they are
+/// felt.
+inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, MatchParts& parts)
+{
+    constexpr auto hop = static_cast<std::size_t>(TouchTrack::frameSeconds * TouchTrack::rate);
+    const double strongest = felt.power.empty() ? 0.0 : *std::max_element(felt.power.begin(), felt.power.end());
+    std::vector<float> sharpness;
+    std::vector<float> octave;
+    std::vector<float> weight;
+    for (std::size_t m = 0; m < felt.octave.size() && m * hop < heard.loudness.size(); ++m)
+    {
+        double loudness = 0.0;
+        double sharp = 0.0;
+        for (std::size_t i = m * hop; i < std::min((m + 2) * hop, heard.loudness.size()); ++i)
+        {
+            loudness += static_cast<double>(heard.loudness[i]);
+            sharp += static_cast<double>(heard.loudness[i]) * static_cast<double>(heard.sharpness[i]);
+        }
+        if (!(loudness > 0.0 && felt.power[m] > 0.0025 * strongest))
+            continue;
+        sharpness.push_back(static_cast<float>(sharp / loudness));
+        octave.push_back(static_cast<float>(felt.octave[m]));
+        weight.push_back(static_cast<float>(loudness));
+    }
+    const double justFelt = 0.01; // variance: a tenth of an octave, a tenth of an acum
+    parts.brightness = std::max(0.0, correlation(sharpness, octave, weight, justFelt, justFelt));
+    parts.movement = std::min(1.0, deviation(octave, weight));
+}
+} // namespace detail
+
+/// The parts of a sound and a vibration; the shorter one is followed by silence. All 0 when either is silent.
+[[nodiscard]] inline MatchParts matchParts(const HeardTrack& heard, const TouchTrack& felt)
+{
+    using namespace detail;
+    // The ear's memory makes loudness late by as much (best of 0 to 20 ms, over all ratings).
+    constexpr std::size_t loudnessDelay = 3; // frames of 2 ms
+    MatchParts parts;
+    if (heard.loudness.size() <= loudnessDelay || felt.strength.empty())
+        return parts;
+    const std::size_t heardFrames = heard.loudness.size() - loudnessDelay;
+    // A vibration of the sound's length ends with the delayed loudness; only a longer one meets silence.
+    const std::size_t frames = felt.strength.size() <= heard.loudness.size() ? heardFrames : felt.strength.size();
+    const auto compressed = [frames](std::span<const float> x)
+    {
+        std::vector<float> y(frames);
+        std::transform(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(std::min(frames, x.size())), y.begin(),
+                       [](float v) { return std::sqrt(v); });
+        return y;
+    };
+    const auto loudness = compressed(std::span(heard.loudness).subspan(loudnessDelay));
+    const auto strength = compressed(felt.strength);
+    if (std::all_of(strength.begin(), strength.end(), [](float v) { return v == 0.0f; }))
+        return parts;
+
+    const HannKernel attack = trackKernel(0.010);
+    const auto quickLoudness = smoothed(loudness, attack);
+    const auto quickStrength = smoothed(strength, attack);
+    parts.attacks = std::max(0.0, correlation(rises(quickLoudness), rises(quickStrength)));
+    const HannKernel course = trackKernel(0.050);
+    const auto slowLoudness = smoothed(loudness, course);
+    const auto slowStrength = smoothed(strength, course);
+    parts.envelope = std::max(
+        0.0, correlation(slowLoudness, slowStrength, {}, unnoticed(slowLoudness), unnoticed(slowStrength)));
+    parts.roughness = roughnessAgreement(fluctuationDepth(loudness, slowLoudness, loudness),
+                                         fluctuationDepth(strength, slowStrength, loudness));
+    parts.silence = silenceAgreement(quickLoudness, quickStrength);
+    addFrequencyParts(heard, felt, parts);
+    return parts;
+}
+
+/// How well people would say that the vibration matches the sound, 0 to 100: the mean rating of such a pair, not of one
+/// person. Fitted to 480 ratings of six kinds of sound by ridge regression (`Tests/human/fit_match.py`, which shows what
+/// the parts that are not in it would add on kinds that the fit has not seen: nothing).
+[[nodiscard]] inline double predictedMatch(const MatchParts& parts) noexcept
+{
+    return 35.4 + 30.0 * parts.attacks + 5.8 * parts.envelope;
+}
+
+} // namespace pacini

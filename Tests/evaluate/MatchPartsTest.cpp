@@ -1,0 +1,166 @@
+#include "support/Catch.h"
+
+#include <pacini/evaluate/match/MatchParts.h>
+#include <pacini/foundation/Gaussian.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+constexpr double seconds = 3.0;
+
+std::vector<float> signal(int rate, const std::function<double(double)>& of)
+{
+    std::vector<float> x(static_cast<std::size_t>(seconds * rate));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = static_cast<float>(of(static_cast<double>(i) / rate));
+    return x;
+}
+
+double tone(double hertz, double t)
+{
+    return std::sin(2.0 * std::numbers::pi * hertz * t);
+}
+
+/// Five blows a second that fade within 50 ms; the first at .1 s.
+double blows(double t)
+{
+    return t < 0.1 ? 0.0 : std::exp(-std::fmod(t - 0.1, 0.2) / 0.015);
+}
+
+MatchParts partsOf(const std::vector<float>& sound, const std::vector<float>& vibration)
+{
+    TouchAnalyzer touch;
+    return matchParts(heardTrack(sound, 44100).value(), touchTrack(touch, vibration, 8000).value());
+}
+
+const auto clicks = signal(44100, [](double t) { return 0.5 * blows(t) * tone(3000.0, t); });
+const auto pulses = signal(8000, [](double t) { return blows(t) * tone(150.0, t); });
+} // namespace
+
+TEST_CASE("Blows that are felt as they are heard match, a steady hum does not", "[match]")
+{
+    const auto together = partsOf(clicks, pulses);
+    CHECK(together.attacks > 0.9);
+    CHECK(together.envelope > 0.6);
+    const auto hum = partsOf(clicks, signal(8000, [](double t) { return 0.5 * tone(150.0, t); }));
+    CHECK(hum.attacks < 0.15);
+    CHECK(hum.envelope < 0.3);
+    CHECK(predictedMatch(together) > predictedMatch(hum) + 25.0);
+}
+
+TEST_CASE("Blows that come late match less, the later the less", "[match]")
+{
+    const auto late = [](double delay)
+    {
+        return partsOf(clicks, signal(8000, [delay](double t) { return blows(t - delay) * tone(150.0, t); })).attacks;
+    };
+    CHECK(late(0.0) > late(0.015));
+    CHECK(late(0.015) > late(0.03) + 0.1);
+    CHECK(late(0.06) < 0.3);
+}
+
+TEST_CASE("Neither level nor polarity of either side changes the match", "[match]")
+{
+    const auto plain = partsOf(clicks, pulses);
+    const auto scaled = [](std::vector<float> x, float gain)
+    {
+        for (float& v : x)
+            v *= gain;
+        return x;
+    };
+    for (const float gain : {1e-3f, -0.25f, 30.0f})
+    {
+        const auto other = partsOf(scaled(clicks, gain), scaled(pulses, gain));
+        CHECK(other.attacks == Approx(plain.attacks).margin(1e-4));
+        CHECK(other.envelope == Approx(plain.envelope).margin(1e-4));
+        CHECK(other.roughness == Approx(plain.roughness).margin(1e-4));
+        CHECK(other.brightness == Approx(plain.brightness).margin(1e-3));
+        CHECK(other.movement == Approx(plain.movement).margin(1e-3));
+        CHECK(other.silence == Approx(plain.silence).margin(1e-4));
+    }
+}
+
+TEST_CASE("A felt frequency that rises with the sound has its brightness, a falling one has not", "[match]")
+{
+    const auto sweep = [](double from, double octavesPerSecond, int rate)
+    {
+        const double k = octavesPerSecond * std::numbers::ln2;
+        return signal(rate,
+                      [=](double t) { return 0.5 * std::sin(2.0 * std::numbers::pi * from * std::expm1(k * t) / k); });
+    };
+    const auto rising = sweep(800.0, 1.0, 44100);
+    const auto with = partsOf(rising, sweep(60.0, 0.7, 8000));
+    CHECK(with.brightness > 0.9);
+    CHECK(with.movement == Approx(0.6).margin(0.15)); // of a uniform course over 2.1 octaves
+    CHECK(partsOf(rising, sweep(260.0, -0.7, 8000)).brightness == 0.0);
+    const auto still = partsOf(rising, signal(8000, [](double t) { return tone(150.0, t); }));
+    CHECK(still.movement < 0.03);
+    CHECK(still.brightness < 0.3);
+}
+
+TEST_CASE("A rough sound is matched by a rough vibration", "[match]")
+{
+    const auto rough = [](int rate, double carrier, double hertz, double depth)
+    {
+        return signal(rate, [=](double t) { return (1.0 + depth * tone(hertz, t)) * 0.4 * tone(carrier, t); });
+    };
+    const auto sound = rough(44100, 1000.0, 45.0, 1.0);
+    const auto matching = partsOf(sound, rough(8000, 180.0, 45.0, 0.6)).roughness;
+    CHECK(matching > 0.6);
+    CHECK(matching > partsOf(sound, rough(8000, 180.0, 45.0, 0.0)).roughness + 0.3);
+}
+
+TEST_CASE("What is felt in silence is told", "[match]")
+{
+    const auto burst = signal(44100, [](double t) { return t < 1.5 ? 0.5 * tone(500.0, t) : 0.0; });
+    CHECK(partsOf(burst, signal(8000, [](double t) { return t < 1.5 ? tone(150.0, t) : 0.0; })).silence > 0.95);
+    CHECK(partsOf(burst, signal(8000, [](double t) { return tone(150.0, t); })).silence < 0.1);
+    CHECK(partsOf(clicks, {}).silence == 0.0);
+}
+
+TEST_CASE("Silence on either side has no parts; other lengths count as silence", "[match]")
+{
+    const std::vector<float> silence(8000);
+    CHECK(partsOf(clicks, silence) == MatchParts{});
+    CHECK(partsOf(std::vector<float>(44100), pulses) == MatchParts{});
+    CHECK(partsOf({}, {}) == MatchParts{});
+    auto half = pulses;
+    half.resize(half.size() / 2);
+    CHECK(partsOf(clicks, half).attacks < partsOf(clicks, pulses).attacks - 0.2);
+    auto longer = pulses;
+    longer.insert(longer.end(), pulses.begin(), pulses.end());
+    CHECK(partsOf(clicks, longer).attacks < partsOf(clicks, pulses).attacks - 0.2);
+}
+
+TEST_CASE("The match is a number whatever comes in", "[match]")
+{
+    Gaussian gaussian(3);
+    auto noise = signal(8000, [&](double) { return 0.3 * gaussian.next(); });
+    noise[5] = std::numeric_limits<float>::quiet_NaN();
+    noise[6000] = -std::numeric_limits<float>::infinity();
+    const auto constant = signal(8000, [](double) { return 1.0; });
+    for (const auto& vibration : {noise, constant, std::vector<float>{1.0f}, std::vector<float>(9, 1e30f)})
+        for (const auto& sound : {clicks, signal(44100, [](double) { return 1.0; }), std::vector<float>{1.0f, 0.0f}})
+        {
+            const auto parts = partsOf(sound, vibration);
+            for (const double part :
+                 {parts.attacks, parts.envelope, parts.roughness, parts.brightness, parts.movement, parts.silence})
+            {
+                CHECK(part >= 0.0);
+                CHECK(part <= 1.0 + 1e-9);
+            }
+        }
+    TouchAnalyzer touch;
+    CHECK(heardTrack(clicks, 100).error().code == ErrorCode::invalidArgument);
+    CHECK(touchTrack(touch, pulses, 100).error().code == ErrorCode::invalidArgument);
+    for (const int rate : {8000, 44100, 192000})
+        CHECK(heardTrack(clicks, rate).ok());
+}
