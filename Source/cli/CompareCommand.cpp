@@ -113,7 +113,8 @@ void report(Console& console, const CompareTask& task)
                         counted(r.notFinite, "sample of it or its reference was not finite and counts as silence",
                                 "samples of it or its reference were not finite and count as silence"));
     if (r.measures.silentReference)
-        console.warning(task.pair.reference.string(), "is silent between 30 and 1000 Hz; only HTS says something");
+        console.warning(task.pair.reference.string(),
+                        "is silent between 30 and 1000 Hz; only match and HTS say something");
 }
 
 /// `pacini compare`: how much of a sound a haptic signal keeps.

@@ -1,4 +1,5 @@
 """End to end: what a score is to be read against."""
+import json
 import unittest
 
 from command import CommandTest, sine, wav
@@ -32,10 +33,45 @@ class Ceiling(CommandTest):
         self.put("a.wav", wav(clicks(80), 8000))
         text = self.succeeds("compare", "a.wav", "a.wav")
         heading = text.splitlines()[0].split()
-        self.assertEqual(heading[:5], ["file", "HTS", "of", "REF", "HTS-F"])
+        self.assertEqual(heading[:6], ["file", "match", "HTS", "of", "REF", "HTS-F"])
         report = self.report("compare", "a.wav", "a.wav")
         self.assertEqual(report["mean"]["ceiling"], report["files"][0]["ceiling"])
         self.assertIn("of REF", self.succeeds("compare", "--help"))
+
+
+class Match(CommandTest):
+    def test_a_vibration_that_comes_with_the_sound_is_predicted_to_match_better_than_a_hum(self):
+        self.put("click.wav", wav(clicks(2000), 8000))
+        self.put("moved.wav", wav(clicks(150), 8000))
+        self.put("hum.wav", wav(sine(150, 2, 8000), 8000))
+        moved, hum = (self.report("compare", "click.wav", f"{name}.wav")["files"][0] for name in ("moved", "hum"))
+        self.assertGreater(moved["match"], hum["match"] + 15)
+        self.assertGreater(moved["matchParts"]["attacks"], 0.8)
+        self.assertEqual(
+            list(moved["matchParts"]), ["attacks", "envelope", "roughness", "brightness", "movement", "silence"]
+        )
+        itself = self.report("compare", "moved.wav", "moved.wav")["files"][0]
+        self.assertAlmostEqual(itself["match"], itself["matchCeiling"], places=9)
+
+    def test_what_is_silent_has_none(self):
+        self.put("click.wav", wav(clicks(2000), 8000))
+        self.put("silence.wav", wav([0.0] * 16000, 8000))
+        says = "only match and HTS say something"
+        report = json.loads(self.warns("compare", "silence.wav", "click.wav", "--json", says=says))["files"][0]
+        self.assertIsNone(report["match"])
+        self.assertIsNone(report["matchParts"])
+        still = self.report("compare", "click.wav", "silence.wav")["files"][0]
+        self.assertEqual(set(still["matchParts"].values()), {0})
+        self.assertLess(still["match"], 36)
+
+    def test_folders_have_a_mean_of_it(self):
+        for name, pitch in (("a", 80), ("b", 2000)):
+            self.put(f"in/{name}.wav", wav(clicks(pitch), 8000))
+            self.put(f"out/{name}.wav", wav(clicks(120), 8000))
+        report = self.report("compare", "in", "out")
+        matches = [file["match"] for file in report["files"]]
+        self.assertEqual(len(matches), 2)
+        self.assertAlmostEqual(report["mean"]["match"], sum(matches) / 2, places=9)
 
 
 if __name__ == "__main__":

@@ -126,7 +126,7 @@ TEST_CASE("What is felt in silence is told", "[match]")
     CHECK(partsOf(clicks, {}).silence == 0.0);
 }
 
-TEST_CASE("Silence on either side has no parts; other lengths count as silence", "[match]")
+TEST_CASE("Silence on either side has no parts; the length of the sound counts", "[match]")
 {
     const std::vector<float> silence(8000);
     CHECK(partsOf(clicks, silence) == MatchParts{});
@@ -137,7 +137,7 @@ TEST_CASE("Silence on either side has no parts; other lengths count as silence",
     CHECK(partsOf(clicks, half).attacks < partsOf(clicks, pulses).attacks - 0.2);
     auto longer = pulses;
     longer.insert(longer.end(), pulses.begin(), pulses.end());
-    CHECK(partsOf(clicks, longer).attacks < partsOf(clicks, pulses).attacks - 0.2);
+    CHECK(partsOf(clicks, longer).attacks == Approx(partsOf(clicks, pulses).attacks).margin(0.01));
 }
 
 TEST_CASE("The match is a number whatever comes in", "[match]")

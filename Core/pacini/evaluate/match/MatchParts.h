@@ -203,7 +203,8 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
 }
 } // namespace detail
 
-/// The parts of a sound and a vibration; the shorter one is followed by silence. All 0 when either is silent.
+/// The parts of a sound and a vibration, over the length of the sound; a shorter vibration is followed by silence. All
+/// 0 when either is silent.
 [[nodiscard]] inline MatchParts matchParts(const HeardTrack& heard, const TouchTrack& felt)
 {
     using namespace detail;
@@ -212,9 +213,7 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
     MatchParts parts;
     if (heard.loudness.size() <= loudnessDelay || felt.strength.empty())
         return parts;
-    const std::size_t heardFrames = heard.loudness.size() - loudnessDelay;
-    // A vibration of the sound's length ends with the delayed loudness; only a longer one meets silence.
-    const std::size_t frames = felt.strength.size() <= heard.loudness.size() ? heardFrames : felt.strength.size();
+    const std::size_t frames = heard.loudness.size() - loudnessDelay;
     const auto compressed = [frames](std::span<const float> x)
     {
         std::vector<float> y(frames);
@@ -234,8 +233,8 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
     const HannKernel course = trackKernel(0.050);
     const auto slowLoudness = smoothed(loudness, course);
     const auto slowStrength = smoothed(strength, course);
-    parts.envelope = std::max(
-        0.0, correlation(slowLoudness, slowStrength, {}, unnoticed(slowLoudness), unnoticed(slowStrength)));
+    parts.envelope =
+        std::max(0.0, correlation(slowLoudness, slowStrength, {}, unnoticed(slowLoudness), unnoticed(slowStrength)));
     parts.roughness = roughnessAgreement(fluctuationDepth(loudness, slowLoudness, loudness),
                                          fluctuationDepth(strength, slowStrength, loudness));
     parts.silence = silenceAgreement(quickLoudness, quickStrength);
@@ -244,8 +243,8 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
 }
 
 /// How well people would say that the vibration matches the sound, 0 to 100: the mean rating of such a pair, not of one
-/// person. Fitted to 480 ratings of six kinds of sound by ridge regression (`Tests/human/fit_match.py`, which shows what
-/// the parts that are not in it would add on kinds that the fit has not seen: nothing).
+/// person. Fitted to 480 ratings of six kinds of sound by ridge regression (`Tests/human/fit_match.py`, which shows
+/// what the parts that are not in it would add on kinds that the fit has not seen: nothing).
 [[nodiscard]] inline double predictedMatch(const MatchParts& parts) noexcept
 {
     return 35.4 + 30.0 * parts.attacks + 5.8 * parts.envelope;
