@@ -41,8 +41,8 @@ struct CompareResult
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
     SignalMetrics measures;
-    std::optional<MatchParts> match; ///< empty for a silent reference
-    double matchCeiling = 0.0;       ///< predicted match of the reference itself, played as it is
+    std::optional<MatchParts> match;        ///< empty for a silent reference
+    double matchCeiling = 0.0;              ///< predicted match of the reference itself, played as it is
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only
     std::optional<EventScore> eventsNarrow; ///< within 10 ms
 };
