@@ -19,7 +19,8 @@ CORE = {
     "actuator": {"foundation", "filters"},
     "linearize": {"foundation", "filters", "actuator"},
     "synthesis": {"foundation", "filters", "clip", "actuator", "linearize"},
-    "evaluate": {"foundation", "filters"},
+    "hearing": {"foundation"},
+    "evaluate": {"foundation", "filters", "hearing"},
 }
 CORE["realtime"] = set(CORE)
 ALL = set(CORE)

@@ -3,9 +3,9 @@
 // What is heard of a sound over time: how loud, and how sharp.
 
 #include <pacini/evaluate/SourcePreparation.h>
-#include <pacini/evaluate/match/Loudness.h>
 #include <pacini/foundation/Result.h>
 #include <pacini/foundation/Units.h>
+#include <pacini/hearing/Loudness.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 // Levels of 28 third-octave bands over time, as the ear's model of ISO 532-1 takes them in.
 
-#include <pacini/evaluate/match/ThirdOctaveTables.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/hearing/ThirdOctaveTables.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // Loudness along the basilar membrane from third-octave levels, by Zwicker's method (ISO 532-1).
 
-#include <pacini/evaluate/match/ThirdOctaveLevels.h>
+#include <pacini/hearing/ThirdOctaveLevels.h>
 
 #include <algorithm>
 #include <array>

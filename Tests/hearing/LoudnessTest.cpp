@@ -1,8 +1,8 @@
-#include "SyntheticSignal.h"
+#include "evaluate/SyntheticSignal.h"
 #include "support/Catch.h"
 #include "support/Golden.h"
 
-#include <pacini/evaluate/match/Loudness.h>
+#include <pacini/hearing/Loudness.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // How loudness fades: forward masking, and the slow rise of the loudness of short sounds (ISO 532-1, 6.4 and 6.5).
 
-#include <pacini/evaluate/match/SpecificLoudness.h>
+#include <pacini/hearing/SpecificLoudness.h>
 
 #include <algorithm>
 #include <array>

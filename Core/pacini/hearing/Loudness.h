@@ -2,9 +2,9 @@
 
 // How loud and how sharp a sound is over time (ISO 532-1 for time-varying sounds, DIN 45692).
 
-#include <pacini/evaluate/match/LoudnessDecay.h>
-#include <pacini/evaluate/match/SpecificLoudness.h>
-#include <pacini/evaluate/match/ThirdOctaveLevels.h>
+#include <pacini/hearing/LoudnessDecay.h>
+#include <pacini/hearing/SpecificLoudness.h>
+#include <pacini/hearing/ThirdOctaveLevels.h>
 
 #include <algorithm>
 #include <cstddef>
