@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <tuple>
 
 namespace pacini
@@ -42,8 +41,9 @@ public:
     /// The output at the time of `value`.
     double next(double value) noexcept
     {
-        y = last ? kept * y + first * *last + second * (value - *last) : share * value;
+        y = started ? kept * y + first * last + second * (value - last) : share * value;
         last = value;
+        started = true;
         return y;
     }
 
@@ -53,7 +53,8 @@ private:
     double first = 0.0;
     double second = 0.0;
     double y = 0.0;
-    std::optional<double> last;
+    double last = 0.0;
+    bool started = false;
 };
 
 /// Total loudness over time as it is heard: a fast and a slow memory (ISO 532-1, 6.5).
