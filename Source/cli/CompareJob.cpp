@@ -148,6 +148,7 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
             result.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
             result.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
             result.measures = compare(source.judge, target.judge);
+            result.impression = feltFigures(target.felt);
             if (!source.heard.loudness.empty())
             {
                 result.match = matchParts(source.heard, target.felt);

@@ -9,6 +9,7 @@
 #include <pacini/evaluate/EventMatching.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/SignalMetrics.h>
+#include <pacini/evaluate/match/FeltImpression.h>
 #include <pacini/evaluate/match/MatchParts.h>
 
 #include <cstdint>
@@ -41,6 +42,7 @@ struct CompareResult
     double ceiling = 0.0; ///< HTS of the reference itself, played as it is
     HtsScore htsFidelity;
     SignalMetrics measures;
+    FeltFigures impression;                 ///< of the candidate
     std::optional<MatchParts> match;        ///< empty for a silent reference
     double matchCeiling = 0.0;              ///< predicted match of the reference itself, played as it is
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only

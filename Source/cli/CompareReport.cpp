@@ -134,6 +134,20 @@ Json toJson(const MatchParts& parts)
             {"brightness", parts.brightness}, {"movement", parts.movement}, {"silence", parts.silence}};
 }
 
+Json toJson(const FeltFigures& figures)
+{
+    const FeltImpression impression = feltImpression(figures);
+    return {{"strength", impression.strength},
+            {"tempo", impression.tempo},
+            {"roughness", impression.roughness},
+            {"parts",
+             {{"level", figures.level},
+              {"meanLevel", figures.meanLevel},
+              {"octave", figures.octave},
+              {"pulses", figures.pulses},
+              {"fluctuation", figures.fluctuation}}}};
+}
+
 Json toJson(const CompareTask& task)
 {
     const CompareResult& r = *task.result;
@@ -144,6 +158,7 @@ Json toJson(const CompareTask& task)
     for (const Column& column : columns)
         json[column.key] = orNull(column.value(r));
     json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
+    json["impression"] = toJson(r.impression);
     json["htsParts"] = toJson(r.hts);
     json["htsFParts"] = toJson(r.htsFidelity);
     json["lag"] = orNull(r.measures.lag);

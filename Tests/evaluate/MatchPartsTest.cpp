@@ -1,5 +1,6 @@
 #include "support/Catch.h"
 
+#include <pacini/evaluate/match/FeltImpression.h>
 #include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/foundation/Gaussian.h>
 
@@ -163,4 +164,47 @@ TEST_CASE("The match is a number whatever comes in", "[match]")
     CHECK(touchTrack(touch, pulses, 100).error().code == ErrorCode::invalidArgument);
     for (const int rate : {8000, 44100, 192000})
         CHECK(heardTrack(clicks, rate).ok());
+}
+
+TEST_CASE("A vibration feels stronger when it is, faster with more pulses, rougher when it beats", "[match]")
+{
+    TouchAnalyzer touch;
+    const auto figuresOf = [&](const std::vector<float>& x)
+    {
+        return feltFigures(touchTrack(touch, x, 8000).value());
+    };
+    const auto pulsed = [](double perSecond, double level)
+    {
+        return signal(8000, [=](double t)
+                      { return level * std::exp(-std::fmod(t + 0.05, 1.0 / perSecond) / 0.02) * tone(150.0, t); });
+    };
+    const auto slow = figuresOf(pulsed(2.0, 0.8));
+    CHECK(slow.pulses == Approx(2.0).margin(0.4));
+    const auto fast = figuresOf(pulsed(6.0, 0.8));
+    CHECK(fast.pulses == Approx(6.0).margin(0.4));
+    CHECK(feltImpression(fast).tempo > feltImpression(slow).tempo + 0.5);
+    const auto weak = figuresOf(pulsed(2.0, 0.2));
+    CHECK(slow.level - weak.level == Approx(std::log(4.0)).margin(0.05));
+    CHECK(feltImpression(slow).strength > feltImpression(weak).strength + 1.0);
+    const auto steady = signal(8000, [](double t) { return 0.5 * tone(150.0, t); });
+    const auto beating = signal(8000, [](double t) { return 0.5 * tone(150.0, t) * (1.0 + 0.9 * tone(40.0, t)); });
+    CHECK(figuresOf(steady).octave == Approx(std::log2(150.0)).margin(0.1));
+    CHECK(feltImpression(figuresOf(beating)).roughness > feltImpression(figuresOf(steady)).roughness + 0.5);
+    CHECK(figuresOf(steady).pulses <= 0.4);
+}
+
+TEST_CASE("What is not felt makes no impression", "[match]")
+{
+    TouchAnalyzer touch;
+    for (const auto& x : {std::vector<float>{}, std::vector<float>(8000)})
+    {
+        const auto figures = feltFigures(touchTrack(touch, x, 8000).value());
+        CHECK(figures == FeltFigures{});
+        CHECK(feltImpression(figures).strength == -3.0);
+        CHECK(feltImpression(figures).tempo == -3.0);
+        CHECK(feltImpression(figures).roughness == -3.0);
+    }
+    const auto huge = feltImpression(feltFigures(touchTrack(touch, std::vector<float>(100, 1e30f), 8000).value()));
+    CHECK((huge.strength >= -3.0 && huge.strength <= 3.0));
+    CHECK((huge.roughness >= -3.0 && huge.roughness <= 3.0));
 }

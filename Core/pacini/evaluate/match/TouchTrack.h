@@ -21,7 +21,8 @@
 namespace pacini
 {
 
-/// What is felt of a vibration. Strength and power are in an arbitrary unit: agreement does not ask for it.
+/// What is felt of a vibration. Strengths are amplitudes (root mean square) in the unit of the signal, power in an
+/// arbitrary one.
 struct TouchTrack
 {
     static constexpr double rate = 500.0;         ///< Hz, of `strength`
@@ -42,17 +43,18 @@ public:
     [[nodiscard]] TouchTrack analyze(std::span<const float> x)
     {
         TouchTrack track;
-        const double scale = 1.0 / peakScale(x);
+        const double scale = peakScale(x);
         std::vector<float> y(x.size());
         std::transform(x.begin(), x.end(), y.begin(),
-                       [scale](float v) { return static_cast<float>(scale * static_cast<double>(v)); });
+                       [scale](float v) { return static_cast<float>(static_cast<double>(v) / scale); });
         const auto frames = spectra.analyze(y);
         filter(y);
         for (float& v : y)
             v *= v;
         constexpr std::size_t spacing = 8;
         for (std::size_t i = 0; i < y.size(); i += spacing)
-            track.strength.push_back(std::sqrt(std::max(0.0f, smoothing.at(y, i))));
+            track.strength.push_back(
+                static_cast<float>(scale * std::sqrt(std::max(0.0, static_cast<double>(smoothing.at(y, i))))));
         for (const auto& frame : frames)
             addFrame(frame, track);
         return track;
