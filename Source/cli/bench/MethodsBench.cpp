@@ -17,6 +17,7 @@
 #include <functional>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace pacini::cli
 {
@@ -154,7 +155,7 @@ private:
                 cell = value;
             return cell;
         };
-        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, renderSeconds,
+        rows.add({sound.name, method, variant, sound.duration(), encodeSeconds, std::move(renderSeconds),
                   std::move(bytesPerSecond), std::move(pointsPerSecond), measure(verdict.match), verdict.hts,
                   measure(m.logSpectralDistance), measure(m.wideSnr), measure(m.centroidError), stated.agreeing,
                   stated.all, detected.agreeing, detected.all});
