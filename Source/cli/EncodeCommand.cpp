@@ -73,15 +73,15 @@ std::string summary(const std::vector<EncodeTask>& tasks)
 }
 
 /// Options that only some methods have.
-constexpr const char* tunedOptions[] = {"--bands", "--breakpoints", "--quantise",    "--low",
-                                        "--high",  "--spacing",     "--sensitivity", "--keep-level"};
+constexpr const char* tunedOptions[] = {"--bands",   "--breakpoints", "--quantise",    "--low",       "--high",
+                                        "--spacing", "--audible",     "--sensitivity", "--keep-level"};
 
 bool hasOption(const MethodInfo& method, std::string_view option)
 {
     if (method.method == Method::a2vt)
         return true;
     if (method.method == Method::thesis)
-        return option != "--spacing" && option != "--sensitivity" && option != "--keep-level";
+        return option != "--spacing" && option != "--audible" && option != "--sensitivity" && option != "--keep-level";
     return method.output == MethodOutput::clip && option == "--breakpoints";
 }
 
@@ -183,6 +183,9 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     addPreset(*command, "--low", params.lowFrequency, "Lower end of the bands, Hz", numberFrom(1.0, 1700.0));
     addPreset(*command, "--high", params.highFrequency, "Upper end of the bands, Hz", numberFrom(2.0, 1800.0));
     addPreset(*command, "--spacing", spacing, "How bands are spaced: log or linear", oneOf({"log", "linear"}));
+    addPreset(*command, "--audible", params.audible,
+              "How far loudness drives what lives above the range of touch (rain, ticks, birds), 0 to 1",
+              numberFrom(0.0, 1.0));
     addPreset(*command, "--sensitivity", params.onsets.sensitivity,
               "Above 1 more and weaker events become transients, below 1 fewer", numberFrom(0.25, 4.0));
     command->add_flag("--keep-level", keepLevel, "Keep the level of the sound instead of raising it to full drive");

@@ -253,7 +253,7 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& inpu
 {
     std::optional<double> peak;
     double done = 0.0;
-    if (isLong(reader) && !isStream(input))
+    if (isLong(reader) && !isStream(input) && settings.params.audible == 0.0) // which needs all of it anyway
     {
         done = shareOfPeak;
         const auto found = peakOf(

@@ -460,3 +460,105 @@ TEST_CASE("The ends of every range of the encoder are allowed and nothing beyond
     CHECK(where([](EncoderParams& p) { p.highFrequency = 1800.1; }) == "frequency range");
     CHECK(where([](EncoderParams& p) { p.lowFrequency = p.highFrequency = 500.0; }) == "frequency range");
 }
+
+namespace
+{
+/// Bursts of a tone, 60 ms long, four a second.
+std::vector<float> bursts(double frequency, double amplitude, int fs)
+{
+    std::vector<float> x(static_cast<std::size_t>(2 * fs));
+    for (std::size_t n = 0; n < x.size(); ++n)
+    {
+        const double t = static_cast<double>(n) / fs;
+        if (std::fmod(t, 0.25) >= 0.1 && std::fmod(t, 0.25) < 0.16)
+            x[n] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * frequency * t));
+    }
+    return x;
+}
+
+EncoderParams audibleParams(double audible)
+{
+    EncoderParams params;
+    params.audible = audible;
+    return params;
+}
+} // namespace
+
+TEST_CASE("What is heard above the range of touch is felt as a tone, when it is asked for", "[analysis][encoder]")
+{
+    auto x = bursts(3000.0, 0.3, 48000);
+    for (std::size_t n = 0; n < x.size(); ++n) // something low, steady and soft
+        x[n] += static_cast<float>(0.003 * std::sin(2.0 * std::numbers::pi * 60.0 * static_cast<double>(n) / 48000.0));
+    const Clip usual = encode(x, 48000);
+    const Clip clip = encode(x, 48000, 1, audibleParams(1.0));
+    CHECK(validate(clip));
+    // The soft tone is raised to full drive and hides the bursts; their loudness does not.
+    CHECK(valueAt(usual.envelope, 0.5) > 0.5 * valueAt(usual.envelope, 0.63));
+    CHECK(valueAt(clip.envelope, 0.60) < 0.6 * valueAt(clip.envelope, 0.64));
+    CHECK(valueAt(clip.envelope, 0.74) < 0.7 * valueAt(clip.envelope, 0.64));
+    const Band& loudest = loudestBand(clip, 0.63);
+    CHECK(loudest.lowFrequency < 290.0);
+    CHECK(loudest.highFrequency > 150.0);
+    CHECK(valueAt(loudest.pitch, 0.63) > 140.0);
+    CHECK(valueAt(loudest.pitch, 0.63) < 300.0);
+    CHECK(loudestBand(usual, 0.63).highFrequency < 100.0);
+
+    const Clip half = encode(x, 48000, 1, audibleParams(0.5));
+    CHECK(half.envelope != clip.envelope);
+    CHECK(half.envelope != usual.envelope);
+    CHECK(std::get<double>(half.encoder[half.encoder.size() - 2].value) == 0.5);
+}
+
+TEST_CASE("Brighter sounds are felt higher", "[analysis][encoder]")
+{
+    const auto pitch = [](double frequency)
+    {
+        const Clip clip = encode(bursts(frequency, 0.3, 48000), 48000, 1, audibleParams(1.0));
+        const Band& band = loudestBand(clip, 0.63);
+        return band.pitch.empty() ? band.centreFrequency : valueAt(band.pitch, 0.63);
+    };
+    CHECK(pitch(1300.0) < 200.0);
+    CHECK(pitch(1300.0) < pitch(3000.0));
+    CHECK(pitch(3000.0) < pitch(9000.0));
+    CHECK(pitch(9000.0) > 250.0);
+    CHECK(pitch(9000.0) < 300.0);
+}
+
+TEST_CASE("A sound that lives in the range of touch is the same clip with what is heard", "[analysis][encoder]")
+{
+    std::vector<float> x(48000);
+    addKick(x, 4800, 48000.0, 0.8);
+    addKick(x, 26000, 48000.0, 0.4);
+    Clip usual = encode(x, 48000);
+    Clip audible = encode(x, 48000, 1, audibleParams(1.0));
+    usual.encoder = audible.encoder = {};
+    CHECK(usual == audible);
+}
+
+TEST_CASE("What is heard does not depend on pieces or on a known peak", "[analysis][encoder]")
+{
+    const auto x = bursts(2000.0, 0.2, 44100);
+    const Clip whole = encode(x, 44100, 1, audibleParams(1.0));
+    CHECK(encode(x, 44100, 1, audibleParams(1.0), 777) == whole);
+    Encoder encoder(audibleParams(1.0));
+    encoder.start(44100, 1, x.size(), 0.001);
+    encoder.push(x);
+    CHECK(encoder.finish() == whole);
+    // The next sound begins anew.
+    encoder.start(44100, 1);
+    encoder.push(x);
+    CHECK(encoder.finish() == whole);
+}
+
+TEST_CASE("What is heard of silence, of nothing and of extremes is a valid clip", "[analysis][encoder]")
+{
+    CHECK(encode(std::vector<float>(48000), 48000, 1, audibleParams(1.0)).envelope.empty());
+    CHECK(validate(encode({}, 48000, 1, audibleParams(1.0))));
+    CHECK(validate(encode(std::vector<float>(3, 0.5f), 8000, 1, audibleParams(1.0))));
+    CHECK(validate(encode(std::vector<float>(48000, 1e12f), 48000, 2, audibleParams(1.0))));
+    CHECK(validate(encode(scaledNoise(48000, 1e12, 3), 48000, 1, audibleParams(1.0))));
+    CHECK(validate(encode(scaledNoise(768000, 1.0, 3), 768000, 1, audibleParams(1.0))));
+    CHECK_FALSE(validate(audibleParams(1.01)));
+    CHECK_FALSE(validate(audibleParams(-0.01)));
+    CHECK_FALSE(validate(audibleParams(std::nan(""))));
+}

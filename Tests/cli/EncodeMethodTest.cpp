@@ -133,10 +133,10 @@ TEST_CASE("encode refuses options that a method does not have", "[cli]")
     for (const char* arguments :
          {"--method envelope-sine --bands 3", "--method envelope-sine --low 50", "--method vocoder16 --quantise 8",
           "--method centroid-flatness --spacing linear", "--method thesis --keep-level",
-          "--method thesis --sensitivity 2", "--sensitivity 9", "--method thesis --spacing log",
-          "--method lowpass --breakpoints 5", "--method lowpass --format json", "--method pitch-shift --format packed",
-          "--method lowpass -o a.json", "--method lowpass -o a.pacb", "--method lowpass .", "--method A2VT",
-          "--method thesis --bands 0", "--method thesis --breakpoints 5000"})
+          "--method thesis --sensitivity 2", "--sensitivity 9", "--audible 1.1", "--method thesis --audible 1",
+          "--method thesis --spacing log", "--method lowpass --breakpoints 5", "--method lowpass --format json",
+          "--method pitch-shift --format packed", "--method lowpass -o a.json", "--method lowpass -o a.pacb",
+          "--method lowpass .", "--method A2VT", "--method thesis --bands 0", "--method thesis --breakpoints 5000"})
     {
         CAPTURE(std::string(arguments));
         const auto outcome = encode(folder, std::string("door.wav ") + arguments);

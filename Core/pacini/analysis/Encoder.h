@@ -5,6 +5,7 @@
 #include <pacini/analysis/AnalysisInput.h>
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/ClipFitter.h>
+#include <pacini/analysis/HeardLevel.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
 #include <pacini/analysis/OnsetMeasure.h>
@@ -83,7 +84,8 @@ struct EncoderParams
     int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
                                ///< above it are scaled down to that
-    OnsetParams onsets;        ///< what counts as an event; see Onset
+    double audible = 0.0; ///< 0 to 1: how far loudness drives what lives above the range of touch; see AudibleBlend
+    OnsetParams onsets;   ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
 
@@ -102,6 +104,8 @@ struct EncoderParams
         return wrong("breakpoints", "must be 0.5 to 1000 per second and band");
     if (params.quantise < 4 || params.quantise > 16)
         return wrong("quantise", "must be 4 to 16 bits");
+    if (!(params.audible >= 0.0 && params.audible <= 1.0))
+        return wrong("audible", "must be 0 to 1");
     if (!(params.onsets.sensitivity >= 0.25 && params.onsets.sensitivity <= 4.0))
         return wrong("sensitivity", "must be 0.25 to 4");
     return {};
@@ -123,6 +127,8 @@ struct EncoderParams
         record.push_back({"spacing", std::string("linear")});
     if (params.onsets.sensitivity != usual.onsets.sensitivity)
         record.push_back({"sensitivity", params.onsets.sensitivity});
+    if (params.audible != usual.audible)
+        record.push_back({"audible", params.audible});
     if (params.normalise != usual.normalise)
         record.push_back({"normalise", params.normalise});
     return record;
@@ -131,8 +137,8 @@ struct EncoderParams
 /// Streaming encoder. Encodes one sound after another; keeps its transforms and filters between them. Use: start, push
 /// any number of times, finish. Which points are worth their price depends on the loudest moment, which may be the
 /// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands. Curves are fitted
-/// in sections of ten minutes, so that with it nothing is kept but the clip. One thread at a time, never the audio
-/// thread.
+/// in sections of ten minutes, so that with it nothing is kept but the clip. With `audible` all is kept in any case, 30
+/// MB an hour. One thread at a time, never the audio thread.
 class Encoder
 {
 public:
@@ -156,7 +162,7 @@ public:
         fs = sampleRate;
         channelCount = static_cast<std::size_t>(channels);
         frames = 0;
-        knownPeak = peak;
+        knownPeak = settings.audible > 0.0 ? std::nullopt : peak; // the loudest moment may be the last
         sections = 0;
         input.start(fs, channelCount);
         const double expected = static_cast<double>(expectedFrames) / fs;
@@ -164,6 +170,9 @@ public:
         analysis.reset(channelCount, static_cast<std::size_t>(kept * analysisRate));
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
+        heard.reset();
+        if (settings.audible > 0.0)
+            heard.emplace();
         clip = {};
         clip.source.sampleRate = fs;
         clip.source.channels = channels;
@@ -191,6 +200,8 @@ public:
         features->finish();
         detectOnsets();
         BandAnalysisResult rest = analysis.finish();
+        if (heard)
+            AudibleBlend(bandsOf(settings), settings.audible).apply(rest, heard->finish(rest.envelope.size()));
         const std::vector<Onset> onsets = detector->finish();
         const double peak = knownPeak.value_or(rest.peak);
         while (rest.seconds() > sectionSeconds + aheadSeconds)
@@ -204,6 +215,8 @@ private:
     void detectOnsets()
     {
         detector->push(features->frames());
+        if (heard)
+            heard->push(features->frames());
         features->drop(features->frames().size());
     }
 
@@ -267,6 +280,7 @@ private:
     ClipFitter fitter;
     std::optional<OnsetFeatures> features;
     std::optional<OnsetDetector> detector;
+    std::optional<HeardLevel> heard; // only where it is wanted
     int fs = 0;
     std::size_t channelCount = 1;
     std::size_t frames = 0;
