@@ -83,17 +83,26 @@ private:
     static constexpr std::array<EarBand, OnsetFrame::bandCount> ear{
         {{0.0063, 1.0}, {0.158, 1.2}, {0.63, 2.2}, {1.0, 3.5}, {1.0, 4.5}, {1.58, 4.3}, {0.79, 7.0}}};
     static constexpr std::size_t firstHigh = 4; // of them: from 900 Hz on
+    static constexpr double exponent = 0.3;
+
+    /// What the widths of the bands add to their loudness.
+    [[nodiscard]] static std::array<double, ear.size()> widthFactors()
+    {
+        std::array<double, ear.size()> factors;
+        std::transform(ear.begin(), ear.end(), factors.begin(),
+                       [](const EarBand& band) { return std::pow(band.critical, 1.0 - exponent); });
+        return factors;
+    }
 
     Values next(const OnsetFrame& frame) noexcept
     {
-        constexpr double exponent = 0.3;
         double loudness = 0.0;
         double high = 0.0;
         double bright = 0.0;
         for (std::size_t b = 0; b < ear.size(); ++b)
         {
             const double power = std::max(0.0, ear[b].weight * static_cast<double>(frame.bands[b]));
-            const double part = std::pow(ear[b].critical, 1.0 - exponent) * std::pow(power, exponent);
+            const double part = widths[b] * std::pow(power, exponent);
             loudness += part;
             if (b < firstHigh)
                 continue;
@@ -143,6 +152,7 @@ private:
         start += unused;
     }
 
+    std::array<double, ear.size()> widths = widthFactors();
     std::array<Memory, values - 1> memory{};
     std::vector<Values> recent; // frames from number `start` on
     std::size_t start = 0;
@@ -193,6 +203,10 @@ private:
         constexpr double none = 0.3;
         constexpr double all = 0.7;
         const auto count = std::ssize(heard);
+        std::array<double, 2 * reach + 1> window{};
+        for (std::ptrdiff_t k = -reach; k <= reach; ++k)
+            window[static_cast<std::size_t>(k + reach)] =
+                0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(k) / (reach + 1));
         share.assign(heard.size(), 0.0);
         for (std::ptrdiff_t i = 0; i < count; ++i)
         {
@@ -200,7 +214,7 @@ private:
             double total = 1e-12 * loudest;
             for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - reach); k < std::min(count, i + reach + 1); ++k)
             {
-                const double w = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(k - i) / (reach + 1));
+                const double w = window[static_cast<std::size_t>(k - i + reach)];
                 high += w * static_cast<double>(heard[static_cast<std::size_t>(k)].high);
                 total += w * static_cast<double>(heard[static_cast<std::size_t>(k)].loudness);
             }
