@@ -102,9 +102,10 @@ struct BandAnalysisResult
         std::vector<float> frequency; ///< Hz: power-weighted mean frequency within the band; 0 where silent
     };
 
-    double peak = 0.0;           ///< largest magnitude of the analytic signal of all bands together
-    std::vector<float> envelope; ///< mean magnitude of that analytic signal
-    std::vector<Track> tracks;   ///< one for every band
+    double peak = 0.0;             ///< largest magnitude of the analytic signal of all bands together
+    std::vector<float> envelope;   ///< mean magnitude of that analytic signal
+    std::vector<Track> tracks;     ///< one for every band
+    std::vector<float> heardShare; ///< 0-1 of each value of `envelope`: how far AudibleBlend took over; empty: nowhere
 
     /// Up to where all frames are there, s. O(bands).
     [[nodiscard]] double seconds() const noexcept
@@ -129,6 +130,8 @@ struct BandAnalysisResult
         BandAnalysisResult first;
         first.peak = peak;
         first.envelope = cut(envelope, envelopeStep);
+        if (!heardShare.empty())
+            first.heardShare = cut(heardShare, envelopeStep);
         for (Track& track : tracks)
             first.tracks.push_back({cut(track.amplitude, bandStep), cut(track.frequency, bandStep)});
         return first;

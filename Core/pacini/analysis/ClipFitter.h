@@ -51,8 +51,8 @@ public:
 private:
     void fit(Clip& clip, const BandAnalysisResult& found, double gain, double price)
     {
-        clip.envelope =
-            curves.fitAmplitude(found.envelope, BandAnalysisResult::envelopeStep, gain, floor, envelopePrice * price);
+        clip.envelope = curves.fitAmplitude(found.envelope, BandAnalysisResult::envelopeStep, gain, floor,
+                                            envelopePrice * price, found.heardShare);
         const std::size_t n = found.tracks.front().amplitude.size();
         std::vector<double> total(n, 1e-20);
         for (const auto& track : found.tracks)

@@ -26,10 +26,12 @@ class CurveFitter
 public:
     /// Amplitudes, sample i at i * step seconds. Errors are relative, in dB^2 per sample, and fade out below `floor`
     /// (linear): what nobody feels is not worth a point. Values that stay a quarter below the floor become 0. An
-    /// all-zero track gives an empty curve.
-    [[nodiscard]] Curve fitAmplitude(std::span<const float> track, double step, double gain, double floor, double price)
+    /// all-zero track gives an empty curve. Errors count up to five times where `heardShare` (0-1 of each sample, or
+    /// none) is large: loudness moves by less than levels of bands do, and its small steps are heard.
+    [[nodiscard]] Curve fitAmplitude(std::span<const float> track, double step, double gain, double floor, double price,
+                                     std::span<const float> heardShare = {})
     {
-        const AmplitudeSamples levels{track, gain, floor};
+        const AmplitudeSamples levels{track, heardShare, gain, floor};
         const auto audible = [&levels](std::size_t i)
         {
             return levels.value(i) > 0.0;
@@ -86,7 +88,7 @@ private:
     /// MB otherwise.
     struct AmplitudeSamples
     {
-        std::span<const float> track;
+        std::span<const float> track, heardShare;
         double gain = 1.0, floor = 0.0;
 
         [[nodiscard]] std::size_t size() const noexcept { return track.size(); }
@@ -100,7 +102,8 @@ private:
         [[nodiscard]] double weight(std::size_t i) const noexcept
         {
             const double a = level(i);
-            return decibelsPerNeper * decibelsPerNeper / (a * a + floor * floor);
+            const double worth = heardShare.empty() ? 1.0 : 1.0 + 4.0 * static_cast<double>(heardShare[i]);
+            return worth * decibelsPerNeper * decibelsPerNeper / (a * a + floor * floor);
         }
         [[nodiscard]] bool evenlySpaced() const noexcept { return true; }
         [[nodiscard]] bool weighted() const noexcept { return true; }

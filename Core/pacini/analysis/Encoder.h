@@ -3,6 +3,7 @@
 // Audio-to-haptic encoder: samples -> Clip by Pacini's own translation, "a2vt".
 
 #include <pacini/analysis/AnalysisInput.h>
+#include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/ClipFitter.h>
 #include <pacini/analysis/HeardLevel.h>
@@ -51,8 +52,10 @@ namespace pacini
 
 /// Events that follow each other faster than the skin's and the actuator's memory stay apart only when nothing sounds
 /// between them: wherever two `onsets` are less than `reach` s apart, `envelope` (a frame every `step` s) is held down
-/// to its valley between them, and the pulses of the events carry what is above it.
-inline void holdDownBetween(std::span<const Onset> onsets, double reach, double step, std::span<float> envelope)
+/// to its valley between them, and the pulses of the events carry what is above it. Not so far as loudness drives the
+/// level: `heardShare` (0-1 of each frame, or none).
+inline void holdDownBetween(std::span<const Onset> onsets, double reach, double step, std::span<float> envelope,
+                            std::span<const float> heardShare = {})
 {
     const auto frameOf = [&](double time)
     {
@@ -69,7 +72,7 @@ inline void holdDownBetween(std::span<const Onset> onsets, double reach, double 
         for (std::size_t f = first; f < end; ++f)
             valley = std::min(valley, envelope[f]);
         for (std::size_t f = first; f < end; ++f)
-            envelope[f] = valley;
+            envelope[f] = heardShare.empty() ? valley : valley + heardShare[f] * (envelope[f] - valley);
     }
 }
 
@@ -233,7 +236,7 @@ private:
             return;
         for (Onset& onset : onsets)
             onset.time -= start;
-        holdDownBetween(onsets, trainGapSeconds, BandAnalysisResult::envelopeStep, found.envelope);
+        holdDownBetween(onsets, trainGapSeconds, BandAnalysisResult::envelopeStep, found.envelope, found.heardShare);
         fitter.add(clip, found, gainFor(peak), start);
     }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is heard of a sound above the range of touch, and its way into the bands of the skin.
+// How loud a sound is heard over time, and how much of that lies above the range of touch.
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/OnsetFrame.h>
@@ -19,16 +19,17 @@ namespace pacini
 /// Loudness around one moment, in a unit of its own: only ratios mean anything.
 struct HeardFrame
 {
-    float loudness = 0.0f; ///< of all that is heard
-    float high = 0.0f;     ///< of what lies above 900 Hz
-    float bright = 0.0f;   ///< of that, weighted by where it lies: 0 at 900 to 1800 Hz, 1 above 3600 Hz
-    float power = 0.0f;    ///< mean square of the sound
+    float loudness = 0.0f;  ///< of all that is heard
+    float high = 0.0f;      ///< of what lies above 900 Hz
+    float bright = 0.0f;    ///< of that, weighted by where it lies: 0 at 900 to 1800 Hz, 1 above 3600 Hz
+    float power = 0.0f;     ///< mean square of the sound, A-weighted
+    float highPower = 0.0f; ///< that of what lies above 900 Hz
 };
 
 /// Estimates the course of loudness from the powers that onsets are found in, so that it costs no filters of its own.
 /// Loudness is the sum of the powers of seven bands to .3 each (S. Stevens, "On the psychophysical law", 1957),
-/// weighted like an ear hears (ISO 226) and by their widths in critical bands, then the memory of ISO 532-1:2017, 6.5.
-/// Masking, threshold and the decay of that standard are left out: they hardly change the course. Allocates.
+/// A-weighted (IEC 61672-1) and by their widths in critical bands, then the memory of ISO 532-1:2017, 6.5. Masking,
+/// threshold and the decay of that standard are left out: they hardly change the course. Allocates.
 class HeardLevel
 {
 public:
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t values = 4;
+    static constexpr std::size_t values = 5;
     using Values = std::array<double, values>;
 
     /// Smoothing by 3.5 and 70 ms.
@@ -77,11 +78,11 @@ private:
 
     struct EarBand
     {
-        double weight;   ///< of the power: -22, -8, -2, 0, 0, 2 and -1 dB
+        double weight;   ///< of the power, A-weighting at the centres of the bands: -27, -13, -6, -2, 1, 1 and 0 dB
         double critical; ///< critical bands
     };
     static constexpr std::array<EarBand, OnsetFrame::bandCount> ear{
-        {{0.0063, 1.0}, {0.158, 1.2}, {0.63, 2.2}, {1.0, 3.5}, {1.0, 4.5}, {1.58, 4.3}, {0.79, 7.0}}};
+        {{0.0018, 1.0}, {0.05, 1.2}, {0.24, 2.2}, {0.67, 3.5}, {1.17, 4.5}, {1.35, 4.3}, {0.93, 7.0}}};
     static constexpr std::size_t firstHigh = 4; // of them: from 900 Hz on
     static constexpr double exponent = 0.3;
 
@@ -99,22 +100,25 @@ private:
         double loudness = 0.0;
         double high = 0.0;
         double bright = 0.0;
+        double total = 0.0;
+        double highPower = 0.0;
         for (std::size_t b = 0; b < ear.size(); ++b)
         {
             const double power = std::max(0.0, ear[b].weight * static_cast<double>(frame.bands[b]));
             const double part = widths[b] * std::pow(power, exponent);
             loudness += part;
+            total += power;
             if (b < firstHigh)
                 continue;
             high += part;
             bright += part * 0.5 * static_cast<double>(b - firstHigh);
+            highPower += power;
         }
-        return {memory[0].next(loudness), memory[1].next(high), memory[2].next(bright),
-                static_cast<double>(frame.power)};
+        return {memory[0].next(loudness), memory[1].next(high), memory[2].next(bright), total, highPower};
     }
 
     /// The memory makes loudness late by this; frames.
-    static constexpr double delay = 4.0;
+    static constexpr double delay = 2.5;
     static constexpr double reach = BandAnalysisResult::envelopeStep * OnsetFrame::rate; // half the window
 
     [[nodiscard]] double centre() const noexcept { return reach * static_cast<double>(found.size()) + delay; }
@@ -143,7 +147,8 @@ private:
         HeardFrame frame;
         if (total > 0.0)
             frame = {static_cast<float>(sum[0] / total), static_cast<float>(sum[1] / total),
-                     static_cast<float>(sum[2] / total), static_cast<float>(sum[3] / total)};
+                     static_cast<float>(sum[2] / total), static_cast<float>(sum[3] / total),
+                     static_cast<float>(sum[4] / total)};
         found.push_back(frame);
         const std::size_t unused = std::min(first > start ? first - start : 0, recent.size());
         if (unused < 4096)
@@ -153,125 +158,10 @@ private:
     }
 
     std::array<double, ear.size()> widths = widthFactors();
-    std::array<Memory, values - 1> memory{};
-    std::vector<Values> recent; // frames from number `start` on
+    std::array<Memory, 3> memory{}; // of the first values
+    std::vector<Values> recent;     // frames from number `start` on
     std::size_t start = 0;
     std::vector<HeardFrame> found;
-};
-
-/// Lets what is heard above the range of touch be felt. Where most of the loudness lies above 900 Hz, the level of the
-/// bands gives way to the course of the loudness, on a tone of 150 to 290 Hz, the brighter the higher, as if the sound
-/// had it; where little does, nothing changes. `heard` has a value for each one of `found.envelope`; `audible` 0 to 1
-/// is how far that goes. The peak follows. The limits of the blend and the range of the tone are choices, not derived.
-class AudibleBlend
-{
-public:
-    AudibleBlend(std::span<const BandEdges> edges, double audible)
-        : fades(edges, BandAnalysisParams{}.overlap), bands(edges.begin(), edges.end()), most(audible)
-    {
-    }
-
-    void apply(BandAnalysisResult& found, std::span<const HeardFrame> heard)
-    {
-        const std::size_t frames = std::min(found.envelope.size(), heard.size());
-        double loudest = 0.0;
-        for (const HeardFrame& frame : heard)
-            loudest = std::max(loudest, static_cast<double>(frame.loudness));
-        if (!(loudest > 0.0))
-            return;
-        findShares(heard.first(frames), loudest);
-        double peak = found.peak;
-        for (std::size_t i = 0; i < frames; ++i)
-            peak = std::max(peak, share[i] * std::sqrt(2.0 * static_cast<double>(std::max(0.0f, heard[i].power))));
-        level.resize(frames);
-        for (std::size_t i = 0; i < frames; ++i)
-        {
-            level[i] = share[i] * peak * static_cast<double>(heard[i].loudness) / loudest;
-            found.envelope[i] =
-                static_cast<float>((1.0 - share[i]) * static_cast<double>(found.envelope[i]) + level[i]);
-        }
-        for (std::size_t j = 0; j < found.tracks.front().amplitude.size(); ++j)
-            addTone(found, heard.first(frames), j);
-        found.peak = peak;
-    }
-
-private:
-    /// How far the loudness takes over at each moment, by where it lies within some 200 ms.
-    void findShares(std::span<const HeardFrame> heard, double loudest)
-    {
-        constexpr std::ptrdiff_t reach = 40; // values of 5 ms
-        constexpr double none = 0.3;
-        constexpr double all = 0.7;
-        const auto count = std::ssize(heard);
-        std::array<double, 2 * reach + 1> window{};
-        for (std::ptrdiff_t k = -reach; k <= reach; ++k)
-            window[static_cast<std::size_t>(k + reach)] =
-                0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(k) / (reach + 1));
-        share.assign(heard.size(), 0.0);
-        for (std::ptrdiff_t i = 0; i < count; ++i)
-        {
-            double high = 0.0;
-            double total = 1e-12 * loudest;
-            for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - reach); k < std::min(count, i + reach + 1); ++k)
-            {
-                const double w = window[static_cast<std::size_t>(k - i + reach)];
-                high += w * static_cast<double>(heard[static_cast<std::size_t>(k)].high);
-                total += w * static_cast<double>(heard[static_cast<std::size_t>(k)].loudness);
-            }
-            const double u = std::clamp((high / total - none) / (all - none), 0.0, 1.0);
-            share[static_cast<std::size_t>(i)] = most * u * u * (3.0 - 2.0 * u);
-        }
-    }
-
-    /// The tone in frame `j` of the bands, which lasts eight values of the envelope.
-    void addTone(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::size_t j)
-    {
-        constexpr auto ratio =
-            static_cast<std::ptrdiff_t>(BandAnalysisResult::bandStep / BandAnalysisResult::envelopeStep + 0.5);
-        const auto middle = static_cast<std::ptrdiff_t>(j) * ratio;
-        double weights = 0.0;
-        double power = 0.0;
-        double taken = 0.0;
-        double high = 0.0;
-        double bright = 0.0;
-        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, middle - ratio + 1);
-             k < std::min(std::ssize(heard), middle + ratio); ++k)
-        {
-            const auto i = static_cast<std::size_t>(k);
-            const double w = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(k - middle) / ratio);
-            weights += w;
-            power += w * level[i] * level[i];
-            taken += w * share[i];
-            high += w * static_cast<double>(heard[i].high);
-            bright += w * static_cast<double>(heard[i].bright);
-        }
-        if (!(weights > 0.0 && taken > 0.0 && high > 0.0))
-            return;
-        power /= weights;
-        const double kept = 1.0 - taken / weights;
-        const double wanted = lowest * std::pow(highest / lowest, bright / high);
-        const double frequency = std::clamp(wanted, bands.front().low, bands.back().high);
-        for (std::size_t k = 0; k < found.tracks.size(); ++k)
-        {
-            auto& track = found.tracks[k];
-            const double old = kept * static_cast<double>(track.amplitude[j]);
-            const double part = fades.weight(k, k, frequency);
-            const double added = part * part * power;
-            const double sum = old * old + added;
-            if (sum > 0.0)
-                track.frequency[j] =
-                    static_cast<float>((old * old * static_cast<double>(track.frequency[j]) + added * frequency) / sum);
-            track.amplitude[j] = static_cast<float>(std::sqrt(sum));
-        }
-    }
-
-    static constexpr double lowest = 150.0;  // Hz
-    static constexpr double highest = 290.0; // Hz
-
-    BandFades fades;
-    std::vector<BandEdges> bands;
-    double most;
-    std::vector<double> share, level; // of each value of the envelope
 };
 
 } // namespace pacini
