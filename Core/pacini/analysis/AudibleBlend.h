@@ -3,6 +3,7 @@
 // The way of what is heard above the range of touch into the bands of the skin.
 
 #include <pacini/analysis/BandAnalysis.h>
+#include <pacini/analysis/EvenTrains.h>
 #include <pacini/analysis/HeardLevel.h>
 
 #include <algorithm>
@@ -18,9 +19,9 @@ namespace pacini
 /// Lets what is heard above the range of touch be felt. Where most of a sound as it is heard (A-weighted power, over
 /// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most half of their
 /// own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound had it.
-/// Where little does, nothing changes. `heard` has a value for each one of `found.envelope`; `audible` 0 to 1 is how
-/// far that goes, and `found.heardShare` tells where it went. The peak follows. The limits of the blend, what the bands
-/// keep and the range of the tone are choices by trial, not derived.
+/// Where little does, nothing changes, nor in `trains`, whose hits a level would blur. `heard` has a value for each one
+/// of `found.envelope`; `audible` 0 to 1 is how far that goes, and `found.heardShare` tells where it went. The peak
+/// follows. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not derived.
 class AudibleBlend
 {
 public:
@@ -29,7 +30,7 @@ public:
     {
     }
 
-    void apply(BandAnalysisResult& found, std::span<const HeardFrame> heard)
+    void apply(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::span<const TrainSpan> trains)
     {
         heard = heard.first(std::min(found.envelope.size(), heard.size()));
         double loudest = 0.0;
@@ -42,6 +43,7 @@ public:
         if (!(loudest > 0.0))
             return;
         findShares(heard, strongest, found.heardShare);
+        leaveTrains(trains, found.heardShare);
         found.heardShare.resize(found.envelope.size(), 0.0f);
         double peak = found.peak;
         for (std::size_t i = 0; i < heard.size(); ++i)
@@ -86,6 +88,26 @@ private:
             high += rate * (highs[i] - high);
             const double u = std::clamp((high / (total + silence) - none) / (all - none), 0.0, 1.0);
             share[i] = static_cast<float>(most * u * u * (3.0 - 2.0 * u));
+        }
+    }
+
+    /// Nothing within trains; it comes and goes in 40 ms.
+    static void leaveTrains(std::span<const TrainSpan> trains, std::vector<float>& share)
+    {
+        constexpr double ramp = 0.040; // s
+        for (const TrainSpan& train : trains)
+        {
+            const auto frameOf = [&](double time)
+            {
+                const double frame = std::max(0.0, std::ceil(time / BandAnalysisResult::envelopeStep));
+                return std::min(share.size(), static_cast<std::size_t>(frame));
+            };
+            for (std::size_t i = frameOf(train.first - ramp); i < frameOf(train.last + ramp); ++i)
+            {
+                const double time = static_cast<double>(i) * BandAnalysisResult::envelopeStep;
+                const double outside = std::max({0.0, train.first - time, time - train.last});
+                share[i] *= static_cast<float>(std::min(1.0, outside / ramp));
+            }
         }
     }
 

@@ -87,7 +87,7 @@ struct EncoderParams
     int quantise = 6;          ///< bits of the grids, 4 to 16; see PackParams
     bool normalise = true;     ///< scale to full drive; otherwise full scale is full drive, and sounds more than 54 dB
                                ///< above it are scaled down to that
-    double audible = 0.0; ///< 0 to 1: how far loudness drives what lives above the range of touch; see AudibleBlend
+    double audible = 1.0; ///< 0 to 1: how far loudness drives what lives above the range of touch; see AudibleBlend
     OnsetParams onsets;   ///< what counts as an event; see Onset
     bool operator==(const EncoderParams&) const = default;
 };
@@ -203,9 +203,10 @@ public:
         features->finish();
         detectOnsets();
         BandAnalysisResult rest = analysis.finish();
-        if (heard)
-            AudibleBlend(bandsOf(settings), settings.audible).apply(rest, heard->finish(rest.envelope.size()));
         const std::vector<Onset> onsets = detector->finish();
+        if (heard)
+            AudibleBlend(bandsOf(settings), settings.audible)
+                .apply(rest, heard->finish(rest.envelope.size()), evenTrains(onsets, trainGapSeconds));
         const double peak = knownPeak.value_or(rest.peak);
         while (rest.seconds() > sectionSeconds + aheadSeconds)
             addSection(rest.takeFirst(sectionSeconds), peak, onsets);
