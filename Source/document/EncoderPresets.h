@@ -30,6 +30,7 @@ struct EncoderPreset
             {"Events first", "Finds weak and close hits", {}},
             {"Steady texture", "Only clear hits count as events", {}},
             {"Low rumble", "20 to 300 Hz, for large actuators", {}},
+            {"As recorded", "Nothing of what lies above the range of touch", {}},
         };
         all[1].params.bands = 24;
         all[1].params.breakpoints = 60.0;
@@ -44,6 +45,8 @@ struct EncoderPreset
         all[5].params.bands = 8;
         all[5].params.lowFrequency = 20.0;
         all[5].params.highFrequency = 300.0;
+        all[5].params.audible = 0.0;
+        all[6].params.audible = 0.0;
         return all;
     }();
     return presets;

@@ -210,6 +210,9 @@ void visitEncoder(Params& params, Visitor& visitor)
     visitor.choice("spacing", params.spacing, spacings, usual);
     visitor.number("breakpoints", params.breakpoints, usual);
     visitor.integer("quantise", params.quantise, "must be a whole number");
+    if constexpr (isReader<Visitor>)
+        params.audible = 0.0; // before there was such a field, nothing of it was felt
+    visitor.number("audible", params.audible, usual);
     visitor.truth("normalise", params.normalise);
     visitor.number("sensitivity", params.onsets.sensitivity, usual);
     visitor.number("minimumGap", params.onsets.minimumGap.value, usual);

@@ -187,6 +187,7 @@ TEST_CASE("Clips of a mixed sound are what they were, whatever the encoder is to
         pinFitted("encoded, " + name, clip);
     };
     pin("by default", {});
+    pin("of the bands alone", encoderWith([](EncoderParams& p) { p.audible = 0.0; }));
     pin("as loud as it was", encoderWith([](EncoderParams& p) { p.normalise = false; }));
     pin("three linear bands", encoderWith(
                                   [](EncoderParams& p)

@@ -36,6 +36,7 @@ def outputs(folder):
         (folder / sound.name).write_bytes(sound.read_bytes())
     sounds = sorted(path.name for path in folder.iterdir())
     run("encode packed", "encode", "-j1", *sounds, "-o", "packed/", "--format", "packed")
+    run("encode bands", "encode", "-j1", *sounds, "-o", "bands/", "--format", "packed", "--audible", "0")
     run("encode json", "encode", "-j1", *sounds, "-o", "json/", "--format", "json")
     clips = [f"packed/{sound.replace('.flac', '.pacb')}" for sound in sounds]
     run("render", "render", "-j1", *clips, "-o", "drive/", "--encoding", "pcm16")

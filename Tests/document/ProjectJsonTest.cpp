@@ -87,6 +87,7 @@ Project fullProject(const std::filesystem::path& folder)
     item.encoder.bands = 9;
     item.encoder.spacing = BandSpacing::linear;
     item.encoder.normalise = false;
+    item.encoder.audible = 0.25;
     item.encoder.onsets.sensitivity = 2.0;
     item.analysis = someClip(0.3);
     item.clip = someClip(0.4);
@@ -126,6 +127,16 @@ TEST_CASE("A project with every kind of entry reads back as it was written")
     const auto moved = readProjectJson(text, folder.parent_path() / "elsewhere");
     REQUIRE(moved);
     CHECK(moved->project.sources[0].path == folder.parent_path() / "elsewhere" / "sounds" / "a b.wav");
+}
+
+TEST_CASE("A project from before what is heard was felt keeps its clips as they are")
+{
+    std::string text = projectJson(fullProject("/"));
+    for (std::size_t at; (at = text.find("\"audible\": 0.25,")) != std::string::npos;)
+        text.erase(at, std::string("\"audible\": 0.25,").size());
+    const auto read = readProjectJson(text);
+    REQUIRE(read);
+    CHECK(read->project.clips[0]->encoder.audible == 0.0);
 }
 
 TEST_CASE("Damaged projects are refused with the place")

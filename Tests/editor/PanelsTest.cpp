@@ -97,7 +97,7 @@ TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back t
 {
     Pages pages;
     auto& preset = get<juce::ComboBox>(pages.analysis, "Preset");
-    CHECK(preset.getText() == "Standard");
+    CHECK(preset.getText() == "As recorded");
     preset.setSelectedId(2, juce::sendNotificationSync);
     CHECK(pages.analysis.params() == encoderPresets()[1].params);
     pages.analysis.carryOut();
@@ -180,7 +180,7 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     REQUIRE(session.sounds.soundOfClip() != nullptr);
     CHECK(session.sounds.soundOfClip()->duration() == Approx(1.0));
     const Clip& analysis = *session.model.item()->analysis;
-    Clip expected = editor::importFile(folder / "tone.wav", {})->clip;
+    Clip expected = editor::importFile(folder / "tone.wav", session.model.item()->encoder)->clip;
     expected.name = before.name;
     CHECK(analysis == expected);
     REQUIRE(pages.clip().envelope.size() == analysis.envelope.size());

@@ -169,7 +169,8 @@ private:
 
 std::string settingText(const EncoderParams& params)
 {
-    return fmt::format("{} bands, {:g}/s, {} bit", params.bands, params.breakpoints, params.quantise);
+    return fmt::format("{} bands, {:g}/s, {} bit, audible {:g}", params.bands, params.breakpoints, params.quantise,
+                       params.audible);
 }
 
 void measureOwn(Measurement& measurement, const BenchSound& sound, const EncoderParams& params)
@@ -188,7 +189,10 @@ void measureMethods(const BenchSound& sound, const BenchSettings& settings, Benc
 {
     Measurement measurement(sound, settings, rows);
     const EncoderParams usual;
+    EncoderParams bandsAlone; // what HTS, LSD and the others can judge: they hear nothing above the range of touch
+    bandsAlone.audible = 0.0;
     measureOwn(measurement, sound, usual);
+    measureOwn(measurement, sound, bandsAlone);
     for (const MethodInfo& info : methodTable)
     {
         const std::string name(info.name);
@@ -205,17 +209,23 @@ void measureMethods(const BenchSound& sound, const BenchSettings& settings, Benc
     }
     if (!settings.sweep)
         return;
+    for (const double audible : {0.25, 0.5, 0.75})
+    {
+        EncoderParams params;
+        params.audible = audible;
+        measureOwn(measurement, sound, params);
+    }
     for (const int bands : {6, 12, 24})
         for (const double breakpoints : {5.0, 10.0, 20.0, 40.0})
             for (const int quantise : {5, 6, 8, 12})
             {
-                EncoderParams params;
+                EncoderParams params = bandsAlone;
                 params.bands = bands;
                 params.breakpoints = breakpoints;
                 params.quantise = quantise;
                 // All numbers of bands and points at the usual bits, all bits at the usual bands and points.
                 const bool usualPlace = bands == usual.bands && breakpoints == usual.breakpoints;
-                if (params != usual && (quantise == usual.quantise || usualPlace))
+                if (params != bandsAlone && (quantise == usual.quantise || usualPlace))
                     measureOwn(measurement, sound, params);
             }
 }

@@ -15,7 +15,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int rowHeight = 3 * grid;
-constexpr int preferredHeight = 84 * grid;
+constexpr int preferredHeight = 88 * grid;
 constexpr int labelWidth = 9 * grid;
 constexpr int pause = 350; // ms without a change
 constexpr int logarithmic = 1, linear = 2;
@@ -115,6 +115,9 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
         "How sensitive the search for transients is: above 1 weaker and closer hits count, below 1 only clear ones");
     knob(sensitivity).setRange(0.25, 4.0, 0.05);
     knob(sensitivity).setSkewFactorFromMidPoint(1.0);
+    prepare(audible, "Audible", " %",
+            "How far loudness drives what lives above the range of touch: rain, ticks, birds; 0: only what lies in it");
+    knob(audible).setRange(0.0, 100.0, 1.0);
     prepare(bits, "Precision", " bit", "Bits of each value, 4 to 16: fewer make smaller files and coarser levels");
     knob(bits).setRange(4.0, 16.0, 1.0);
     // The ends of the bands push each other along.
@@ -174,6 +177,7 @@ EncoderParams AnalysisPanel::params() const
     wanted.highFrequency = knob(high).getValue();
     wanted.breakpoints = knob(detail).getValue();
     wanted.onsets.sensitivity = knob(sensitivity).getValue();
+    wanted.audible = 0.01 * knob(audible).getValue();
     wanted.quantise = juce::roundToInt(knob(bits).getValue());
     wanted.spacing = spacing.getSelectedId() == linear ? BandSpacing::linear : BandSpacing::logarithmic;
     wanted.normalise = normalise.getToggleState();
@@ -191,6 +195,7 @@ void AnalysisPanel::set(const EncoderParams& wanted)
     put(high, wanted.highFrequency);
     put(detail, wanted.breakpoints);
     put(sensitivity, wanted.onsets.sensitivity);
+    put(audible, 100.0 * wanted.audible);
     put(bits, wanted.quantise);
     spacing.setSelectedId(wanted.spacing == BandSpacing::linear ? linear : logarithmic, juce::dontSendNotification);
     normalise.setToggleState(wanted.normalise, juce::dontSendNotification);
@@ -312,7 +317,7 @@ void AnalysisPanel::resized()
     replaceButton.setBounds(line);
     state.setBounds(inside.withTrimmedBottom(grid));
 
-    inside = card(settingsCard, 41 * grid);
+    inside = card(settingsCard, 45 * grid);
     const auto row = [&]
     {
         auto next = inside.removeFromTop(rowHeight + 4);
@@ -331,7 +336,7 @@ void AnalysisPanel::resized()
     line = row();
     spacingLabel.setBounds(line.removeFromLeft(labelWidth));
     spacing.setBounds(line);
-    for (const Which which : {detail, sensitivity, bits})
+    for (const Which which : {detail, sensitivity, audible, bits})
     {
         line = row();
         knobs[which].name.setBounds(line.removeFromLeft(labelWidth - grid));

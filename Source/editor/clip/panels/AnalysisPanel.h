@@ -45,6 +45,7 @@ private:
         high,
         detail,
         sensitivity,
+        audible,
         bits,
         knobCount
     };

@@ -159,7 +159,9 @@ Clip HjifWaveform::translated(double duration)
         frames = static_cast<std::size_t>(std::llround(duration * fs));
     constexpr std::size_t maxChannels = 64; // of the encoder
     const std::size_t count = std::min(channels.size(), maxChannels);
-    Encoder encoder({}); // normalising: how weak a curve may be is judged by the loudest
+    EncoderParams params; // normalising: how weak a curve may be is judged by the loudest
+    params.audible = 0.0; // it is felt already
+    Encoder encoder(params);
     encoder.start(fs, static_cast<int>(count));
     constexpr std::size_t chunk = 4096;
     std::vector<float> interleaved;

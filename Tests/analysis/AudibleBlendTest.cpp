@@ -1,0 +1,147 @@
+#include "support/Catch.h"
+#include "support/Measure.h"
+
+#include <pacini/analysis/AudibleBlend.h>
+#include <pacini/analysis/Encoder.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+constexpr std::size_t frames = 2000; // 10 s of the envelope
+constexpr std::size_t bandFrames = frames / 4;
+
+const std::vector<BandEdges> edges = {{50.0, 70.0, 100.0}, {100.0, 170.0, 300.0}, {300.0, 500.0, 900.0}};
+
+BandAnalysisResult steadyBands(float amplitude)
+{
+    BandAnalysisResult found;
+    found.peak = 1.0;
+    found.envelope.assign(frames, amplitude);
+    for (const BandEdges& edge : edges)
+        found.tracks.push_back({std::vector<float>(bandFrames, amplitude),
+                                std::vector<float>(bandFrames, static_cast<float>(edge.centre))});
+    return found;
+}
+
+/// Half as loud in the second half. Of the power, `highShare` lies above.
+std::vector<HeardFrame> heardOf(float highShare)
+{
+    std::vector<HeardFrame> heard(frames, {2.0f, 2.0f, 0.0f, 0.02f, 0.02f * highShare});
+    for (std::size_t i = frames / 2; i < frames; ++i)
+        heard[i].loudness = 1.0f;
+    return heard;
+}
+} // namespace
+
+TEST_CASE("Where most of what is heard lies above, loudness is the level and the bands keep half", "[analysis]")
+{
+    BandAnalysisResult found = steadyBands(0.8f);
+    AudibleBlend(edges, 1.0).apply(found, heardOf(0.9f), {});
+    CHECK(found.peak == 1.0);
+    CHECK(found.heardShare[100] == 1.0f);
+    CHECK(found.envelope[100] == Approx(1.0));
+    CHECK(found.envelope[frames - 100] == Approx(0.5));
+    // Half of the lowest band at most, and less where the level is lower than half of all bands.
+    const double all = std::sqrt(3.0) * 0.8;
+    CHECK(found.tracks[0].amplitude[25] == Approx(0.4));
+    CHECK(found.tracks[0].amplitude[bandFrames - 25] == Approx(0.8 * 0.5 / all));
+    // The tone of 150 Hz, which only the second band holds, brings what they lack.
+    CHECK(found.tracks[1].amplitude[25] == Approx(std::sqrt(0.16 + 1.0 - 0.25 * all * all)));
+    CHECK(found.tracks[1].frequency[25] < 170.0f);
+    CHECK(found.tracks[1].frequency[25] > 150.0f);
+    CHECK(found.tracks[1].amplitude[bandFrames - 25] == Approx(found.tracks[0].amplitude[bandFrames - 25]));
+}
+
+TEST_CASE("Where little of what is heard lies above, nothing changes", "[analysis]")
+{
+    for (const float share : {0.0f, 0.19f})
+    {
+        BandAnalysisResult found = steadyBands(0.3f);
+        const BandAnalysisResult before = found;
+        AudibleBlend(edges, 1.0).apply(found, heardOf(share), {});
+        CHECK(found.peak == before.peak);
+        CHECK(found.envelope == before.envelope);
+        for (std::size_t k = 0; k < edges.size(); ++k)
+        {
+            CHECK(found.tracks[k].amplitude == before.tracks[k].amplitude);
+            CHECK(found.tracks[k].frequency == before.tracks[k].frequency);
+        }
+        CHECK(found.heardShare == std::vector<float>(frames, 0.0f));
+    }
+}
+
+TEST_CASE("What is loud for a moment does not change what leads some seconds away", "[analysis]")
+{
+    auto heard = heardOf(0.0f);
+    for (std::size_t i = 1000; i < 1020; ++i)
+        heard[i].highPower = heard[i].power = 2.0f;
+    BandAnalysisResult found = steadyBands(0.3f);
+    AudibleBlend(edges, 0.5).apply(found, heard, {});
+    CHECK(found.heardShare[1010] == 0.5f);
+    CHECK(found.heardShare[850] == 0.5f);
+    CHECK(found.heardShare[100] == 0.0f);
+    CHECK(found.heardShare[1900] == 0.0f);
+}
+
+TEST_CASE("Even trains are left to their pulses", "[analysis]")
+{
+    BandAnalysisResult found = steadyBands(0.3f);
+    AudibleBlend(edges, 1.0).apply(found, heardOf(1.0f), std::vector<TrainSpan>{{2.0, 3.0}, {9.99, 12.0}});
+    CHECK(found.heardShare[391] == 1.0f);
+    CHECK(found.heardShare[396] == Approx(0.5));
+    CHECK(found.heardShare[400] == 0.0f);
+    CHECK(found.envelope[500] == 0.3f);
+    CHECK(found.heardShare[600] == 0.0f);
+    CHECK(found.heardShare[604] == Approx(0.5));
+    CHECK(found.heardShare[608] == Approx(1.0));
+    CHECK(found.heardShare.back() == 0.0f);
+}
+
+TEST_CASE("Silence and a sound that is shorter than its bands leave them alone", "[analysis]")
+{
+    BandAnalysisResult found = steadyBands(0.3f);
+    const auto before = found.envelope;
+    AudibleBlend(edges, 1.0).apply(found, {}, {});
+    AudibleBlend(edges, 1.0).apply(found, std::vector<HeardFrame>(frames), {});
+    CHECK(found.envelope == before);
+    auto heard = heardOf(1.0f);
+    heard.resize(300);
+    AudibleBlend(edges, 1.0).apply(found, heard, {});
+    CHECK(found.envelope[299] == Approx(1.0));
+    CHECK(found.envelope[300] == 0.3f);
+    CHECK(found.heardShare.size() == frames);
+    CHECK(found.heardShare[300] == 0.0f);
+}
+
+TEST_CASE("Uneven drops each rise out of the level, an even train is held down between its hits", "[analysis]")
+{
+    const auto encoded = [](std::span<const double> times)
+    {
+        std::vector<float> x(48000);
+        for (std::size_t k = 0; k < times.size(); ++k)
+            for (std::size_t n = 0; n < 960; ++n)
+            {
+                const double t = static_cast<double>(n) / 48000.0;
+                x[static_cast<std::size_t>(48000.0 * times[k]) + n] +=
+                    static_cast<float>(0.8 * std::exp(-t / 0.002) * std::sin(2.0 * std::numbers::pi * 5000.0 * t));
+            }
+        Encoder encoder({});
+        encoder.start(48000, 1);
+        encoder.push(x);
+        return encoder.finish();
+    };
+    const std::vector<double> uneven{0.500, 0.512, 0.552, 0.566, 0.604, 0.617, 0.655};
+    const Clip drops = encoded(uneven);
+    for (const double time : {0.552, 0.604, 0.655})
+        CHECK(valueAt(drops.envelope, time + 0.004) > 1.3 * valueAt(drops.envelope, time - 0.006));
+    const std::vector<double> even{0.500, 0.530, 0.560, 0.590, 0.620, 0.650, 0.680};
+    const Clip train = encoded(even);
+    CHECK(train.transients.size() == even.size());
+    CHECK(valueAt(train.envelope, 0.595) < 0.1);
+}
