@@ -207,12 +207,8 @@ slow-tests)
     install_packages "${portability_packages[@]}"
     run_tests release --label-regex slow --no-tests=ignore
     ;;
-clang-tests)
-    install_packages "${portability_packages[@]}"
-    build clang-libc++ "pacini pacini_tests"
-    run_tests clang-libc++ --tests-regex '^tests-' --label-exclude slow
-    ;;
 sanitized-tests)
+    install_packages "${portability_packages[@]}"
     build asan all
     run_tests asan
     ;;
