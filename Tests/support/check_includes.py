@@ -15,7 +15,7 @@ CORE = {
     "filters": {"foundation"},
     "clip": {"foundation"},
     "simplify": {"foundation", "clip"},
-    "analysis": {"foundation", "filters", "clip", "simplify"},
+    "analysis": {"foundation", "filters", "clip", "simplify", "hearing"},
     "actuator": {"foundation", "filters"},
     "linearize": {"foundation", "filters", "actuator"},
     "synthesis": {"foundation", "filters", "clip", "actuator", "linearize"},

@@ -1,9 +1,10 @@
 #pragma once
 
-// The translation "freqshift": the sound with copies one and two octaves lower, through the range where skin feels best.
+// The translation "freqshift": the sound with copies one and two octaves lower, through the range where skin feels
+// best.
 
-#include <pacini/analysis/methods/MethodSound.h>
 #include <pacini/analysis/methods/MethodCurves.h>
+#include <pacini/analysis/methods/MethodSound.h>
 #include <pacini/filters/Butterworth.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DspBlock.h>
@@ -85,9 +86,9 @@ namespace detail
 
 /// The sound, its copies 12 and 24 semitones lower, their sum scaled to half of full power, a high-pass at 10 Hz and a
 /// band-pass of 125 to 375 Hz, and clipping (R. Okazaki, H. Kuribayashi and H. Kajimoto, "The Effect of Frequency
-/// Shifting on Audio-Tactile Conversion for Enriching Musical Experience", Haptic Interaction 2015, as Y. Li and H. Seifi
-/// used it in "Sound2Hap", CHI 2026). The filters are causal, as theirs. As long as the input; fs is 8000 to 768000 Hz;
-/// NaN and infinities count as 0.
+/// Shifting on Audio-Tactile Conversion for Enriching Musical Experience", Haptic Interaction 2015, as Y. Li and H.
+/// Seifi used it in "Sound2Hap", CHI 2026). The filters are causal, as theirs. As long as the input; fs is 8000 to
+/// 768000 Hz; NaN and infinities count as 0.
 [[nodiscard]] inline std::vector<float> frequencyShift(std::span<const float> mono, double fs)
 {
     std::vector<float> sum(mono.begin(), mono.end());

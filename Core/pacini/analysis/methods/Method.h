@@ -5,6 +5,10 @@
 #include <pacini/analysis/methods/CentroidFlatness.h>
 #include <pacini/analysis/methods/EnvelopeCentroid.h>
 #include <pacini/analysis/methods/EnvelopeSine.h>
+#include <pacini/analysis/methods/FrequencyShift.h>
+#include <pacini/analysis/methods/HapticGen.h>
+#include <pacini/analysis/methods/PerceptTranslation.h>
+#include <pacini/analysis/methods/PitchMatch.h>
 #include <pacini/analysis/methods/PitchShift.h>
 #include <pacini/analysis/methods/ThesisMethod.h>
 #include <pacini/analysis/methods/ThirdOctaveVocoder.h>
@@ -33,6 +37,10 @@ enum class Method
     centroidFlatness,
     lowpass,
     pitchShift,
+    hapticGen,
+    frequencyShift,
+    percept,
+    pitchMatch,
 };
 
 /// What a translation method makes: clips or samples.
@@ -52,7 +60,7 @@ struct MethodInfo
 };
 
 /// All methods, in the order of Method.
-inline constexpr std::array<MethodInfo, 8> methodTable{{
+inline constexpr std::array<MethodInfo, 12> methodTable{{
     {Method::a2vt, "a2vt", MethodOutput::clip, "Pacini's own: band envelopes and pitches at the best price per point"},
     {Method::thesis, "thesis", MethodOutput::clip, "Weber 2020, literally: six bands on fixed sines, and transients"},
     {Method::envelopeSine, "envelope-sine", MethodOutput::clip, "the envelope of the sound on a sine of 80 Hz"},
@@ -64,6 +72,14 @@ inline constexpr std::array<MethodInfo, 8> methodTable{{
      "the centroid as a pitch of 40 to 400 Hz, tonality as a fade from sine to square wave"},
     {Method::lowpass, "lowpass", MethodOutput::signal, "the sound below 1 kHz, as it is"},
     {Method::pitchShift, "pitch-shift", MethodOutput::signal, "the sound two octaves lower, as long as it was"},
+    {Method::hapticGen, "hapticgen", MethodOutput::signal,
+     "Sung 2025: the level on a sine of 200 Hz that rises with it"},
+    {Method::frequencyShift, "freqshift", MethodOutput::signal,
+     "Okazaki 2015: the sound and copies one and two octaves lower, 125 to 375 Hz"},
+    {Method::percept, "percept", MethodOutput::signal,
+     "Lee and Choi 2013: loudness and roughness as those of two sines that beat"},
+    {Method::pitchMatch, "pitchmatch", MethodOutput::signal,
+     "Kim 2024: loudness on a sine whose pitch follows the ear's"},
 }};
 
 /// The entry of a method.
@@ -125,6 +141,10 @@ struct MethodChoices
     case Method::a2vt:
     case Method::lowpass:
     case Method::pitchShift:
+    case Method::hapticGen:
+    case Method::frequencyShift:
+    case Method::percept:
+    case Method::pitchMatch:
         break;
     }
     assert(false && "no clip is made here by this method");
@@ -141,6 +161,14 @@ struct MethodChoices
         return zeroPhaseLowpass(mono, fs);
     case Method::pitchShift:
         return pitchShift(mono, fs);
+    case Method::hapticGen:
+        return hapticGen(mono, fs);
+    case Method::frequencyShift:
+        return frequencyShift(mono, fs);
+    case Method::percept:
+        return perceptTranslation(mono, fs);
+    case Method::pitchMatch:
+        return pitchMatch(mono, fs);
     case Method::a2vt:
     case Method::thesis:
     case Method::envelopeSine:

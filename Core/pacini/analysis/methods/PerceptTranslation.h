@@ -56,10 +56,10 @@ private:
     [[nodiscard]] static double equallyLoud(double f) noexcept
     {
         static constexpr std::array<std::pair<double, double>, 25> contour{
-            {{25, 104.23},  {31.5, 99.08},  {40, 94.18},   {50, 89.96},   {63, 85.94},  {80, 82.05},   {100, 78.65},
-             {125, 75.56},  {160, 72.47},   {200, 69.86},  {250, 67.53},  {315, 65.39}, {400, 63.45},  {500, 62.05},
-             {630, 60.81},  {800, 59.89},   {1000, 60.01}, {1250, 62.15}, {1600, 63.19}, {2000, 59.96}, {2500, 57.26},
-             {3150, 56.42}, {4000, 57.57},  {5000, 60.89}, {6300, 66.36}}};
+            {{25, 104.23},  {31.5, 99.08}, {40, 94.18},   {50, 89.96},   {63, 85.94},   {80, 82.05},   {100, 78.65},
+             {125, 75.56},  {160, 72.47},  {200, 69.86},  {250, 67.53},  {315, 65.39},  {400, 63.45},  {500, 62.05},
+             {630, 60.81},  {800, 59.89},  {1000, 60.01}, {1250, 62.15}, {1600, 63.19}, {2000, 59.96}, {2500, 57.26},
+             {3150, 56.42}, {4000, 57.57}, {5000, 60.89}, {6300, 66.36}}};
         const auto above = std::find_if(contour.begin(), contour.end(), [f](auto point) { return point.first > f; });
         if (above == contour.begin())
             return contour.front().second;
@@ -158,7 +158,8 @@ private:
     double power = 0.0;
     for (std::size_t i = 0; i * Frame::size < sound.size(); ++i)
     {
-        const auto part = std::span(sound).subspan(i * Frame::size, std::min(Frame::size, sound.size() - i * Frame::size));
+        const auto part =
+            std::span(sound).subspan(i * Frame::size, std::min(Frame::size, sound.size() - i * Frame::size));
         std::fill(std::copy(part.begin(), part.end(), frame.begin()), frame.end(), 0.0);
         const auto amplitudes = analysis.process(frame);
         const auto frameAt = [&](std::size_t k)
