@@ -164,8 +164,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     addOption(*command, "-o,--output", output,
               "File, folder for several inputs, or - for standard output [beside each input]", "OUT|DIR");
     addPreset(*command, "--method", methodName,
-              "How sound is translated, see --list-methods; lowpass and pitch-shift write drive signals as WAV",
-              oneOf(names), "NAME");
+              "How sound is translated, see --list-methods; six of them write drive signals as WAV", oneOf(names),
+              "NAME");
     command->add_flag("--list-methods", listMethods, "List the methods and do nothing else");
     std::vector<std::string> formats;
     for (const ClipFormat& known : clipFormats())

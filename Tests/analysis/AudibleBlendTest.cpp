@@ -39,23 +39,27 @@ std::vector<HeardFrame> heardOf(float highShare)
 }
 } // namespace
 
-TEST_CASE("Where most of what is heard lies above, loudness is the level and the bands keep half", "[analysis]")
+TEST_CASE("Where most of what is heard lies above, loudness is the level and the bands keep a quarter", "[analysis]")
 {
     BandAnalysisResult found = steadyBands(0.8f);
     AudibleBlend(edges, 1.0).apply(found, heardOf(0.9f), {});
     CHECK(found.peak == 1.0);
     CHECK(found.heardShare[100] == 1.0f);
-    CHECK(found.envelope[100] == Approx(1.0));
-    CHECK(found.envelope[frames - 100] == Approx(0.5));
-    // Half of the lowest band at most, and less where the level is lower than half of all bands.
+    CHECK(found.envelope[100] == Approx(0.8));
+    CHECK(found.envelope[frames - 100] == Approx(0.4));
+    // A quarter of the lowest band at most, and less where the level is lower than a quarter of all bands.
     const double all = std::sqrt(3.0) * 0.8;
-    CHECK(found.tracks[0].amplitude[25] == Approx(0.4));
-    CHECK(found.tracks[0].amplitude[bandFrames - 25] == Approx(0.8 * 0.5 / all));
+    CHECK(found.tracks[0].amplitude[25] == Approx(0.2));
+    CHECK(found.tracks[0].amplitude[bandFrames - 25] == Approx(0.2));
     // The tone of 150 Hz, which only the second band holds, brings what they lack.
-    CHECK(found.tracks[1].amplitude[25] == Approx(std::sqrt(0.16 + 1.0 - 0.25 * all * all)));
+    CHECK(found.tracks[1].amplitude[25] == Approx(std::sqrt(0.04 + 0.64 - 0.0625 * all * all)));
     CHECK(found.tracks[1].frequency[25] < 170.0f);
     CHECK(found.tracks[1].frequency[25] > 150.0f);
-    CHECK(found.tracks[1].amplitude[bandFrames - 25] == Approx(found.tracks[0].amplitude[bandFrames - 25]));
+    // Bands of ten times the level are turned down to it.
+    BandAnalysisResult loud = steadyBands(8.0f);
+    AudibleBlend(edges, 1.0).apply(loud, heardOf(0.9f), {});
+    CHECK(loud.tracks[0].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
+    CHECK(loud.tracks[1].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
 }
 
 TEST_CASE("Where little of what is heard lies above, nothing changes", "[analysis]")
@@ -113,7 +117,7 @@ TEST_CASE("Silence and a sound that is shorter than its bands leave them alone",
     auto heard = heardOf(1.0f);
     heard.resize(300);
     AudibleBlend(edges, 1.0).apply(found, heard, {});
-    CHECK(found.envelope[299] == Approx(1.0));
+    CHECK(found.envelope[299] == Approx(0.8));
     CHECK(found.envelope[300] == 0.3f);
     CHECK(found.heardShare.size() == frames);
     CHECK(found.heardShare[300] == 0.0f);

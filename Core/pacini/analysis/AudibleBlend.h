@@ -17,11 +17,12 @@ namespace pacini
 {
 
 /// Lets what is heard above the range of touch be felt. Where most of a sound as it is heard (A-weighted power, over
-/// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most half of their
-/// own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound had it.
-/// Where little does, nothing changes, nor in `trains`, whose hits a level would blur. `heard` has a value for each one
-/// of `found.envelope`; `audible` 0 to 1 is how far that goes, and `found.heardShare` tells where it went. The peak
-/// follows. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not derived.
+/// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter of
+/// their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
+/// had it. Where little does, nothing changes, nor in `trains`, whose hits a level would blur. `heard` has a value for
+/// each one of `found.envelope`; `audible` 0 to 1 is how far that goes, and `found.heardShare` tells where it went. The
+/// peak follows. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not
+/// derived.
 class AudibleBlend
 {
 public:
@@ -53,7 +54,7 @@ public:
         for (std::size_t i = 0; i < heard.size(); ++i)
         {
             const auto share = static_cast<double>(found.heardShare[i]);
-            level[i] = peak * static_cast<double>(heard[i].loudness) / loudest;
+            level[i] = loudestLevel * peak * static_cast<double>(heard[i].loudness) / loudest;
             found.envelope[i] =
                 static_cast<float>((1.0 - share) * static_cast<double>(found.envelope[i]) + share * level[i]);
         }
@@ -161,7 +162,9 @@ private:
 
     static constexpr double lowest = 150.0;  // Hz
     static constexpr double highest = 290.0; // Hz
-    static constexpr double mostKept = 0.5;
+    static constexpr double mostKept = 0.25;
+    /// Of full drive: beats of the bands with the tone need the rest, or the limiter would flatten what is loud.
+    static constexpr double loudestLevel = 0.8;
 
     BandFades fades;
     std::vector<BandEdges> bands;

@@ -140,7 +140,7 @@ struct EncoderParams
 /// Streaming encoder. Encodes one sound after another; keeps its transforms and filters between them. Use: start, push
 /// any number of times, finish. Which points are worth their price depends on the loudest moment, which may be the
 /// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands. Curves are fitted
-/// in sections of ten minutes, so that with it nothing is kept but the clip. With `audible` all is kept in any case, 30
+/// in sections of ten minutes, so that with it nothing is kept but the clip. With `audible` all is kept in any case, 50
 /// MB an hour. One thread at a time, never the audio thread.
 class Encoder
 {
