@@ -35,7 +35,7 @@ public:
     {
         int level = 0;
         std::int64_t index = 0;
-        auto operator<=>(const Tile&) const = default;
+        auto operator<=>(const Tile&) const = default; // NOLINT(modernize-use-nullptr): its 0 is not a pointer
 
         [[nodiscard]] double hop() const noexcept { return std::ldexp(baseHop, -level); }
         [[nodiscard]] TimeRange range() const noexcept

@@ -132,16 +132,16 @@ private:
             scale = 4.0 / (sum * sum); // a sinusoid of amplitude 1 has power 1
         }
 
-        void transform(std::span<const float> samples, std::int64_t centre)
+        void transform(std::span<const float> sound, std::int64_t centre)
         {
             const auto size = static_cast<std::int64_t>(frame.size());
             const std::int64_t from = centre - size / 2;
-            const auto end = static_cast<std::int64_t>(samples.size());
+            const auto end = static_cast<std::int64_t>(sound.size());
             for (std::int64_t i = 0; i < size; ++i)
             {
                 const bool inside = from + i >= 0 && from + i < end;
                 const auto at = static_cast<std::size_t>(i);
-                frame[at] = inside ? window[at] * samples[static_cast<std::size_t>(from + i)] : 0.0f;
+                frame[at] = inside ? window[at] * sound[static_cast<std::size_t>(from + i)] : 0.0f;
             }
             fft.forward(frame, spectrum);
             for (std::size_t k = 0; k < powers.size(); ++k)

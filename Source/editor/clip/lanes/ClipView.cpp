@@ -337,7 +337,7 @@ void ClipView::marquee(PlotLane& from, const juce::MouseEvent& event, bool over)
             clipSelection.select(beforeMarquee);
         }
         else if (!event.mods.isPopupMenu())
-            transport.setPlayhead(viewState.axis().timeAt(here.position.x - static_cast<float>(laneHeadWidth)));
+            transport.setPlayhead(viewState.axis().timeAt(static_cast<double>(here.position.x) - laneHeadWidth));
         return;
     }
     juce::ignoreUnused(from);

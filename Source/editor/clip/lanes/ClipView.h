@@ -57,7 +57,7 @@ private:
         void mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details) override
         {
             if (event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY))
-                juce::Component::mouseWheelMove(event, details);
+                juce::Component::mouseWheelMove(event, details); // NOLINT(bugprone-parent-virtual-call): to the parent
             else
                 juce::Viewport::mouseWheelMove(event, details);
         }
