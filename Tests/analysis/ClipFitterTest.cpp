@@ -202,7 +202,7 @@ TEST_CASE("Clips of a mixed sound are what they were, whatever the encoder is to
     pin("sensitive", sensitive, 2);
 }
 
-TEST_CASE("The record of an encoder has what is not the default", "[analysis][encoder]")
+TEST_CASE("The record of an encoder has what is not the default, and what older clips have not", "[analysis][encoder]")
 {
     const auto names = [](const EncoderParams& params)
     {
@@ -211,18 +211,18 @@ TEST_CASE("The record of an encoder has what is not the default", "[analysis][en
             all += parameter.name + " ";
         return all;
     };
-    CHECK(names({}) == "method bands breakpoints quantise ");
+    CHECK(names({}) == "method bands breakpoints quantise audible ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.lowFrequency = 31.0; })) ==
-          "method bands breakpoints quantise low ");
+          "method bands breakpoints quantise low audible ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.highFrequency = 999.0; })) ==
-          "method bands breakpoints quantise high ");
+          "method bands breakpoints quantise high audible ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.spacing = BandSpacing::linear; })) ==
-          "method bands breakpoints quantise spacing ");
+          "method bands breakpoints quantise spacing audible ");
     CHECK(names(encoderWith([](EncoderParams& p) { p.normalise = false; })) ==
-          "method bands breakpoints quantise normalise ");
+          "method bands breakpoints quantise audible normalise ");
     EncoderParams params;
     params.onsets.sensitivity = 2.0;
-    CHECK(names(params) == "method bands breakpoints quantise sensitivity ");
+    CHECK(names(params) == "method bands breakpoints quantise sensitivity audible ");
     CHECK(params.bands == 12);
     CHECK(params.lowFrequency == 30.0);
     CHECK(params.highFrequency == 1000.0);

@@ -130,8 +130,7 @@ struct EncoderParams
         record.push_back({"spacing", std::string("linear")});
     if (params.onsets.sensitivity != usual.onsets.sensitivity)
         record.push_back({"sensitivity", params.onsets.sensitivity});
-    if (params.audible != usual.audible)
-        record.push_back({"audible", params.audible});
+    record.push_back({"audible", params.audible}); // always: clips without it are from before there was such a thing
     if (params.normalise != usual.normalise)
         record.push_back({"normalise", params.normalise});
     return record;
