@@ -5,6 +5,7 @@
 #include <pacini/realtime/CarrierVoice.h>
 #include <pacini/realtime/DirectPath.h>
 #include <pacini/realtime/DriveStage.h>
+#include <pacini/realtime/HeardVoice.h>
 #include <pacini/realtime/HighBandVoice.h>
 
 #include <array>
@@ -86,6 +87,18 @@ TEST_CASE("in silence no part of the translator computes with denormal numbers",
             voice.aim(1.0, 1.0, 0.03);
             voice.process(in, out, 0);
             voice.flush();
+        }));
+
+    HeardVoice heard;
+    heard.design(5.0, 2000.0, quietRate);
+    heard.jump(1.0);
+    CHECK_FALSE(stillDenormal(
+        [&](std::span<const double> in)
+        {
+            std::array<double, controlHop> out{};
+            heard.aim(1.0, 1.0, 1.0);
+            heard.process(in, in, out, 0);
+            heard.flush();
         }));
 }
 

@@ -267,22 +267,25 @@ TEST_CASE("flattening widens the range that an actuator reaches", "[realtime]")
 TEST_CASE("the plan of parameters names what is muted or off", "[realtime]")
 {
     const TranslatorDesign design = designTranslator({}, 48000.0);
-    TranslatorParams params;
+    constexpr TranslatorParams everything{.audible = 1.0};
+    TranslatorParams params = everything;
     CHECK(translatorPlan(design, params) == design.plan);
     params.rumble.muted = true;
     CHECK(reasonFor(translatorPlan(design, params), "rumble") == "is muted");
-    params = {};
+    params = everything;
     params.texture.muted = true;
     CHECK(reasonFor(translatorPlan(design, params), "texture") == "is muted");
-    params = {};
+    params = everything;
     params.transients.muted = true;
     CHECK(reasonFor(translatorPlan(design, params), "transients") == "are muted");
-    params = {};
+    params = everything;
     params.brightness = -60.0;
     CHECK(reasonFor(translatorPlan(design, params), "brightness") == "is off");
     params.brightness = -59.9;
     CHECK(translatorPlan(design, params).size() == design.plan.size());
     CHECK(lowestBrightness == -60.0);
+    params.audible = 0.0;
+    CHECK(reasonFor(translatorPlan(design, params), "audible") == "is off");
 }
 
 TEST_CASE("live parameters begin with what is documented", "[realtime]")

@@ -97,7 +97,7 @@ EngineResult engineResult(const TranslatorSetup& setup, const TranslatorParams& 
         const std::size_t n =
             std::min<std::size_t>(std::array<std::size_t, 4>{5, 64, 1, 133}[piece++ % 4], out.size() - done);
         const std::size_t made =
-            engine.process(std::span(sound.frames).subspan(done, n), std::span(sound.peaks).subspan(done, n),
+            engine.process(std::span(sound.frames).subspan(done, n), std::span(sound.peaks).subspan(done, n), {},
                            std::span(out).subspan(done, n), onEvent);
         if (!between)
             REQUIRE(made == n);
@@ -280,7 +280,7 @@ TEST_CASE("a reset engine is a new one", "[realtime]")
                 heard.push_back(static_cast<double>(frame));
                 heard.push_back(level);
             };
-            REQUIRE(engine.process(std::span(sound.frames).first(frames), std::span(sound.peaks).first(frames), out,
+            REQUIRE(engine.process(std::span(sound.frames).first(frames), std::span(sound.peaks).first(frames), {}, out,
                                    onEvent) == frames);
             heard.insert(heard.end(), out.begin(), out.end());
             for (std::size_t k = 0; k < design.bands.size(); ++k)
@@ -326,7 +326,7 @@ TEST_CASE("an engine that takes another design begins with the gains that belong
         const std::size_t begin = 4200, frames = 2400; // noise at first, of all that is heard
         std::vector<float> out(frames);
         CHECK(engine.process(std::span(sound.frames).subspan(begin, frames),
-                             std::span(sound.peaks).subspan(begin, frames), out,
+                             std::span(sound.peaks).subspan(begin, frames), {}, out,
                              [](std::uint64_t, double) {}) == frames);
         return out;
     };
@@ -341,7 +341,7 @@ TEST_CASE("an engine that takes another design begins with the gains that belong
         engine.setParams(params);
         engine.adopt(*before);
         std::vector<float> silence(40 * controlHop), out(silence.size());
-        CHECK(engine.process(silence, silence, out, [](std::uint64_t, double) {}) == out.size());
+        CHECK(engine.process(silence, silence, {}, out, [](std::uint64_t, double) {}) == out.size());
         engine.adopt(plain);
         CHECK(play(engine) == play(fresh));
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -265,6 +266,58 @@ TEST_CASE("what is too high for the skin is felt as a tone of 200 Hz, and only t
     CHECK(at200(90.0, -6.0) < 1e-3);
 }
 
+TEST_CASE("what is heard above the range of touch is felt as strongly as it is loud, at every rate", "[realtime]")
+{
+    for (const double fs : {22050.0, 44100.0, 48000.0, 192000.0})
+    {
+        CAPTURE(fs);
+        const auto frames = static_cast<std::size_t>(2.0 * fs);
+        TranslatorParams params;
+        params.transients.muted = true;
+        const auto level = [&](double f, double amplitude, double audible)
+        {
+            params.audible = audible;
+            const auto out = translated({}, params, fs, sine(frames, f, fs, amplitude));
+            return std::numbers::sqrt2 * rms(std::span<const float>(out).last(frames / 2));
+        };
+        // Of 7 kHz nothing passes the range of touch; 12 kHz is a multiple of the inner rate of 48 kHz.
+        for (const double f : {7000.0, 9000.0, 12000.0})
+            if (f < 0.45 * fs)
+            {
+                CAPTURE(f);
+                CHECK(level(f, 0.5, 0.0) < 1e-3);
+                for (const double amplitude : {0.5, 0.05})
+                {
+                    const double loudness = 1.34 * std::pow(0.5 * amplitude * amplitude, 0.3);
+                    CHECK(level(f, amplitude, 1.0) == Approx(0.8 * (loudness - 0.03) / 0.97).epsilon(0.06));
+                }
+            }
+        CHECK(level(200.0, 0.5, 1.0) == level(200.0, 0.5, 0.0));
+        // A muted texture mutes it too, and leaves the rumble as it is.
+        params.texture.muted = true;
+        CHECK(level(9000.0, 0.5, 1.0) < 1e-3);
+        params.texture.muted = false;
+    }
+}
+
+TEST_CASE("where texture is muted the rumble below it does not yield to what is heard above", "[realtime]")
+{
+    const double fs = 48000.0;
+    auto in = sine(96000, 50.0, fs, 0.4);
+    const auto bright = sine(96000, 5000.0, fs, 0.4);
+    std::transform(in.begin(), in.end(), bright.begin(), in.begin(), std::plus<>());
+    TranslatorParams params;
+    params.texture.muted = true;
+    const auto alone = translated({}, params, fs, in);
+    params.audible = 1.0;
+    CHECK(translated({}, params, fs, in) == alone);
+    params.texture.muted = false;
+    const auto blended = translated({}, params, fs, in);
+    const auto steady = std::span<const float>(blended).last(48000);
+    const auto before = std::span<const float>(alone).last(48000);
+    CHECK(std::abs(spectrumAt(steady, 50.0, fs)) == Approx(0.25 * std::abs(spectrumAt(before, 50.0, fs))).epsilon(0.1));
+}
+
 TEST_CASE("events alone are felt when all else is muted", "[realtime]")
 {
     const double fs = 48000.0;
@@ -376,7 +429,7 @@ TEST_CASE("parameters that jump leave no jump in the drive", "[realtime]")
     const auto in = sine(static_cast<std::size_t>(2.0 * fs), 100.0, fs, 0.4);
     TranslatorParams base;
     base.transients.muted = true;
-    std::vector<TranslatorParams> jumps(10, base);
+    std::vector<TranslatorParams> jumps(11, base);
     jumps[1].intensity = -60.0;
     jumps[2].rumble.muted = true;
     jumps[3].texture.muted = true;
@@ -386,6 +439,7 @@ TEST_CASE("parameters that jump leave no jump in the drive", "[realtime]")
     jumps[7].bypass = true;
     jumps[8].gateThreshold = 0.0;
     jumps[9].brightness = 12.0;
+    jumps[10].audible = 1.0;
     // A 100 Hz sine of 0.4 moves by 0.0052 in a frame, its own carriers by as much; a click would be 0.1 and more.
     const double steepest = 0.4 * 2.0 * std::numbers::pi * 150.0 / fs;
     for (std::size_t j = 1; j < jumps.size(); ++j)
@@ -434,9 +488,10 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     };
     for (const auto& [value, low, high] :
          {Range{&TranslatorParams::inputGain, -60.0, 48.0}, Range{&TranslatorParams::intensity, -60.0, 24.0},
-          Range{&TranslatorParams::brightness, -60.0, 12.0}, Range{&TranslatorParams::transposition, -48.0, 48.0},
-          Range{&TranslatorParams::direct, 0.0, 1.0}, Range{&TranslatorParams::attack, 0.0, 200.0},
-          Range{&TranslatorParams::release, 0.0, 1000.0}, Range{&TranslatorParams::transientSensitivity, 0.0, 1.0},
+          Range{&TranslatorParams::brightness, -60.0, 12.0}, Range{&TranslatorParams::audible, 0.0, 1.0},
+          Range{&TranslatorParams::transposition, -48.0, 48.0}, Range{&TranslatorParams::direct, 0.0, 1.0},
+          Range{&TranslatorParams::attack, 0.0, 200.0}, Range{&TranslatorParams::release, 0.0, 1000.0},
+          Range{&TranslatorParams::transientSensitivity, 0.0, 1.0},
           Range{&TranslatorParams::transientSharpness, -1.0, 1.0}, Range{&TranslatorParams::gateThreshold, -120.0, 0.0},
           Range{&TranslatorParams::gateRelease, 1.0, 2000.0}})
     {
@@ -483,7 +538,7 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
     };
     TranslatorParams bad;
     for (double* value : {&bad.inputGain, &bad.intensity, &bad.rumble.level, &bad.texture.level, &bad.transients.level,
-                          &bad.brightness, &bad.transposition, &bad.direct, &bad.attack, &bad.release,
+                          &bad.brightness, &bad.audible, &bad.transposition, &bad.direct, &bad.attack, &bad.release,
                           &bad.transientSensitivity, &bad.transientSharpness, &bad.gateThreshold, &bad.gateRelease})
         *value = value == &bad.attack ? inf : nan;
     CHECK(played([&] { return bad; }) == played([&] { return before; }));
@@ -500,6 +555,7 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
             p.intensity = any();
             p.rumble.level = any();
             p.brightness = any();
+            p.audible = any();
             p.transposition = any();
             p.direct = any();
             p.attack = any();
@@ -516,7 +572,12 @@ TEST_CASE("parameters outside their ranges count as the nearest end, those that 
 TEST_CASE("blocks of any length work, longer ones than prepared too", "[realtime]")
 {
     const auto in = noise(200000, 6);
+    const double audible = GENERATE(0.0, 1.0);
     Translator a, b;
+    TranslatorParams params;
+    params.audible = audible;
+    a.setParams(params);
+    b.setParams(params);
     a.prepare({48000.0, 64});
     b.prepare({48000.0, 64});
     const auto expected = runInBlocks(a, in, 64);
@@ -542,6 +603,7 @@ TEST_CASE("no parameter or set-up touches the heap on the audio thread", "[realt
     {
         params.direct = static_cast<double>(i % 3) / 2.0;
         params.transposition = static_cast<double>(i % 5);
+        params.audible = static_cast<double>(i % 4) / 3.0;
         params.bypass = i % 7 == 0;
         translator.setParams(params);
         translator.process(std::span(in).subspan(i, 512), std::span(out).subspan(i, 512));

@@ -197,6 +197,41 @@ TEST_CASE("a whole decimator takes what is not finite for 0, limits to 100, and 
     }
 }
 
+TEST_CASE("what the filter removes has its power on demand, tones at multiples of the inner rate too", "[realtime]")
+{
+    for (const std::size_t factor : {2u, 7u, 8u, 16u, 32u})
+    {
+        const double fs = 6000.0 * static_cast<double>(factor);
+        const auto powerOf = [&](const std::vector<float>& x, std::size_t piece)
+        {
+            WholeDecimator decimator(factor, fs, 1000.0);
+            double sum = 0.0;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < x.size(); i += piece)
+            {
+                const std::size_t n = std::min(piece, x.size() - i);
+                const std::size_t made = decimator.framesFor(n);
+                std::vector<float> frames(made), peaks(made), highs(made);
+                decimator.process(std::span(x).subspan(i, n), frames, peaks, highs);
+                for (std::size_t k = 0; k < made; ++k)
+                    if (++count > 100)
+                        sum += static_cast<double>(highs[k]) * static_cast<double>(highs[k]);
+            }
+            return sum / static_cast<double>(count - 100);
+        };
+        for (const double f : {100.0, 900.0, 6000.0, 12000.0, 12003.0, 17000.0, 36000.0})
+        {
+            if (f > 0.45 * fs)
+                continue;
+            CAPTURE(factor, f);
+            const auto x = test::sine(static_cast<std::size_t>(0.5 * fs), f, fs, 1.0);
+            const double power = powerOf(x, 500);
+            CHECK(power == (f < 1000.0 ? Approx(0.0).margin(2e-5) : Approx(0.5).epsilon(0.03)));
+            CHECK(powerOf(x, 64) == Approx(power));
+        }
+    }
+}
+
 TEST_CASE("a reset whole decimator is a new one, and processing makes no heap traffic", "[realtime]")
 {
     const auto x = decimatorNoise(5000);

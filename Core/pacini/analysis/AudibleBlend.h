@@ -54,7 +54,7 @@ public:
         for (std::size_t i = 0; i < heard.size(); ++i)
         {
             const auto share = static_cast<double>(found.heardShare[i]);
-            level[i] = loudestLevel * peak * static_cast<double>(heard[i].loudness) / loudest;
+            level[i] = loudestLevel * peak * felt(static_cast<double>(heard[i].loudness) / loudest);
             found.envelope[i] =
                 static_cast<float>((1.0 - share) * static_cast<double>(found.envelope[i]) + share * level[i]);
         }
@@ -64,6 +64,12 @@ public:
     }
 
 private:
+    /// Of the loudest, from a share of it in loudness. What is hardly heard beside it, as hiss in pauses, is not felt.
+    [[nodiscard]] static double felt(double loudness) noexcept
+    {
+        return std::max(0.0, loudness - unheard) / (1.0 - unheard);
+    }
+
     /// How far the loudness takes over at each moment, by where the power lies before and after it.
     void findShares(std::span<const HeardFrame> heard, double strongest, std::vector<float>& share) const
     {
@@ -163,6 +169,7 @@ private:
     static constexpr double lowest = 150.0;  // Hz
     static constexpr double highest = 290.0; // Hz
     static constexpr double mostKept = 0.25;
+    static constexpr double unheard = 0.03; // of the loudest: white noise 70 dB below the peak of knocks
     /// Of full drive: beats of the bands with the tone need the rest, or the limiter would flatten what is loud.
     static constexpr double loudestLevel = 0.8;
 

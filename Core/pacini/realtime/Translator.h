@@ -53,6 +53,7 @@ public:
         const std::size_t frames = longestPiece / factor + 2;
         inFrames.assign(frames, 0.0f);
         peaks.assign(frames, 0.0f);
+        highs.assign(frames, 0.0f);
         outFrames.assign(frames, 0.0f);
         ready.assign((frames + 1) * factor, 0.0f);
         dry.assign(latency + longestPiece, 0.0f);
@@ -173,9 +174,10 @@ private:
         const auto x = std::span(inFrames).first(frames);
         const auto p = std::span(peaks).first(frames);
         const auto y = std::span(outFrames).first(frames);
-        decimator.process(in, x, p);
+        const auto h = std::span(highs).first(engine.wantsHighs() ? frames : 0);
+        decimator.process(in, x, p, h);
         keepDry(in);
-        translate(x, p, y);
+        translate(x, p, h, y);
 
         const std::size_t factor = decimator.factor();
         raise(y, std::span(ready).subspan(leftOver, frames * factor));
@@ -194,7 +196,8 @@ private:
                 sample = sample > 1.0f ? 1.0f : (sample < -1.0f ? -1.0f : sample);
     }
 
-    void translate(std::span<const float> x, std::span<const float> p, std::span<float> y) noexcept
+    void translate(std::span<const float> x, std::span<const float> p, std::span<const float> h,
+                   std::span<float> y) noexcept
     {
         const auto onEvent = [this](std::uint64_t frame, double level)
         {
@@ -203,7 +206,8 @@ private:
         for (std::size_t done = 0; done < x.size();)
         {
             engine.setFade(designs->waiting());
-            done += engine.process(x.subspan(done), p.subspan(done), y.subspan(done), onEvent);
+            done += engine.process(x.subspan(done), p.subspan(done), h.subspan(std::min(done, h.size())),
+                                   y.subspan(done), onEvent);
             if (engine.faded())
                 takeDesign();
         }
@@ -251,7 +255,7 @@ private:
     WholeDecimator decimator;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
     Protection protection;
-    std::vector<float> inFrames, peaks, outFrames;
+    std::vector<float> inFrames, peaks, highs, outFrames;
     std::vector<float> ready; // drive that is made but not given out
     std::vector<float> dry;
     std::size_t dryFrames = 0;

@@ -81,6 +81,7 @@ struct TranslatorDesign
     double scale = 1.0;               ///< room for overdrive
     std::optional<ProtectionParams> protection;
     double brightFrequency = 0.0; ///< Hz at which sounds too high for the skin are felt; 0: there is no need
+    bool playsHeard = true;       ///< the actuator has a voice for what is heard above the range of touch
     double feltRange = 60.0;      ///< dB between full drive and the weakest drive that is felt
     TranslatorPlan plan;
 };
@@ -252,6 +253,9 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
     detail::limitRange(design, anyWaveform);
     detail::designBands(design, anyWaveform);
     detail::designBrightness(design, anyWaveform);
+    design.playsHeard = anyWaveform || design.motor;
+    if (!design.playsHeard)
+        design.plan.push_back({"audible", "the actuator has too few voices"});
     return design;
 }
 
@@ -265,6 +269,8 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
         plan.push_back({"texture", "is muted"});
     if (!(params.brightness > lowestBrightness))
         plan.push_back({"brightness", "is off"});
+    if (design.playsHeard && !(params.audible > 0.0))
+        plan.push_back({"audible", "is off"});
     if (params.transients.muted)
         plan.push_back({"transients", "are muted"});
     return plan;

@@ -4,6 +4,7 @@
 
 #include <pacini/realtime/CarrierSection.h>
 #include <pacini/realtime/DriveStage.h>
+#include <pacini/realtime/HeardVoice.h>
 #include <pacini/realtime/HighBandVoice.h>
 #include <pacini/realtime/LiveOnsetDetector.h>
 #include <pacini/realtime/TranslatorDesign.h>
@@ -126,6 +127,7 @@ public:
             watch.prepare(fs);
             bright.design(fs);
         }
+        heardVoice.design(wanted.lowest, wanted.highest, fs);
         gainShare = hopShare(0.005, fs);
         levelShare = hopShare(0.030, fs);
         peakDecay = 1.0 - hopShare(0.020, fs);
@@ -133,6 +135,7 @@ public:
         setParams(params);
         direct.jump(rumble * directShare(), texture * directShare());
         bright.jump(brightGain());
+        heardVoice.jump(audibleShare());
     }
 
     /// Linear gains and the like of clamped parameters. [audio]
@@ -177,12 +180,16 @@ public:
     [[nodiscard]] bool faded() const noexcept { return stage.faded() && framesIntoHop == 0; }
     void setFade(bool out) noexcept { stage.setFade(out); }
 
-    /// All spans of one length: band-limited frames and full-band peaks in, drive out. `onEvent(frame, level)` is
+    /// Whether process() listens to what lies above the frames.
+    [[nodiscard]] bool wantsHighs() const noexcept { return params.audible > 0.0 || !heardVoice.silent(); }
+
+    /// All spans of one length: band-limited frames, full-band peaks and, where they are wanted and else none, samples
+    /// of what lies above the frames in, drive out. `onEvent(frame, level)` is
     /// called for every event, with the frame since reset. Stops early, where the design may be changed, if `out` has
     /// faded; returns the number of frames done.
     template <typename OnEvent>
-    std::size_t process(std::span<const float> in, std::span<const float> peaks, std::span<float> out,
-                        OnEvent&& onEvent) noexcept
+    std::size_t process(std::span<const float> in, std::span<const float> peaks, std::span<const float> highs,
+                        std::span<float> out, OnEvent&& onEvent) noexcept
     {
         std::size_t done = 0;
         while (done < in.size())
@@ -190,7 +197,8 @@ public:
             if (framesIntoHop == 0)
                 beginHop();
             const std::size_t n = std::min(in.size() - done, controlHop - framesIntoHop);
-            run(in.subspan(done, n), peaks.subspan(done, n), out.subspan(done, n), onEvent);
+            run(in.subspan(done, n), peaks.subspan(done, n), highs.empty() ? highs : highs.subspan(done, n),
+                out.subspan(done, n), onEvent);
             done += n;
             frame += n;
             framesIntoHop = (framesIntoHop + n) % controlHop;
@@ -217,6 +225,7 @@ private:
         direct.reset();
         carriers.reset();
         bright.reset();
+        heardVoice.reset();
         pulses.reset();
         stage.reset();
         bandPowers = {};
@@ -234,6 +243,7 @@ private:
         ratio = transposition;
         direct.jump(rumble * directShare(), texture * directShare());
         bright.jump(brightGain());
+        heardVoice.jump(audibleShare());
     }
 
     /// How much of a band's own signal is played where the actuator can show it.
@@ -247,6 +257,11 @@ private:
     [[nodiscard]] double brightGain() const noexcept
     {
         return design->brightFrequency > 0.0 ? texture * brightness : 0.0;
+    }
+
+    [[nodiscard]] double audibleShare() const noexcept
+    {
+        return design->playsHeard && texture > 0.0 ? params.audible : 0.0;
     }
 
     void beginHop() noexcept
@@ -267,17 +282,20 @@ private:
             direct.reset();
             carriers.reset();
             bright.reset();
+            heardVoice.reset();
             stage.rest();
             bandPowers = {};
         }
         loudest = 0.0;
 
-        direct.aim(rumble * directShare(), texture * directShare(), gainShare);
+        heardVoice.aim(audibleShare(), texture, gainShare);
+        const double others = heardVoice.bandsGain();
+        direct.aim(others * rumble * directShare(), others * texture * directShare(), gainShare);
         std::array<double, maxTranslatorBands> carrierGains{};
         for (std::size_t k = 0; k < design->bands.size(); ++k)
         {
             const TranslatorBand& band = design->bands[k];
-            const double role = band.rumble ? rumble : texture;
+            const double role = others * (band.rumble ? rumble : texture);
             if (!design->motor)
                 carrierGains[k] = role * (band.shown ? 1.0 - directShare() : 1.0);
             const double power = 2.0 * meter.takePower(k) / static_cast<double>(controlHop);
@@ -285,7 +303,7 @@ private:
             flushTiny(bandPowers[k]);
         }
         carriers.aim(carrierGains, ratio, attackShare, releaseShare, directShare() == 0.0 || !design->anyDirect);
-        bright.aim(brightGain(), gainShare, design->brightFrequency / rate);
+        bright.aim((1.0 - heardVoice.share()) * brightGain(), gainShare, design->brightFrequency / rate);
         playedEnergy = 0.0;
         playedPeak *= peakDecay;
         heardPeak *= peakDecay;
@@ -295,14 +313,16 @@ private:
         direct.flush();
         carriers.flush();
         bright.flush();
+        heardVoice.flush();
         watch.flush();
     }
 
     template <typename OnEvent>
-    void run(std::span<const float> in, std::span<const float> peaks, std::span<float> out, OnEvent&& onEvent) noexcept
+    void run(std::span<const float> in, std::span<const float> peaks, std::span<const float> highs,
+             std::span<float> out, OnEvent&& onEvent) noexcept
     {
         const std::size_t n = in.size();
-        std::array<double, controlHop> x{}, y{}, gates{};
+        std::array<double, controlHop> x{}, y{}, h{}, gates{};
         double heard = 0.0;
         std::size_t eventAt = n;
         HeardEvent event;
@@ -311,6 +331,8 @@ private:
             const double g = input.at(framesIntoHop + i);
             x[i] = g * static_cast<double>(in[i]);
             const double peak = g * static_cast<double>(peaks[i]);
+            if (!highs.empty())
+                h[i] = g * static_cast<double>(highs[i]);
             gates[i] = gate.tick(peak);
             heard = std::max({heard, std::abs(x[i]), peak});
             if (watch.tick(peak, threshold, event) && gates[i] > 0.0)
@@ -331,6 +353,8 @@ private:
         carriers.process(xs, ys, framesIntoHop);
         if (!bright.silent())
             bright.process(xs, ys, framesIntoHop);
+        if (!heardVoice.silent())
+            heardVoice.process(xs, std::span<const double>(h).first(highs.size()), ys, framesIntoHop);
         for (std::size_t i = 0; i < n; ++i)
         {
             heardPeak = std::max(heardPeak, std::abs(x[i]));
@@ -339,6 +363,7 @@ private:
             out[i] = static_cast<float>(y[i]);
             if (i == eventAt)
             {
+                heardVoice.noteEvent(event);
                 onEvent(frame + i - std::min<std::uint64_t>(frame + i, watch.delayFrames()), event.amplitude);
                 beginPulse(event, i);
             }
@@ -383,6 +408,7 @@ private:
     DirectPath direct;
     CarrierSection carriers;
     HighBandVoice bright;
+    HeardVoice heardVoice;
     DriveStage stage;
 
     HopRamp input;

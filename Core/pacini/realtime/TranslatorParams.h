@@ -30,6 +30,8 @@ struct TranslatorParams
     RoleParams texture{};       ///< the other bands
     RoleParams transients{};    ///< events: pulses that top what the bands give them
     double brightness = -6.0;   ///< dB, -60 (off) to 12: of what is too high for the skin, felt as a tone of 200 Hz
+    double audible = 0.0;       ///< 0 to 1: how far loudness drives what is heard above the range of touch; music
+                                ///< keeps its beat at 0
     double transposition = 0.0; ///< semitones, -48 to 48; other than 0 everything is played by carriers
     double direct = 1.0;        ///< 0 to 1: share of a band's own signal where the actuator can show it, against its
                                 ///< carrier
@@ -56,6 +58,7 @@ struct TranslatorParams
     limit(p.inputGain, -60.0, 48.0, before.inputGain);
     limit(p.intensity, -60.0, 24.0, before.intensity);
     limit(p.brightness, lowestBrightness, 12.0, before.brightness);
+    limit(p.audible, 0.0, 1.0, before.audible);
     limit(p.transposition, -48.0, 48.0, before.transposition);
     limit(p.direct, 0.0, 1.0, before.direct);
     limit(p.attack, 0.0, 200.0, before.attack);

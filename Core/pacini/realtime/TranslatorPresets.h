@@ -31,6 +31,7 @@ struct TranslatorPreset
          {.intensity = 6.0,
           .rumble = {3.0},
           .transients = {4.0},
+          .audible = 1.0,
           .transientSensitivity = 0.6,
           .transientSharpness = 0.2,
           .gateThreshold = -60.0}},

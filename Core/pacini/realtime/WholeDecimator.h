@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -21,7 +23,10 @@ namespace pacini
 /// `pass` and the inner Nyquist frequency it may fold, so that the filter can be short: its delay is latencyFrames()
 /// input frames, 0.4 ms at 6 kHz. Beside it stands the peak of all input since the frame before, which also tells of
 /// what the filter removes. Frame k is made when input k * factor arrives: an interpolator that starts there needs no
-/// further delay. Not finite input counts as 0, input is limited to +-100.
+/// further delay. On demand it also samples what the filter removes, anew for every second frame: enough for its
+/// power. Those samples lie on all phases of the frames in turn, so that tones at multiples of the inner rate have
+/// theirs too.
+/// Not finite input counts as 0, input is limited to +-100.
 class WholeDecimator
 {
 public:
@@ -36,7 +41,9 @@ public:
         coefficients.assign(1, 1.0f);
         if (ratio > 1)
             design(fs, pass);
-        line.assign(coefficients.size() - 1 + std::max<std::size_t>(4096, 8 * coefficients.size()), 0.0f);
+        kept = coefficients.size() - 1 + ratio - 1;
+        phaseStep = stepThrough(ratio);
+        line.assign(kept + std::max<std::size_t>(4096, 8 * coefficients.size()), 0.0f);
         reset();
     }
 
@@ -46,10 +53,13 @@ public:
     void reset() noexcept
     {
         std::fill(line.begin(), line.end(), 0.0f);
-        end = coefficients.size() - 1;
+        end = kept;
         untilFrame = 0;
+        phase = 0;
+        high = 0.0f;
+        fresh = true;
         peak = 0.0f;
-        quiet = coefficients.size();
+        quiet = kept + 1;
     }
 
     /// How many frames the next `inputs` frames of input complete.
@@ -58,15 +68,17 @@ public:
         return inputs > untilFrame ? (inputs - untilFrame - 1) / ratio + 1 : 0;
     }
 
-    /// Takes all of `in`, at most 1024 frames; `frames` and `peaks` have framesFor(in.size()) elements.
-    void process(std::span<const float> in, std::span<float> frames, std::span<float> peaks) noexcept
+    /// Takes all of `in`, at most 1024 frames; `frames`, `peaks` and, where wanted, `highs` have framesFor(in.size())
+    /// elements.
+    void process(std::span<const float> in, std::span<float> frames, std::span<float> peaks,
+                 std::span<float> highs = {}) noexcept
     {
         const std::size_t taps = coefficients.size();
         if (end + in.size() > line.size())
         {
-            std::copy(line.begin() + static_cast<std::ptrdiff_t>(end - (taps - 1)),
+            std::copy(line.begin() + static_cast<std::ptrdiff_t>(end - kept),
                       line.begin() + static_cast<std::ptrdiff_t>(end), line.begin());
-            end = taps - 1;
+            end = kept;
         }
         float* to = line.data() + end;
         for (std::size_t i = 0; i < in.size(); ++i)
@@ -81,6 +93,8 @@ public:
             notePeak(to + done, until - done);
             // When the whole filter lies on zeros its output is one.
             frames[k] = quiet >= taps ? 0.0f : dotProduct(to + until - taps, coefficients.data(), taps);
+            if (!highs.empty())
+                highs[k] = nextHigh(to + until);
             peaks[k] = peak;
             peak = 0.0f;
             done = until;
@@ -97,8 +111,31 @@ private:
         float largest = 0.0f;
         for (std::size_t i = 0; i < count; ++i)
             largest = std::abs(x[i]) > largest ? std::abs(x[i]) : largest;
-        quiet = largest > 0.0f ? 0 : std::min(quiet + count, coefficients.size());
+        quiet = largest > 0.0f ? 0 : std::min(quiet + count, kept + 1);
         peak = std::max(peak, largest);
+    }
+
+    /// What the filter removes, at one of the newest `ratio` inputs before `until`.
+    float nextHigh(const float* until) noexcept
+    {
+        if (std::exchange(fresh, !fresh))
+        {
+            const std::size_t taps = coefficients.size();
+            const float* last = until - phase;
+            phase = (phase + phaseStep) % ratio;
+            high = quiet > kept ? 0.0f
+                                : *(last - 1 - latencyFrames()) - dotProduct(last - taps, coefficients.data(), taps);
+        }
+        return high;
+    }
+
+    /// A step that comes through all of `count` phases, far from one to the next.
+    [[nodiscard]] static std::size_t stepThrough(std::size_t count)
+    {
+        std::size_t step = std::max<std::size_t>(1, (3 * count + 4) / 8);
+        while (std::gcd(step, count) > 1)
+            ++step;
+        return step % count;
     }
 
     void design(double fs, double pass)
@@ -118,9 +155,14 @@ private:
 
     std::size_t ratio;
     std::vector<float> coefficients; // symmetric
-    std::vector<float> line;         // the last taps - 1 inputs and room
+    std::size_t kept = 0;            // inputs that are still needed
+    std::vector<float> line;         // those and room
     std::size_t end = 0;             // of the inputs in the line
     std::size_t untilFrame = 0;      // inputs before the one that completes a frame
+    std::size_t phase = 0;           // of the next sample of what the filter removes
+    std::size_t phaseStep = 1;
+    float high = 0.0f;
+    bool fresh = true; // the next frame gets another
     float peak = 0.0f;
     std::size_t quiet = 0; // newest inputs that are 0, as far as they matter
 };

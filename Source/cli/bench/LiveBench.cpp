@@ -6,6 +6,7 @@
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
+#include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/filters/Resampler.h>
 #include <pacini/realtime/Translator.h>
 
@@ -30,6 +31,7 @@ struct LiveVariant
     std::string profile;   ///< of a shipped one, or empty
     int rate = 48000;      ///< Hz
     std::size_t block = 64;
+    double audible = 0.0;
 };
 
 std::vector<LiveVariant> liveVariants()
@@ -45,6 +47,8 @@ std::vector<LiveVariant> liveVariants()
             if (rate != 48000 || block != 64)
                 all.push_back({6, false, {}, rate, block});
     all.push_back({6, false, "l5-wristband", 192000, 64});
+    for (const double audible : {0.25, 0.5, 0.75, 1.0})
+        all.push_back({6, false, {}, 48000, 64, audible});
     return all;
 }
 
@@ -108,8 +112,10 @@ void measureLive(const BenchSound& sound, const BenchSettings& settings, BenchTa
     HtsAnalyzer analyzer;
     const auto mono = sound.beginning(longest);
     const auto source = htsSourceFeatures(analyzer, mono, sound.sampleRate);
-    if (!source)
+    const auto heard = heardTrack(mono, sound.sampleRate);
+    if (!source || !heard)
         return;
+    TouchAnalyzer touch;
     std::vector<float> atRate;
     int rate = 0;
     for (const LiveVariant& variant : liveVariants())
@@ -134,6 +140,7 @@ void measureLive(const BenchSound& sound, const BenchSettings& settings, BenchTa
         }
         TranslatorParams params;
         params.direct = variant.carriers ? 0.0 : 1.0;
+        params.audible = variant.audible;
         Translator translator;
         translator.setSetup(setup);
         translator.prepare({static_cast<double>(rate), variant.block});
@@ -141,16 +148,18 @@ void measureLive(const BenchSound& sound, const BenchSettings& settings, BenchTa
         LiveRun live = run(translator, atRate, variant.block, settings.repeats);
         feel(live.drive, setup.profile, rate);
         const auto features = htsCandidateFeatures(analyzer, std::span<const float>(live.drive), rate);
-        if (!features)
+        const auto felt = touchTrack(touch, live.drive, rate);
+        if (!features || !felt)
             continue;
         const HtsScore score = compare(*source, *features, HtsMode::translation);
         const double duration = static_cast<double>(atRate.size()) / rate;
         const double deadline = static_cast<double>(variant.block) / rate;
         rows.add({sound.name, variant.carriers ? "carriers" : "direct",
                   variant.profile.empty() ? "none" : variant.profile, std::to_string(variant.bands),
-                  std::to_string(variant.rate), std::to_string(variant.block), duration, live.seconds,
-                  100.0 * live.slowBlock / deadline, 1000.0 * static_cast<double>(translator.latencyFrames()) / rate,
-                  score.score});
+                  std::to_string(variant.rate), std::to_string(variant.block), fmt::format("{}", variant.audible),
+                  duration, live.seconds, 100.0 * live.slowBlock / deadline,
+                  1000.0 * static_cast<double>(translator.latencyFrames()) / rate,
+                  predictedMatch(matchParts(*heard, *felt)), score.score});
     }
 }
 } // namespace
@@ -163,14 +172,18 @@ Bench liveBench()
             "signal where the actuator can show it (direct) or with sinusoids only (carriers). Load is the time of all "
             "blocks over the duration of the sound; p99 is the time that 99 of 100 blocks do not exceed, over the "
             "duration of a block. Both are the least of several runs. HTS compares the sound with the acceleration at "
-            "the skin that the profile's body model predicts (with the drive where there is none).",
+            "the skin that the profile's body model predicts (with the drive where there is none); match, a prediction "
+            "of how "
+            "well people would say that they go together, likewise.",
             columnsOf({"played", "profile", "bands"},
                       {{"rate", "Hz", Reduction::key},
                        {"block", "frames", Reduction::key},
+                       {"audible", "", Reduction::key},
                        summed("duration", "s"),
                        summed("seconds", "s"),
                        {"p99", "% of deadline"},
                        {"latency", "ms"},
+                       {"match", ""},
                        {"HTS", ""},
                        {"load", "% of a core", Reduction::ratio, "seconds", "duration", 100.0}}),
             {{"", "Likeness against load", "played", "load", "HTS", "bands", "profile", "none", false}},

@@ -37,6 +37,7 @@ enum class ParameterId : std::size_t
     gateThreshold,
     gateRelease,
     bypass,
+    audible,
     count
 };
 
@@ -149,6 +150,8 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      "How long the gate stays open"},
     {ParameterId::bypass, "bypass", 1, "Bypass", ParameterUnit::toggle, 0, 1, 0, 0, {},
      "Passes the sound through, without a haptic signal"},
+    {ParameterId::audible, "audible", 2, "Audible", ParameterUnit::percent, 0, 1, 0, 0, {},
+     "How far loudness drives what is heard above the range of touch: 100 % for effects, 0 % for music with a beat"},
 }};
 // clang-format on
 

@@ -55,6 +55,7 @@ public:
         params.texture = {(*this)[textureLevel], isOn(textureMute)};
         params.transients = {(*this)[transientLevel], isOn(transientMute)};
         params.brightness = (*this)[brightness];
+        params.audible = (*this)[audible];
         params.transposition = (*this)[transposition];
         params.direct = (*this)[direct];
         params.attack = (*this)[attack];
@@ -81,6 +82,7 @@ public:
         setRole(textureLevel, textureMute, params.texture);
         setRole(transientLevel, transientMute, params.transients);
         set(brightness, params.brightness);
+        set(audible, params.audible);
         set(transposition, params.transposition);
         set(direct, params.direct);
         set(attack, params.attack);

@@ -135,6 +135,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     roleMutes[2] = toggle(Id::transientMute, "Mute");
     intensity = slider(Id::intensity, Shape::knob);
     brightness = slider(Id::brightness, Shape::knob);
+    audible = slider(Id::audible, Shape::knob);
     transposition = slider(Id::transposition, Shape::knob);
     direct = slider(Id::direct, Shape::knob);
     attack = slider(Id::attack, Shape::knob);
@@ -388,8 +389,8 @@ void PluginWindow::resized()
         line.removeFromRight(grid);
         roleLevels[i]->setBounds(line);
     }
-    placeKnobs(card(lower, "Character"),
-               {intensity.get(), brightness.get(), transposition.get(), direct.get(), attack.get(), release.get()});
+    placeKnobs(card(lower, "Character"), {intensity.get(), brightness.get(), audible.get(), transposition.get(),
+                                          direct.get(), attack.get(), release.get()});
 
     processor.setWindowSize(getWidth(), getHeight());
 }

@@ -124,6 +124,7 @@ TEST_CASE("The states of version 1 load for ever")
     CHECK(values[ParameterId::transientSharpness] == Approx(-0.3));
     CHECK(values[ParameterId::gateThreshold] == Approx(-60.0));
     CHECK(values[ParameterId::gateRelease] == Approx(90.0));
+    CHECK(values[ParameterId::audible] == 0.0);
     CHECK(plugin.actuatorName() == "Bench actuator");
     CHECK(plugin.getCurrentProgram() == 2);
 }
