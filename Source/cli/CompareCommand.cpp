@@ -108,6 +108,13 @@ void report(Console& console, const CompareTask& task)
                         fmt::format("lasts {:.3f} s and its reference {:.3f} s; compared over the reference's length, "
                                     "what is missing as silence",
                                     r.candidateDuration, r.duration));
+    constexpr double noticed = 20.0; // ms: rises that are less steep than those of the sound are as late
+    if (std::abs(r.matchLag) > (r.aligned ? 4.0 : noticed))
+        console.warning(task.pair.candidate.string(),
+                        fmt::format("is {:.0f} ms {} than its reference, {}", std::abs(r.matchLag),
+                                    r.matchLag > 0.0 ? "later" : "earlier",
+                                    r.aligned ? "as their lengths differ its match is that without the lag"
+                                              : "as it will be felt: its match is lower for that"));
     if (r.notFinite > 0)
         console.warning(task.pair.candidate.string(),
                         counted(r.notFinite, "sample of it or its reference was not finite and counts as silence",

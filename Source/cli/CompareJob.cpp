@@ -151,7 +151,11 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
             result.impression = feltFigures(target.felt);
             if (!source.heard.loudness.empty())
             {
-                result.match = matchParts(source.heard, target.felt);
+                // One that was made for the sound is as late as it will be felt; a recording begins when it was begun.
+                const int late = matchLag(source.heard, target.felt);
+                result.aligned = late != 0 && std::abs(result.duration - result.candidateDuration) > 0.005;
+                result.matchLag = 1000.0 * late / TouchTrack::rate;
+                result.match = matchParts(source.heard, earlier(target.felt, result.aligned ? late : 0));
                 result.matchCeiling = predictedMatch(matchParts(source.heard, source.felt));
             }
             const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;

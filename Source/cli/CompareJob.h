@@ -10,6 +10,7 @@
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/SignalMetrics.h>
 #include <pacini/evaluate/match/FeltImpression.h>
+#include <pacini/evaluate/match/MatchLag.h>
 #include <pacini/evaluate/match/MatchParts.h>
 
 #include <cstdint>
@@ -44,6 +45,8 @@ struct CompareResult
     SignalMetrics measures;
     FeltFigures impression;                 ///< of the candidate
     std::optional<MatchParts> match;        ///< empty for a silent reference
+    double matchLag = 0.0;                  ///< ms by which the candidate is late, as far as that can be told
+    bool aligned = false;                   ///< `match` is that without it: both are of different length
     double matchCeiling = 0.0;              ///< predicted match of the reference itself, played as it is
     std::optional<EventScore> events;       ///< within 25 ms; with onsets of this reference only
     std::optional<EventScore> eventsNarrow; ///< within 10 ms

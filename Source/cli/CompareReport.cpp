@@ -157,6 +157,8 @@ Json toJson(const CompareTask& task)
               {"candidateDuration", r.candidateDuration}};
     for (const Column& column : columns)
         json[column.key] = orNull(column.value(r));
+    json["matchLag"] = r.match ? Json(r.matchLag) : Json(nullptr);
+    json["matchAligned"] = r.aligned;
     json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
     json["impression"] = toJson(r.impression);
     json["htsParts"] = toJson(r.hts);

@@ -3,7 +3,6 @@
 
 #include <pacini/analysis/Encoder.h>
 #include <pacini/analysis/SoundPeak.h>
-#include <pacini/foundation/Random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,15 +24,6 @@ Clip encode(std::span<const float> interleaved, int fs, int channels = 1, const 
     for (std::size_t i = 0; i < interleaved.size(); i += block)
         encoder.push(interleaved.subspan(i, std::min(block, interleaved.size() - i)));
     return encoder.finish();
-}
-
-std::vector<float> scaledNoise(std::size_t frames, double amplitude, std::uint64_t seed)
-{
-    Random random(seed);
-    std::vector<float> x(frames);
-    for (float& v : x)
-        v = static_cast<float>(amplitude * random.uniform(-1.0, 1.0));
-    return x;
 }
 
 /// A drum: a sine that falls from 150 to 50 Hz and dies away.
@@ -79,7 +69,7 @@ TEST_CASE("No curve goes on after the sound, however it ends", "[analysis]")
     for (std::size_t frames = 20000; frames < 22000; frames += 97)
     {
         CAPTURE(frames);
-        auto x = scaledNoise(frames, 0.05, frames);
+        auto x = test::noise(frames, frames, 0.05);
         for (std::size_t n = frames - 700; n < frames; ++n)
             x[n] *= 1.0f + 0.02f * static_cast<float>(n % 700); // loud to the last frame
         REQUIRE(validate(encode(x, 44100)).ok());
@@ -104,7 +94,7 @@ TEST_CASE("Normalising raises the loudest moment to full drive", "[analysis][enc
 
 TEST_CASE("Clips do not depend on how the sound is cut into calls", "[analysis][encoder]")
 {
-    auto x = scaledNoise(2 * 50000, 0.1, 3);
+    auto x = test::noise(2 * 50000, 3, 0.1);
     for (std::size_t at : {20000u, 60000u})
         addKick(x, at, 44100.0, 0.8);
     const Clip whole = encode(x, 44100, 2);
@@ -121,7 +111,7 @@ TEST_CASE("An encoder forgets the sound before", "[analysis][encoder]")
     encoder.push(tone);
     const Clip first = encoder.finish();
     encoder.start(96000, 3);
-    encoder.push(scaledNoise(90000, 1.0, 5));
+    encoder.push(test::noise(90000, 5, 1.0));
     (void)encoder.finish();
     encoder.start(44100, 1);
     encoder.push(tone);
@@ -176,8 +166,8 @@ TEST_CASE("Silence, one sample, DC and extreme rates give valid clips", "[analys
 
 TEST_CASE("64 channels and full-scale garbage give valid clips", "[analysis][encoder]")
 {
-    CHECK(validate(encode(scaledNoise(64 * 4000, 1.0, 9), 48000, 64)).ok());
-    auto x = scaledNoise(44100, 3.0e38, 10);
+    CHECK(validate(encode(test::noise(64 * 4000, 9, 1.0), 48000, 64)).ok());
+    auto x = test::noise(44100, 10, 3.0e38);
     CHECK(validate(encode(x, 44100)).ok());
     for (float& v : x)
         v = v > 0.0f ? 1.0f : -1.0f;
@@ -187,7 +177,7 @@ TEST_CASE("64 channels and full-scale garbage give valid clips", "[analysis][enc
 TEST_CASE("Every number of bands and both spacings give valid clips within the cap of breakpoints",
           "[analysis][encoder]")
 {
-    auto x = scaledNoise(3 * 44100, 0.3, 21);
+    auto x = test::noise(3 * 44100, 21, 0.3);
     for (std::size_t n = 0; n < x.size(); ++n)
         x[n] *= static_cast<float>(1.0 + std::sin(0.002 * static_cast<double>(n)));
     for (const BandSpacing spacing : {BandSpacing::logarithmic, BandSpacing::linear})
@@ -277,7 +267,7 @@ TEST_CASE("More breakpoints describe a sound better", "[analysis][encoder]")
 TEST_CASE("Any finite amplitude gives a valid clip, and that of the same sound at an ordinary level",
           "[analysis][encoder]")
 {
-    auto x = scaledNoise(22050, 0.01, 12);
+    auto x = test::noise(22050, 12, 0.01);
     addKick(x, 4000, 44100.0, 0.7);
     addKick(x, 14000, 44100.0, 0.4);
     const auto scaled = [&](double factor)
@@ -561,8 +551,8 @@ TEST_CASE("What is heard of silence, of nothing and of extremes is a valid clip"
     CHECK(validate(encode({}, 48000, 1, audibleParams(1.0))));
     CHECK(validate(encode(std::vector<float>(3, 0.5f), 8000, 1, audibleParams(1.0))));
     CHECK(validate(encode(std::vector<float>(48000, 1e12f), 48000, 2, audibleParams(1.0))));
-    CHECK(validate(encode(scaledNoise(48000, 1e12, 3), 48000, 1, audibleParams(1.0))));
-    CHECK(validate(encode(scaledNoise(768000, 1.0, 3), 768000, 1, audibleParams(1.0))));
+    CHECK(validate(encode(test::noise(48000, 3, 1e12), 48000, 1, audibleParams(1.0))));
+    CHECK(validate(encode(test::noise(768000, 3, 1.0), 768000, 1, audibleParams(1.0))));
     CHECK_FALSE(validate(audibleParams(1.01)));
     CHECK_FALSE(validate(audibleParams(-0.01)));
     CHECK_FALSE(validate(audibleParams(std::nan(""))));

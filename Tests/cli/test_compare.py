@@ -53,6 +53,26 @@ class Match(CommandTest):
         itself = self.report("compare", "moved.wav", "moved.wav")["files"][0]
         self.assertAlmostEqual(itself["match"], itself["matchCeiling"], places=9)
 
+    def test_a_recording_of_another_length_is_aligned_and_the_lag_is_told(self):
+        hits = [0.0] * 16000
+        for start in (800, 3300, 4700, 9100, 12700):
+            for i, x in enumerate(sine(1500, 0.02, 8000)):
+                hits[start + i] = x
+        self.put("hits.wav", wav(hits, 8000))
+        self.put("late.wav", wav([0.0] * 400 + hits, 8000))
+        self.put("cut.wav", wav(([0.0] * 400 + hits)[:16000], 8000))
+        itself, late, cut = (
+            json.loads(self.warns("compare", "hits.wav", f"{name}.wav", "--json", says=says) if says
+                       else self.succeeds("compare", "hits.wav", f"{name}.wav", "--json"))["files"][0]
+            for name, says in (("hits", ""), ("late", "is that without the lag"), ("cut", "its match is lower for that"))
+        )
+        self.assertEqual(itself["matchLag"], 0)
+        self.assertAlmostEqual(late["matchLag"], 50, delta=6)
+        self.assertAlmostEqual(cut["matchLag"], 50, delta=6)
+        self.assertEqual([f["matchAligned"] for f in (itself, late, cut)], [False, True, False])
+        self.assertGreater(late["match"], itself["match"] - 1)
+        self.assertLess(cut["match"], itself["match"] - 10)
+
     def test_what_is_silent_has_none(self):
         self.put("click.wav", wav(clicks(2000), 8000))
         self.put("silence.wav", wav([0.0] * 16000, 8000))

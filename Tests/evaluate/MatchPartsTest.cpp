@@ -1,6 +1,7 @@
 #include "support/Catch.h"
 
 #include <pacini/evaluate/match/FeltImpression.h>
+#include <pacini/evaluate/match/MatchLag.h>
 #include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/foundation/Gaussian.h>
 
@@ -66,6 +67,47 @@ TEST_CASE("Blows that come late match less, the later the less", "[match]")
     CHECK(late(0.0) > late(0.015));
     CHECK(late(0.015) > late(0.03) + 0.1);
     CHECK(late(0.06) < 0.3);
+}
+
+TEST_CASE("The lag of a vibration is found within 5 ms, and without it the match is what it was, or better", "[match]")
+{
+    TouchAnalyzer touch;
+    // Unevenly spaced: nothing but the lag itself brings them together.
+    const std::vector<double> times{0.2, 0.31, 0.6, 1.05, 1.28, 1.9, 2.3, 2.38};
+    const auto hits = [&](double t)
+    {
+        double sum = 0.0;
+        for (const double at : times)
+            sum += t < at ? 0.0 : std::exp(-(t - at) / 0.015);
+        return sum;
+    };
+    const auto heard =
+        heardTrack(signal(44100, [&](double t) { return 0.3 * hits(t) * tone(3000.0, t); }), 44100).value();
+    const auto feltAt = [&](double delay)
+    {
+        return touchTrack(touch, signal(8000, [&](double t) { return hits(t - delay) * tone(150.0, t); }), 8000)
+            .value();
+    };
+    const auto together = matchParts(heard, feltAt(0.0));
+    CHECK(std::abs(matchLag(heard, feltAt(0.0))) <= 1);
+    for (const double delay : {-0.09, -0.03, 0.02, 0.05, 0.095})
+    {
+        CAPTURE(delay);
+        const auto felt = feltAt(delay);
+        const int late = matchLag(heard, felt);
+        CHECK(std::abs(late / TouchTrack::rate - delay) <= 0.0051);
+        const auto parts = matchParts(heard, earlier(felt, late));
+        CHECK(parts.attacks > together.attacks - 0.02);
+        CHECK(parts.envelope == Approx(together.envelope).margin(0.03));
+        CHECK(parts.movement == Approx(together.movement).margin(0.05));
+    }
+    // Farther away than 100 ms nothing is said, nor of what does not move, is too short or is not there.
+    CHECK(std::abs(matchLag(heard, feltAt(0.25))) <= 50);
+    const auto hum = touchTrack(touch, signal(8000, [](double t) { return tone(150.0, t); }), 8000).value();
+    CHECK(matchLag(heard, hum) == 0);
+    CHECK(matchLag(heard, TouchTrack{}) == 0);
+    CHECK(matchLag(HeardTrack{}, hum) == 0);
+    CHECK(matchLag(HeardTrack{std::vector<float>(90, 1.0f), std::vector<float>(90, 1.0f)}, hum) == 0);
 }
 
 TEST_CASE("Neither level nor polarity of either side changes the match", "[match]")

@@ -161,7 +161,7 @@ TEST_CASE("Straight lines are smoothed as a fine grid of steps would be", "[loud
     const std::vector<double> values{1.0, 3.0, 0.0, 0.5, 7.0, 7.0, 7.0, 0.0};
     for (const double tau : {0.0002, 0.0035, 0.07})
     {
-        LoudnessSmoothing smoothing(tau);
+        LoudnessSmoothing smoothing(tau, 2000.0);
         const double a = std::exp(-1.0 / (48000.0 * tau));
         double y = 0.0;
         for (std::size_t i = 0; i < values.size(); ++i)

@@ -4,6 +4,7 @@
 
 #include "Catch.h"
 #include "HeapGuard.h"
+#include "Measure.h"
 
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Random.h>
@@ -32,15 +33,6 @@ struct ContractOptions
     std::size_t frames = 6000;
     MeasuredDelay delay = MeasuredDelay::notMeasured;
 };
-
-inline std::vector<float> noise(std::size_t frames, std::uint64_t seed)
-{
-    Random random(seed);
-    std::vector<float> x(frames);
-    for (float& v : x)
-        v = static_cast<float>(random.uniform(-1.0, 1.0));
-    return x;
-}
 
 template <typename B>
 std::vector<float> runInBlocks(B& block, const std::vector<float>& in, std::size_t blockFrames)

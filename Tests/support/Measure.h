@@ -2,9 +2,12 @@
 
 // Measurements of signals by their definitions, slow and independent of the code under test.
 
+#include <pacini/foundation/Random.h>
+
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -30,6 +33,16 @@ inline std::vector<float> sine(std::size_t frames, double f, double fs, double a
     std::vector<float> x(frames);
     for (std::size_t n = 0; n < frames; ++n)
         x[n] = static_cast<float>(a * std::sin(2.0 * std::numbers::pi * f * static_cast<double>(n) / fs + phase));
+    return x;
+}
+
+/// Uniform noise of +-a.
+inline std::vector<float> noise(std::size_t frames, std::uint64_t seed, double a = 1.0)
+{
+    Random random(seed);
+    std::vector<float> x(frames);
+    for (float& v : x)
+        v = static_cast<float>(a * random.uniform(-1.0, 1.0));
     return x;
 }
 

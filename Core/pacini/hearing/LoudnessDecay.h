@@ -15,20 +15,19 @@ namespace pacini
 
 namespace detail
 {
-inline constexpr double loudnessRate = 2000.0; ///< Hz, of the sets of levels
-inline constexpr int loudnessSubsteps = 24;    ///< between two sets, which are joined by straight lines
+inline constexpr int loudnessSubsteps = 24; ///< between two sets, which are joined by straight lines
 } // namespace detail
 
 /// A one-pole low-pass of `tau` seconds for straight lines between values, exactly as 24 steps between two values would
-/// give it, started at rest.
+/// give it, started at rest. `rate` (Hz) is that of the values.
 class LoudnessSmoothing
 {
 public:
-    explicit LoudnessSmoothing(double tau) noexcept
+    LoudnessSmoothing(double tau, double rate) noexcept
     {
         // With u(m) = u + m d, m = 1..n: y(n) = a^n y + (1 - a) sum a^(n - m) u(m).
         constexpr int n = detail::loudnessSubsteps;
-        const double a = std::exp(-1.0 / (detail::loudnessRate * n * tau));
+        const double a = std::exp(-1.0 / (rate * n * tau));
         share = 1.0 - a;
         for (int m = n; m >= 1; --m)
         {
@@ -61,11 +60,14 @@ private:
 class LoudnessMemory
 {
 public:
+    /// `rate` (Hz) is that of the values.
+    explicit LoudnessMemory(double rate) noexcept : fast(0.0035, rate), slow(0.070, rate) {}
+
     double next(double total) noexcept { return 0.47 * fast.next(total) + 0.53 * slow.next(total); }
 
 private:
-    LoudnessSmoothing fast{0.0035};
-    LoudnessSmoothing slow{0.070};
+    LoudnessSmoothing fast;
+    LoudnessSmoothing slow;
 };
 
 /// Core loudness that follows rises at once and falls as two coupled capacitors do, the slower the longer the sound
@@ -73,7 +75,10 @@ private:
 class LoudnessDecay
 {
 public:
-    /// What is left of earlier sets at the time of `input`, .5 ms after the set before and before `next`.
+    /// `rate` (Hz) is that of the sets of levels; the standard has 2000, of which each step is exact.
+    explicit LoudnessDecay(double rate) noexcept : substep(1.0 / (rate * detail::loudnessSubsteps)) {}
+
+    /// What is left of earlier sets at the time of `input`, one step after the set before and before `next`.
     CoreLoudness step(const CoreLoudness& input, const CoreLoudness& next) noexcept
     {
         CoreLoudness result{};
@@ -122,11 +127,11 @@ private:
 
     std::array<State, std::tuple_size_v<CoreLoudness> - 1> states{};
 
-    // The two-capacitor circuit's exact step over 1/48000 s.
+    double substep; // s
+    // The two-capacitor circuit's exact step over it.
     static constexpr double shortTau = 0.005;
     static constexpr double longTau = 0.015;
     static constexpr double memoryTau = 0.075;
-    static constexpr double substep = 1.0 / (detail::loudnessRate * detail::loudnessSubsteps);
     static constexpr double p = (memoryTau + longTau) / (memoryTau * shortTau);
     static constexpr double q = 1.0 / (memoryTau * shortTau);
     const double root = std::sqrt(0.25 * p * p - q);

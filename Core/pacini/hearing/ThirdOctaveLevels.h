@@ -26,10 +26,12 @@ class ThirdOctaveLevels
 {
 public:
     static constexpr double sampleRate = 48000.0; ///< Hz; the tables of the standard are those of this rate
-    static constexpr std::size_t hop = 24;        ///< samples from one set of levels to the next, 0.5 ms
 
-    /// Appends the levels at samples 0, 24, 48 and so on of the sound, of which `pressure` in Pa is the next piece, of
-    /// any length. What is not finite counts as 0.
+    /// `samples` lie from one set of levels to the next.
+    explicit ThirdOctaveLevels(std::size_t samples) : hop(samples) {}
+
+    /// Appends the levels at samples 0, hop, 2 hop and so on of the sound, of which `pressure` in Pa is the next piece,
+    /// of any length. What is not finite counts as 0.
     void process(std::span<const float> pressure, std::vector<BandLevels>& levels)
     {
         for (const float p : pressure)
@@ -113,6 +115,7 @@ private:
         }
     };
 
+    std::size_t hop;
     Design design;
     std::uint64_t count = 0; // of samples
     std::array<Values, 3> first{};

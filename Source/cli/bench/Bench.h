@@ -81,13 +81,14 @@ struct Bench
 [[nodiscard]] Bench actuatorsBench();
 [[nodiscard]] Bench equalizersBench();
 [[nodiscard]] Bench liveBench();
+[[nodiscard]] Bench matchBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
     return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),
             oscillatorsBench(), scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),
-            bodyBench(),        stagesBench(),   methodsBench()};
+            bodyBench(),        stagesBench(),   methodsBench(),   matchBench()};
 }
 
 } // namespace pacini::cli

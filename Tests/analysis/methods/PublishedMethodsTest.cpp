@@ -5,7 +5,6 @@
 #include "support/Measure.h"
 
 #include <pacini/analysis/methods/Method.h>
-#include <pacini/foundation/Random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +21,6 @@ using test::rms;
 namespace
 {
 constexpr Method published[] = {Method::hapticGen, Method::frequencyShift, Method::percept, Method::pitchMatch};
-
-std::vector<float> noise(std::size_t frames, double amplitude, std::uint64_t seed)
-{
-    Random random(seed);
-    std::vector<float> x(frames);
-    for (float& v : x)
-        v = static_cast<float>(amplitude * random.uniform(-1.0, 1.0));
-    return x;
-}
 
 std::vector<float> tone(double frequency, double amplitude, double fs, double seconds)
 {
@@ -88,7 +78,7 @@ TEST_CASE("freqshift brings tones above the range of touch into it by octaves", 
     // A third of half of full power each, the least of it outside of the band.
     CHECK(rms(middle(frequencyShift(tone(1000.0, 0.3, fs, 2.0), fs))) == Approx(std::sqrt(0.5 / 3.0)).epsilon(0.1));
     CHECK(rms(frequencyShift(tone(4000.0, 0.3, fs, 2.0), fs)) < 0.01);
-    const auto noisy = frequencyShift(noise(44100, 0.9, 5), fs);
+    const auto noisy = frequencyShift(test::noise(44100, 5, 0.9), fs);
     CHECK(peakOf(noisy) <= 1.0);
 }
 
@@ -96,7 +86,7 @@ TEST_CASE("percept is two sines of 175 and 210 Hz at a level of .15", "[analysis
 {
     for (const double fs : {16000.0, 44100.0, 48000.0})
     {
-        const auto x = noise(static_cast<std::size_t>(2.0 * fs), 0.5, 7); // rough all the time
+        const auto x = test::noise(static_cast<std::size_t>(2.0 * fs), 7, 0.5); // rough all the time
         const auto y = perceptTranslation(x, fs);
         REQUIRE(y.size() == x.size());
         CHECK(rms(y) == Approx(0.15).epsilon(0.001));
@@ -135,7 +125,7 @@ TEST_CASE("Published translations do not depend on the level, and are as long as
     for (const Method method : published)
     {
         INFO(methodInfo(method).name);
-        const auto x = noise(12000, 0.02, 3);
+        const auto x = test::noise(12000, 3, 0.02);
         auto louder = x;
         for (float& v : louder)
             v *= 8.0f;
@@ -145,9 +135,9 @@ TEST_CASE("Published translations do not depend on the level, and are as long as
         for (std::size_t n = 0; n < y.size(); ++n)
             REQUIRE(y[n] == Approx(z[n]).margin(1e-4));
         for (const std::size_t frames : {0u, 1u, 2u, 79u, 441u})
-            CHECK(translateToSignal(method, noise(frames, 0.5, 9), 8000.0).size() == frames);
+            CHECK(translateToSignal(method, test::noise(frames, 9, 0.5), 8000.0).size() == frames);
         CHECK(peakOf(translateToSignal(method, std::vector<float>(5000), 44100.0)) == 0.0);
-        auto broken = noise(9000, 0.5, 4);
+        auto broken = test::noise(9000, 4, 0.5);
         broken[100] = std::numeric_limits<float>::quiet_NaN();
         broken[200] = std::numeric_limits<float>::infinity();
         auto mended = broken;

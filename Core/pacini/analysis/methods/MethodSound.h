@@ -5,6 +5,7 @@
 #include <pacini/analysis/DecayTime.h>
 #include <pacini/filters/BiquadCascade.h>
 #include <pacini/filters/Butterworth.h>
+#include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Units.h>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -34,6 +36,20 @@ inline double normalise(std::span<float> signal) noexcept
     for (float& x : signal)
         x = peak > 0.0 ? toSample(finiteOrZero(x) / peak) : 0.0f;
     return peak;
+}
+
+/// `mono` at `rate` Hz, its largest magnitude scaled to `peak` before; empty for silence and rates that resample() does
+/// not take.
+[[nodiscard]] inline std::vector<float> normalisedAt(std::span<const float> mono, double fs, int rate,
+                                                     double peak = 1.0)
+{
+    std::vector<float> sound(mono.begin(), mono.end());
+    if (!(normalise(sound) > 0.0))
+        return {};
+    for (float& x : sound)
+        x = static_cast<float>(peak * static_cast<double>(x));
+    auto resampled = resample(std::span<const float>(sound), static_cast<int>(fs), rate);
+    return resampled ? std::move(*resampled) : std::vector<float>();
 }
 
 /// The time during which a signal is felt (Weber 2020, section 4.3: "the amount of time above a threshold"), in blocks

@@ -3,7 +3,6 @@
 // The translation "percept": loudness and roughness of the sound as intensity and roughness of two sines.
 
 #include <pacini/analysis/methods/MethodSound.h>
-#include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fft.h>
 
@@ -145,13 +144,7 @@ private:
 {
     using Frame = detail::PerceptFrame;
     std::vector<float> out(mono.size(), 0.0f);
-    std::vector<float> sound(mono.begin(), mono.end());
-    if (!(normalise(sound) > 0.0))
-        return out;
-    const auto resampled = resample(std::span<const float>(sound), static_cast<int>(fs), Frame::sampleRate);
-    if (!resampled)
-        return out;
-    sound = *resampled;
+    const auto sound = normalisedAt(mono, fs, Frame::sampleRate);
     Frame analysis;
     std::vector<double> frame(Frame::size);
     constexpr double seconds = static_cast<double>(Frame::size) / Frame::sampleRate;

@@ -4,7 +4,6 @@
 // frequency.
 
 #include <pacini/analysis/methods/MethodSound.h>
-#include <pacini/filters/Resampler.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/Units.h>
@@ -138,15 +137,10 @@ struct PitchMatchTrack
 {
     using Frames = detail::PitchMatchFrames;
     std::vector<float> out(mono.size(), 0.0f);
-    std::vector<float> sound(mono.begin(), mono.end());
-    if (!(normalise(sound) > 0.0))
+    const auto sound = normalisedAt(mono, fs, Frames::sampleRate, Decibels(-1.0).gain());
+    if (sound.empty())
         return out;
-    for (float& x : sound)
-        x = static_cast<float>(Decibels(-1.0).gain() * static_cast<double>(x));
-    const auto resampled = resample(std::span<const float>(sound), static_cast<int>(fs), Frames::sampleRate);
-    if (!resampled)
-        return out;
-    const auto [amplitude, frequency] = detail::pitchMatchTrack(*resampled);
+    const auto [amplitude, frequency] = detail::pitchMatchTrack(sound);
     const double loudest = *std::max_element(amplitude.begin(), amplitude.end());
     if (!(loudest > 0.0))
         return out;

@@ -113,8 +113,6 @@ inline void addFrequencyParts(const HeardTrack& heard, const TouchTrack& felt, M
 [[nodiscard]] inline MatchParts matchParts(const HeardTrack& heard, const TouchTrack& felt)
 {
     using namespace detail;
-    // The ear's memory makes loudness late by as much (best of 0 to 20 ms, over all ratings).
-    constexpr std::size_t loudnessDelay = 3; // frames of 2 ms
     MatchParts parts;
     if (heard.loudness.size() <= loudnessDelay || felt.strength.empty())
         return parts;
