@@ -46,7 +46,7 @@ TEST_CASE("Where most of what is heard lies above, loudness is the level and the
     CHECK(found.peak == 1.0);
     CHECK(found.heardShare[100] == 1.0f);
     CHECK(found.envelope[100] == Approx(0.8));
-    CHECK(found.envelope[frames - 100] == Approx(0.4));
+    CHECK(found.envelope[frames - 100] == Approx(0.8 * (0.5 - 0.03) / 0.97));
     // A quarter of the lowest band at most, and less where the level is lower than a quarter of all bands.
     const double all = std::sqrt(3.0) * 0.8;
     CHECK(found.tracks[0].amplitude[25] == Approx(0.2));
@@ -60,6 +60,22 @@ TEST_CASE("Where most of what is heard lies above, loudness is the level and the
     AudibleBlend(edges, 1.0).apply(loud, heardOf(0.9f), {});
     CHECK(loud.tracks[0].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
     CHECK(loud.tracks[1].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
+}
+
+TEST_CASE("What is hardly heard beside the loudest is not felt", "[analysis]")
+{
+    for (const double share : {0.029, 0.031, 0.1})
+    {
+        CAPTURE(share);
+        auto heard = heardOf(1.0f);
+        for (std::size_t i = frames / 2; i < frames; ++i)
+            heard[i].loudness = static_cast<float>(2.0 * share);
+        BandAnalysisResult found = steadyBands(0.001f);
+        AudibleBlend(edges, 1.0).apply(found, heard, {});
+        const double level = share < 0.03 ? 0.0 : 0.8 * (share - 0.03) / 0.97;
+        CHECK(found.envelope[frames - 100] == Approx(level).margin(1e-6));
+        CHECK(found.tracks[1].amplitude[bandFrames - 25] == Approx(level).margin(3e-4));
+    }
 }
 
 TEST_CASE("Where little of what is heard lies above, nothing changes", "[analysis]")
