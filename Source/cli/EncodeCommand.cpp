@@ -184,7 +184,8 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     addPreset(*command, "--high", params.highFrequency, "Upper end of the bands, Hz", numberFrom(2.0, 1800.0));
     addPreset(*command, "--spacing", spacing, "How bands are spaced: log or linear", oneOf({"log", "linear"}));
     addPreset(*command, "--audible", params.audible,
-              "How far loudness drives what lives above the range of touch (rain, ticks, birds), 0 to 1",
+              "How far loudness drives what lives above the range of touch (rain, ticks, birds), 0 to 1; 0 keeps the "
+              "beat of music",
               numberFrom(0.0, 1.0));
     addPreset(*command, "--sensitivity", params.onsets.sensitivity,
               "Above 1 more and weaker events become transients, below 1 fewer", numberFrom(0.25, 4.0));
