@@ -9,6 +9,7 @@
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
+#include <pacini/synthesis/EventGaps.h>
 #include <pacini/synthesis/NoiseBank.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PulseLevel.h>
@@ -65,8 +66,15 @@ public:
         if (params.followEnvelope && !varied.envelope.empty())
         {
             leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames);
-            for (const Breakpoint& point : varied.envelope)
-                envelope.push_back({point.time * params.stretch * innerRate, point.value});
+            const auto inFrames = [&](Curve curve)
+            {
+                for (Breakpoint& point : curve)
+                    point.time *= params.stretch * innerRate;
+                return curve;
+            };
+            // Only the last pass has the gaps: what comes before it measures over 10 ms.
+            envelopes.fill(inFrames(varied.envelope));
+            envelopes.back() = inFrames(withEventGaps(varied.envelope, varied.transients, params.gaps));
         }
         interpolator =
             std::make_unique<PolyphaseInterpolator>(ratio, std::clamp(1.05 * highest / innerRate, 0.05, 0.44));
@@ -113,8 +121,8 @@ public:
         noise.reset();
         if (leveller)
             leveller->reset();
-        for (CurveReader& reader : envelopeReaders)
-            reader = CurveReader(envelope);
+        for (std::size_t pass = 0; pass < envelopes.size(); ++pass)
+            envelopeReaders[pass] = CurveReader(envelopes[pass]);
         interpolator->reset();
         innerFrame = 0;
         readyFrom = ready.size();
@@ -382,7 +390,7 @@ private:
     NoiseBank noise;
     std::unique_ptr<EnvelopeLeveller> leveller;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
-    Curve envelope; // time in inner frames
+    std::array<Curve, EnvelopeLeveller::passCount> envelopes; // of each pass, time in inner frames
     std::array<CurveReader, EnvelopeLeveller::passCount> envelopeReaders;
     PulseTrain pulses;
     DecoderReport plan;

@@ -3,6 +3,7 @@
 // Parameters of the clip decoder.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/synthesis/EventGaps.h>
 #include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/Variation.h>
 
@@ -31,6 +32,7 @@ struct DecoderParams
     bool followEnvelope = true; ///< level the sum of the bands to the clip's total envelope
     bool fullRate = false;      ///< compute carriers at the output rate instead of a quarter of what they need
     PulseParams pulses;
+    EventGapParams gaps; ///< where the sum is levelled to the envelope
     VariationParams variation;
     double transposition = 0.0; ///< semitones, -96 to 96
     double stretch = 1.0;       ///< 2 = twice as long; pitches stay; 0.001 to 1000
