@@ -25,8 +25,11 @@ struct EventGapParams
     double hold = 0.004;   ///< s for which the gap is open
     double fade = 0.003;   ///< s in which it opens before
     double reach = 0.012;  ///< s
-    double share = 0.35;   ///< of the time since the event before: at most so much for `hold`, and for `fade`
     double attack = 0.001; ///< s in which the level is back after the event's time
+    double train = 0.045;  ///< s: events nearer to the one before leave the time between to their pulses, whose ringing
+                           ///< is all that an actuator can have die away there; the gap is silent
+    double trainHold = 0.45; ///< of the time since the event before, instead of `hold`
+    double trainFade = 0.2;  ///< instead of `fade`
     bool operator==(const EventGapParams&) const = default;
 };
 
@@ -38,7 +41,7 @@ inline double largestWithin(const Curve& curve, double first, double last) noexc
 {
     double largest = std::max(valueAt(curve, first), valueAt(curve, last));
     for (auto p = std::lower_bound(curve.begin(), curve.end(), first,
-                                   [](const Breakpoint& point, double time) { return point.time < time; });
+                                   [](const Breakpoint&point, double time) { return point.time < time; });
          p != curve.end() && p->time <= last; ++p)
         largest = std::max(largest, p->value);
     return largest;
@@ -49,7 +52,7 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
 {
     double smallest = std::min(valueAt(curve, first), valueAt(curve, last));
     for (auto p = std::lower_bound(curve.begin(), curve.end(), first,
-                                   [](const Breakpoint& point, double time) { return point.time < time; });
+                                   [](const Breakpoint&point, double time) { return point.time < time; });
          p != curve.end() && p->time <= last; ++p)
         smallest = std::min(smallest, p->value);
     return smallest;
@@ -85,15 +88,15 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
         before = event.time;
         const double full =
             std::max(event.amplitude, peakOfMean * detail::largestWithin(envelope, event.time, event.time + 0.010));
-        const double lowest =
-            peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
+        const double lowest = peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
         if (!(full > 0.0) || 20.0 * std::log10((full + unfelt) / (lowest + unfelt)) >= params.enough)
             continue;
-        const double open = event.time - std::min(params.hold, params.share * since);
-        const double start = open - std::min(params.fade, params.share * since);
+        const bool inTrain = since < params.train;
+        const double open = event.time - (inTrain ? params.trainHold * since : params.hold);
+        const double start = open - (inTrain ? params.trainFade * since : params.fade);
         if (start <= free || event.time <= 0.0)
             continue;
-        const double low = std::max(0.0, (full + unfelt) / ratio - unfelt) / peakOfMean;
+        const double low = inTrain ? 0.0 : std::max(0.0, (full + unfelt) / ratio - unfelt) / peakOfMean;
         const double closed = event.time + params.attack;
         for (; copied < envelope.size() && envelope[copied].time < start; ++copied)
             result.push_back(envelope[copied]);

@@ -43,7 +43,7 @@ struct Pulse
 /// The pulse for an event of `sharpness` (0-1) that stands `gap` seconds from its nearest neighbour, at `fs` Hz, its
 /// frequencies scaled by `transposition`. Square and sine have round(fs / frequency * cycles) frames. Adaptive pulses
 /// are periods under a Hann window. Alone an event gets two periods of 100 Hz (dull) to 280 Hz (crisp). In a fast train
-/// (gaps below 60 ms) it gets the frequency of its sharpness within 200 to 400 Hz, for 60 % of the gap but 6 to 15 ms,
+/// (gaps below 60 ms) it gets the frequency of its sharpness within 200 to 400 Hz, for half of the gap but 6 to 15 ms,
 /// and at least three periods: the spectrum of n windowed periods of f Hz ends at f (1 - 2 / n), so three leave an
 /// actuator that resonates at 60-80 Hz at rest, where its ringing would fill the gaps. Skin resolves gaps of 8-10 ms.
 [[nodiscard]] inline Pulse makePulse(const PulseParams& params, double sharpness, double gap, double fs,
@@ -56,7 +56,7 @@ struct Pulse
         const double crispness = std::clamp(sharpness, 0.0, 1.0);
         if (gap < 0.06)
         {
-            const double length = std::clamp(0.6 * gap, 0.006, 0.015);
+            const double length = std::clamp(0.5 * gap, 0.006, 0.015);
             const double lowest = std::max(200.0, 3.0 / length);
             frequency = std::clamp(150.0 * std::pow(2500.0 / 150.0, crispness), lowest, std::max(lowest, 400.0));
             cycles = frequency * length;
