@@ -36,8 +36,9 @@ public:
     void prepare(const ProcessSpec& spec)
     {
         fs = spec.sampleRate;
-        line.assign(static_cast<std::size_t>(Protection::maxLookAhead * fs) + 1, 0.0f);
-        gain.prepare(line.size() - 1, static_cast<std::size_t>(longestLimiterHold * fs));
+        const auto frames = static_cast<std::size_t>(Protection::maxLookAhead * fs);
+        line.assign(frames + lineRoom, 0.0f);
+        gain.prepare(frames, static_cast<std::size_t>(longestLimiterHold * fs));
         setParams(current);
         reset();
     }
@@ -47,12 +48,12 @@ public:
     {
         current = params;
         const double seconds = clampTo(params.lookAhead.value, 0.0, Protection::maxLookAhead);
-        const auto frames = std::min(static_cast<std::size_t>(seconds * fs), line.size() - 1);
+        const auto frames = std::min(static_cast<std::size_t>(seconds * fs), line.size() - lineRoom);
         if (frames != latency)
         {
             latency = frames;
             std::fill(line.begin(), line.end(), 0.0f);
-            position = 0;
+            position = latency;
         }
         gain.design(latency, static_cast<std::size_t>(limiterHold(params.lowFrequency) * fs), fs);
     }
@@ -61,35 +62,30 @@ public:
     {
         gain.reset();
         std::fill(line.begin(), line.end(), 0.0f);
-        position = 0;
+        position = latency;
         lastCall = {};
     }
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
         // Nearly always: nothing exceeds 1, which a loop without branches finds out at a fraction of what gains cost.
-        if (gain.idle() && staysWithin(in))
-        {
-            for (std::size_t i = 0; i < in.size(); ++i)
-            {
-                line[position] = in[i];
-                position = position == latency ? 0 : position + 1;
-                out[i] = toSample(static_cast<double>(line[position]));
-            }
-            lastCall = {};
-            return;
-        }
+        const bool passes = gain.idle() && staysWithin(in);
         double smallest = 1.0;
-        for (std::size_t i = 0; i < in.size(); ++i)
+        for (std::size_t begin = 0; begin < in.size();)
         {
-            const double x = finiteOrZero(in[i]);
-            const double g = gain.tick(x * x);
-            smallest = std::min(smallest, g);
-            line[position] = static_cast<float>(x);
-            position = position == latency ? 0 : position + 1;
-            // The mean of gains can be above each of them by its rounding.
-            out[i] = toSample(clampTo(g * static_cast<double>(line[position]), -1.0, 1.0));
+            const std::size_t frames = std::min(in.size() - begin, longestStretch);
+            float* const newest = roomFor(frames);
+            const auto from = in.subspan(begin, frames);
+            const auto to = out.subspan(begin, frames);
+            if (passes)
+                passOn(from, newest, to);
+            else
+                smallest = std::min(smallest, limit(from, newest, to));
+            begin += frames;
         }
+        lastCall = {};
+        if (passes)
+            return;
         lastCall.level = smallest < 1.0;
         lastCall.gainReduction = -20.0 * std::log10(smallest);
     }
@@ -100,6 +96,50 @@ public:
     [[nodiscard]] const ProtectionMeter& meter() const noexcept { return lastCall; }
 
 private:
+    static constexpr std::size_t longestStretch = 256;
+    static constexpr std::size_t lineRoom = 4 * longestStretch; ///< so much that the line seldom has to be moved
+
+    /// The place of the next `frames` in the line; the frames before them lie in front of it.
+    [[nodiscard]] float* roomFor(std::size_t frames) noexcept
+    {
+        if (position + frames > line.size())
+        {
+            const auto end = line.begin() + static_cast<std::ptrdiff_t>(position);
+            std::copy(end - static_cast<std::ptrdiff_t>(latency), end, line.begin());
+            position = latency;
+        }
+        float* const place = line.data() + position;
+        position += frames;
+        return place;
+    }
+
+    /// Delays frames that are within +-1 as all those before them that still wait.
+    void passOn(std::span<const float> in, float* newest, std::span<float> out) const noexcept
+    {
+        std::copy(in.begin(), in.end(), newest);
+        const float* const delayed = newest - latency;
+        constexpr float least = 1e-30f; // as in toSample()
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = std::abs(delayed[i]) >= least ? delayed[i] : 0.0f;
+    }
+
+    /// Delays and limits; returns the smallest gain.
+    double limit(std::span<const float> in, float* newest, std::span<float> out) noexcept
+    {
+        const float* const delayed = newest - latency;
+        double smallest = 1.0;
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            const double x = finiteOrZero(in[i]);
+            const double g = gain.tick(x * x);
+            smallest = std::min(smallest, g);
+            newest[i] = static_cast<float>(x);
+            // The mean of gains can be above each of them by its rounding.
+            out[i] = toSample(clampTo(g * static_cast<double>(delayed[i]), -1.0, 1.0));
+        }
+        return smallest;
+    }
+
     /// Whether no sample is beyond +-1 or not a number.
     [[nodiscard]] static bool staysWithin(std::span<const float> in) noexcept
     {
@@ -112,9 +152,9 @@ private:
     double fs = ProcessSpec{}.sampleRate;
     Params current;
     KneeLimiterGain<HardKnee> gain;
-    std::vector<float> line = std::vector<float>(1, 0.0f); ///< the newest latency + 1 frames, as a ring
+    std::vector<float> line = std::vector<float>(lineRoom, 0.0f); ///< oldest first
     std::size_t latency = 0;
-    std::size_t position = 0; ///< where the next frame goes
+    std::size_t position = 0; ///< where the next frame goes in the line
     ProtectionMeter lastCall;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,18 @@ inline void cutAfter(Curve& curve, double end)
     curve.push_back({end, value});
 }
 
+/// A straight piece of a curve.
+struct CurveLine
+{
+    double value = 0.0; ///< at `from`
+    double rise = 0.0;  ///< over `span`
+    double from = 0.0;
+    double span = 1.0;
+    double until = 0.0; ///< the curve leaves the line here
+
+    [[nodiscard]] double at(double time) const noexcept { return value + rise * ((time - from) / span); }
+};
+
 /// Reads a curve at times that only move forward: O(1) per call on average. Does not own the curve.
 class CurveReader
 {
@@ -57,19 +70,23 @@ public:
     explicit CurveReader(std::span<const Breakpoint> curveToRead) noexcept : curve(curveToRead) {}
 
     /// Same value as valueAt(curve, time); `time` must not be smaller than in the call before.
-    [[nodiscard]] double at(double time) noexcept
+    [[nodiscard]] double at(double time) noexcept { return lineAt(time).at(time); }
+
+    /// The straight line on which the curve lies from `time` on, with a time limit like that of at().
+    [[nodiscard]] CurveLine lineAt(double time) noexcept
     {
+        constexpr double never = std::numeric_limits<double>::infinity();
         if (curve.empty())
-            return 0.0;
+            return {0.0, 0.0, 0.0, 1.0, never};
         while (next < curve.size() && curve[next].time <= time)
             ++next;
         if (next == 0)
-            return curve.front().value;
+            return {curve.front().value, 0.0, 0.0, 1.0, curve.front().time};
         if (next == curve.size())
-            return curve.back().value;
+            return {curve.back().value, 0.0, 0.0, 1.0, never};
         const Breakpoint& a = curve[next - 1];
         const Breakpoint& b = curve[next];
-        return a.value + (b.value - a.value) * ((time - a.time) / (b.time - a.time));
+        return {a.value, b.value - a.value, a.time, b.time - a.time, b.time};
     }
 
 private:

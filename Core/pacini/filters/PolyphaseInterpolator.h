@@ -57,24 +57,39 @@ public:
             history[write] = x;
             history[write + tapsPerPhase] = x;
             const float* newest = history.data() + write;
-            // Four neighbouring outputs at a time: their sums stay in one vector register.
-            for (std::size_t p = 0; p < ratio; p += width)
-            {
-                float sums[width] = {};
-                const float* row = coefficients.data() + p;
-                for (std::size_t i = 0; i < tapsPerPhase; ++i, row += stride)
-                    for (std::size_t k = 0; k < width; ++k)
-                        sums[k] += newest[i] * row[k];
-                const std::size_t count = std::min(width, ratio - p);
-                for (std::size_t k = 0; k < count; ++k)
-                    target[p + k] = sums[k];
-            }
+            for (std::size_t p = 0; p < ratio;)
+                p += outputs(newest, p, target + p);
             target += ratio;
         }
     }
 
 private:
-    static constexpr std::size_t width = 4;
+    static constexpr std::size_t width = 4; ///< outputs in one vector register
+
+    /// Computes the outputs from phase `p` on, as many as there are registers for, and returns their number. A sum
+    /// waits for its last addition at every tap: several registers side by side wait at the same time.
+    std::size_t outputs(const float* newest, std::size_t p, float* target) const noexcept
+    {
+        const std::size_t left = ratio - p;
+        if (left > 3 * width)
+            return outputs<4>(newest, p, target);
+        if (left > 2 * width)
+            return outputs<3>(newest, p, target);
+        return left > width ? outputs<2>(newest, p, target) : outputs<1>(newest, p, target);
+    }
+
+    template <std::size_t registers>
+    std::size_t outputs(const float* newest, std::size_t p, float* target) const noexcept
+    {
+        float sums[registers * width] = {};
+        const float* row = coefficients.data() + p;
+        for (std::size_t i = 0; i < tapsPerPhase; ++i, row += stride)
+            for (std::size_t k = 0; k < registers * width; ++k)
+                sums[k] += newest[i] * row[k];
+        const std::size_t count = std::min(registers * width, ratio - p);
+        std::copy_n(sums, count, target);
+        return count;
+    }
 
     void design(double pass)
     {

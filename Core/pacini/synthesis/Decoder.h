@@ -357,11 +357,29 @@ private:
         forPieces(first,
                   [&](std::size_t done, std::size_t n, const ClockPiece& piece)
                   {
-                      for (std::size_t i = done; i < done + n; ++i)
-                          wantedEnvelope[i] =
-                              params.gain * envelopeReaders[pass].at(piece.clipAt(first + static_cast<double>(i)));
+                      const auto timeOf = [&](std::size_t i)
+                      {
+                          return piece.clipAt(first + static_cast<double>(i));
+                      };
+                      for (std::size_t i = done; i < done + n;)
+                      {
+                          const CurveLine line = envelopeReaders[pass].lineAt(timeOf(i));
+                          const std::size_t end = firstFrom(line.until, i, done + n, timeOf);
+                          for (; i < end; ++i)
+                              wantedEnvelope[i] = params.gain * line.at(timeOf(i));
+                      }
                   });
         return wantedEnvelope;
+    }
+
+    /// The first frame after `from` and before `to` whose time is not before `until`, or `to`.
+    template <typename TimeOf>
+    [[nodiscard]] static std::size_t firstFrom(double until, std::size_t from, std::size_t to, TimeOf&& timeOf) noexcept
+    {
+        if (timeOf(to - 1) < until) // mostly: points are far apart
+            return to;
+        while (++from < to && timeOf(from) < until) {}
+        return from;
     }
 
     void addEvents(std::span<float> out) noexcept

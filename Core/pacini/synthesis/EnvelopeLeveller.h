@@ -13,37 +13,106 @@
 namespace pacini
 {
 
+/// A signal that comes in hops of one fixed length, with as much of its past as is wanted in one piece before it. There
+/// is room for some hops, so that the past seldom has to be moved.
+class HopHistory
+{
+public:
+    HopHistory(std::size_t pastFrames, std::size_t hopFrames)
+        : past(pastFrames), hop(hopFrames), buffer(past + hops * hop, 0.0), next(past)
+    {
+    }
+
+    void reset() noexcept { std::fill(buffer.begin(), buffer.end(), 0.0); }
+
+    /// Where the values of the next hop are to be written; the past lies before it.
+    [[nodiscard]] double* nextHop() noexcept
+    {
+        if (next + hop > buffer.size())
+        {
+            std::copy(buffer.begin() + static_cast<std::ptrdiff_t>(next - past),
+                      buffer.begin() + static_cast<std::ptrdiff_t>(next), buffer.begin());
+            next = past;
+        }
+        double* const place = buffer.data() + next;
+        next += hop;
+        return place;
+    }
+
+    /// Takes the next hop and returns it delayed by its past.
+    [[nodiscard]] const double* delayed(std::span<const double> values) noexcept
+    {
+        assert(values.size() == hop);
+        double* const place = nextHop();
+        std::copy(values.begin(), values.end(), place);
+        return place - past;
+    }
+
+private:
+    static constexpr std::size_t hops = 4;
+
+    std::size_t past;
+    std::size_t hop;
+    std::vector<double> buffer;
+    std::size_t next; ///< where the next hop begins
+};
+
 /// A moving average, worked on in hops of one fixed length: the sum is formed anew for each hop, so that rounding
 /// cannot build up however long it runs.
 class MovingAverage
 {
 public:
-    MovingAverage(std::size_t window, std::size_t hopFrames) : length(window), buffer(window - 1 + hopFrames, 0.0) {}
+    MovingAverage(std::size_t window, std::size_t hopFrames) : length(window), history(window - 1, hopFrames) {}
 
-    void reset() noexcept { std::fill(buffer.begin(), buffer.end(), 0.0); }
+    void reset() noexcept { history.reset(); }
 
     /// values[n] becomes the mean of the `window` newest values up to n. `values` has the length of a hop.
     void process(std::span<double> values) noexcept
     {
-        const std::size_t kept = length - 1;
-        assert(kept + values.size() == buffer.size());
-        std::copy(values.begin(), values.end(), buffer.begin() + static_cast<std::ptrdiff_t>(kept));
-        const double scale = 1.0 / static_cast<double>(length);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < kept; ++i)
-            sum += buffer[i];
-        for (std::size_t n = 0; n < values.size(); ++n)
-        {
-            sum += buffer[n + kept];
-            values[n] = std::max(sum, 0.0) * scale;
-            sum -= buffer[n];
-        }
-        std::copy(buffer.end() - static_cast<std::ptrdiff_t>(kept), buffer.end(), buffer.begin());
+        Hop hop(*this);
+        for (double& value : values)
+            value = hop.follow(value);
+    }
+
+    /// Both in turn: neither has to wait until the other is done with the hop.
+    static void process(MovingAverage& first, MovingAverage& second, std::span<double> values) noexcept
+    {
+        Hop hop(first), next(second);
+        for (double& value : values)
+            value = next.follow(hop.follow(value));
     }
 
 private:
+    /// A hop on its way.
+    class Hop
+    {
+    public:
+        explicit Hop(MovingAverage& average) noexcept
+            : scale(1.0 / static_cast<double>(average.length)), newest(average.history.nextHop()),
+              oldest(newest - (average.length - 1))
+        {
+            for (const double* value = oldest; value != newest; ++value)
+                sum += *value;
+        }
+
+        double follow(double value) noexcept
+        {
+            *newest++ = value;
+            sum += value;
+            const double mean = std::max(sum, 0.0) * scale;
+            sum -= *oldest++;
+            return mean;
+        }
+
+    private:
+        double scale;
+        double* newest;
+        const double* oldest;
+        double sum = 0.0;
+    };
+
     std::size_t length;
-    std::vector<double> buffer;
+    HopHistory history;
 };
 
 /// Envelope correction. Sinusoids that stand for bands beat against each other, which the source did not. The leveller
@@ -58,10 +127,9 @@ public:
     static constexpr double largestGain = 8.0; ///< beats are not filled deeper than 18 dB
 
     /// Frames are those of the decoder's inner rate `fs`; hops have `hopFrames` frames.
-    EnvelopeLeveller(double fs, std::size_t hopFrames) : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames)
+    EnvelopeLeveller(double fs, std::size_t hopFrames)
+        : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames), passes{Pass(box, hop), Pass(box, hop)}
     {
-        for (auto& pass : passes)
-            pass = Pass(box, hop);
     }
 
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return passes.size() * (box - 1); }
@@ -82,16 +150,15 @@ public:
             Pass& pass = passes[k];
             for (std::size_t n = 0; n < hop; ++n)
                 magnitude[n] = std::sqrt(re[n] * re[n] + im[n] * im[n]);
-            pass.first.process(magnitude);
-            pass.second.process(magnitude);
-            pass.delay(re, pass.re);
-            pass.delay(im, pass.im);
+            MovingAverage::process(pass.first, pass.second, magnitude);
+            const double* const delayedRe = pass.re.delayed(re);
+            const double* const delayedIm = pass.im.delayed(im);
             const std::span<const double> wanted = target(k);
             for (std::size_t n = 0; n < hop; ++n)
             {
                 const double gain = std::min((wanted[n] + tiny) / (magnitude[n] + tiny), largestGain);
-                re[n] *= gain;
-                im[n] *= gain;
+                re[n] = delayedRe[n] * gain;
+                im[n] = delayedIm[n] * gain;
             }
         }
     }
@@ -108,9 +175,8 @@ private:
 
     struct Pass
     {
-        Pass() : first(1, 1), second(1, 1) {}
         Pass(std::size_t box, std::size_t hop)
-            : first(box, hop), second(box, hop), re(box - 1 + hop, 0.0), im(box - 1 + hop, 0.0)
+            : first(box, hop), second(box, hop), re(box - 1, hop), im(box - 1, hop)
         {
         }
 
@@ -118,23 +184,14 @@ private:
         {
             first.reset();
             second.reset();
-            std::fill(re.begin(), re.end(), 0.0);
-            std::fill(im.begin(), im.end(), 0.0);
-        }
-
-        /// Delays one hop by buffer size - hop size frames.
-        static void delay(std::span<double> values, std::vector<double>& buffer) noexcept
-        {
-            const std::size_t kept = buffer.size() - values.size();
-            std::copy(values.begin(), values.end(), buffer.begin() + static_cast<std::ptrdiff_t>(kept));
-            std::copy_n(buffer.begin(), values.size(), values.begin());
-            std::copy(buffer.end() - static_cast<std::ptrdiff_t>(kept), buffer.end(), buffer.begin());
+            re.reset();
+            im.reset();
         }
 
         MovingAverage first;
         MovingAverage second;
-        std::vector<double> re;
-        std::vector<double> im;
+        HopHistory re; ///< delayed as the averages are
+        HopHistory im;
     };
 
     std::size_t box;
