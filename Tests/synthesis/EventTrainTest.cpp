@@ -76,7 +76,7 @@ TEST_CASE("Fast trains of clicks stay apart on a resonant actuator", "[synthesis
         double depth;
     };
     for (const auto& [f, decay] : {std::pair{1000.0, 0.0015}, std::pair{3000.0, 0.001}, std::pair{250.0, 0.003}})
-        for (const Train train : {Train{30.0, 0.95}, Train{50.0, 0.80}, Train{60.0, 0.70}})
+        for (const Train train : {Train{30.0, 0.98}, Train{50.0, 0.95}, Train{60.0, 0.88}})
         {
             CAPTURE(f, train.rate);
             Encoder encoder{EncoderParams{}};

@@ -96,7 +96,7 @@ TEST_CASE("An event alone gets two periods of 100 Hz when it is dull to 280 Hz w
           Approx(400.0));
 }
 
-TEST_CASE("An event of a train lasts 60 % of its gap, 6 to 15 ms, for three periods or more of 200 to 400 Hz",
+TEST_CASE("An event of a train lasts half of its gap, 6 to 15 ms, for three periods or more of 200 to 400 Hz",
           "[synthesis]")
 {
     const auto wanted = [](double sharpness, double length)
@@ -105,11 +105,11 @@ TEST_CASE("An event of a train lasts 60 % of its gap, 6 to 15 ms, for three peri
         return std::clamp(150.0 * std::pow(2500.0 / 150.0, sharpness), least, std::max(least, 400.0));
     };
     for (const auto& [gap, length] : {std::pair{0.0599, 0.015},
-                                      {0.0255, 0.015},
-                                      {0.024, 0.0144},
-                                      {0.02, 0.012},
-                                      {0.0125, 0.0075},
-                                      {0.01, 0.006},
+                                      {0.0305, 0.015},
+                                      {0.0288, 0.0144},
+                                      {0.02, 0.010},
+                                      {0.015, 0.0075},
+                                      {0.012, 0.006},
                                       {0.0095, 0.006},
                                       {0.0, 0.006}})
         for (const double sharpness : {0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 1.0})
@@ -122,7 +122,7 @@ TEST_CASE("An event of a train lasts 60 % of its gap, 6 to 15 ms, for three peri
     // An actuator's range comes after that, and the number of periods stays.
     const Pulse narrow = makePulse({PulseShape::adaptive, 67.0, 1.0, 1.0, 125.0}, 0.0, 0.02, 48000.0, 1.0);
     CHECK(pulseHertz(narrow, 48000.0) == Approx(125.0));
-    CHECK(narrow.frames == 1152); // three periods of 250 Hz, twice as long
+    CHECK(narrow.frames == 1152); // three periods of 300 Hz, 2.4 times as long
 }
 
 TEST_CASE("Square and sine pulses are their closed forms, however they are cut", "[synthesis]")

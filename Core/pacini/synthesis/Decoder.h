@@ -11,6 +11,7 @@
 #include <pacini/synthesis/EnvelopeLeveller.h>
 #include <pacini/synthesis/EventGaps.h>
 #include <pacini/synthesis/NoiseBank.h>
+#include <pacini/synthesis/PartEnvelopes.h>
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PulseLevel.h>
 #include <pacini/synthesis/PulseTrain.h>
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -61,26 +63,10 @@ public:
                     : static_cast<std::size_t>(std::max(1.0, std::floor(fs / std::max(4000.0, 3.3 * highest))));
         innerRate = fs / static_cast<double>(ratio);
         plan.innerRate = innerRate;
-        carriers = CarrierBank(makeCarriers(varied));
-        noise = NoiseBank(makeNoise(varied), params.variation.seed);
-        if (params.followEnvelope && !varied.envelope.empty())
-        {
-            leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames);
-            const auto inFrames = [&](Curve curve)
-            {
-                for (Breakpoint& point : curve)
-                    point.time *= params.stretch * innerRate;
-                return curve;
-            };
-            // Only the last pass has the gaps: what comes before it measures over 10 ms.
-            envelopes.fill(inFrames(varied.envelope));
-            envelopes.back() = inFrames(withEventGaps(varied.envelope, varied.transients, params.gaps));
-        }
+        makeParts(varied);
         interpolator =
             std::make_unique<PolyphaseInterpolator>(ratio, std::clamp(1.05 * highest / innerRate, 0.05, 0.44));
         makeEvents(varied);
-        re.resize(hopFrames);
-        im.resize(hopFrames);
         wantedEnvelope.resize(hopFrames);
         inner.resize(hopFrames);
         ready.resize(hopFrames * ratio);
@@ -117,8 +103,11 @@ public:
         for (const DecoderChange& change : scheduled)
             addChange((change.time - params.delay) * innerRate, change.transposition, change.stretch);
         setEnd();
-        carriers.reset();
-        noise.reset();
+        for (Part& part : parts)
+        {
+            part.carriers.reset();
+            part.noise.reset();
+        }
         if (leveller)
             leveller->reset();
         for (std::size_t pass = 0; pass < envelopes.size(); ++pass)
@@ -216,9 +205,67 @@ private:
         return clock.untouched() ? clipFrame : clock.frameOf(clipFrame / r) * r;
     }
 
-    [[nodiscard]] std::vector<Carrier> makeCarriers(const Clip& clip)
+    /// What is levelled together.
+    struct Part
     {
-        std::vector<Carrier> result;
+        CarrierBank carriers;
+        NoiseBank noise;
+        std::vector<double> re, im; // one hop
+    };
+
+    /// The parts of the clip in which something sounds, at least one, and the envelopes that they and their sum are
+    /// levelled to, times in inner frames.
+    void makeParts(const Clip& clip)
+    {
+        auto carriers = makeCarriers(clip);
+        auto noise = makeNoise(clip);
+        const auto inFrames = [&](Curve curve)
+        {
+            for (Breakpoint& point : curve)
+                point.time *= params.stretch * innerRate;
+            return curve;
+        };
+        std::uint64_t seed = params.variation.seed;
+        const auto addPart = [&](std::size_t part)
+        {
+            const std::size_t bands = noise[part].size();
+            parts.push_back({CarrierBank(std::move(carriers[part])), NoiseBank(std::move(noise[part]), seed),
+                             std::vector<double>(hopFrames), std::vector<double>(hopFrames)});
+            seed += bands; // noise of one band is unlike that of another
+        };
+        plan.levelled = params.followEnvelope && !clip.envelope.empty();
+        if (!plan.levelled)
+        {
+            for (std::size_t part = 1; part < clipParts; ++part)
+            {
+                std::move(carriers[part].begin(), carriers[part].end(), std::back_inserter(carriers[0]));
+                std::move(noise[part].begin(), noise[part].end(), std::back_inserter(noise[0]));
+            }
+            addPart(0);
+            return;
+        }
+        auto shared = partEnvelopes(clip);
+        for (std::size_t part = 0; part < clipParts; ++part)
+            if (!shared[part].empty())
+            {
+                addPart(part);
+                envelopes.push_back(inFrames(std::move(shared[part])));
+            }
+        if (parts.empty())
+        {
+            addPart(0);
+            envelopes.push_back(inFrames(clip.envelope));
+        }
+        // Only the sum has the gaps: what comes before it measures over 10 ms.
+        envelopes.push_back(inFrames(withEventGaps(clip.envelope, clip.transients, params.gaps)));
+        envelopeReaders.resize(envelopes.size());
+        leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames, parts.size());
+    }
+
+    /// The sinusoids of each part.
+    [[nodiscard]] std::array<std::vector<Carrier>, clipParts> makeCarriers(const Clip& clip)
+    {
+        std::array<std::vector<Carrier>, clipParts> result;
         const double reference = referenceFrequency(clip);
         for (const Band& band : clip.bands)
         {
@@ -249,16 +296,17 @@ private:
             if (silent)
                 ++plan.silentBands;
             else
-                result.push_back(std::move(carrier));
+                result[clipPartOf(band.centreFrequency)].push_back(std::move(carrier));
         }
-        plan.carriers = result.size();
-        plan.levelled = params.followEnvelope && !clip.envelope.empty();
+        for (const auto& carriers : result)
+            plan.carriers += carriers.size();
         return result;
     }
 
-    [[nodiscard]] std::vector<NoiseCarrier> makeNoise(const Clip& clip)
+    /// The noise of each part.
+    [[nodiscard]] std::array<std::vector<NoiseCarrier>, clipParts> makeNoise(const Clip& clip)
     {
-        std::vector<NoiseCarrier> result;
+        std::array<std::vector<NoiseCarrier>, clipParts> result;
         for (const NoiseBand& band : clip.noise)
         {
             const double most = 0.45 * params.sampleRate;
@@ -270,9 +318,10 @@ private:
             if (carrier.amplitude.empty())
                 ++plan.silentBands;
             else
-                result.push_back(std::move(carrier));
+                result[clipPartOf(0.5 * (band.lowFrequency + band.highFrequency))].push_back(std::move(carrier));
         }
-        plan.noiseBands = result.size();
+        for (const auto& bands : result)
+            plan.noiseBands += bands.size();
         return result;
     }
 
@@ -305,13 +354,17 @@ private:
     {
         do
         {
-            std::fill(re.begin(), re.end(), 0.0);
-            std::fill(im.begin(), im.end(), 0.0);
             sumSources();
             if (leveller)
-                leveller->process(re, im, [this](std::size_t pass) { return envelopeOf(pass); });
+            {
+                std::array<LevelledPart, clipParts> signals;
+                for (std::size_t i = 0; i < parts.size(); ++i)
+                    signals[i] = {parts[i].re, parts[i].im};
+                leveller->process(std::span(signals).first(parts.size()),
+                                  [this](std::size_t pass) { return envelopeOf(pass); });
+            }
             for (std::size_t n = 0; n < hopFrames; ++n)
-                inner[n] = toSample(im[n]); // sines, as in Eq. 4.13
+                inner[n] = toSample(parts[0].im[n]); // sines, as in Eq. 4.13
             interpolator->process(inner, ready);
             innerFrame += static_cast<std::int64_t>(hopFrames);
             const std::size_t skipped = std::min(skip, ready.size());
@@ -320,16 +373,26 @@ private:
         } while (readyFrom == ready.size());
     }
 
-    /// One hop of sinusoids and noise.
+    /// One hop of the sinusoids and noise of each part.
     void sumSources() noexcept
     {
+        for (Part& part : parts)
+        {
+            std::fill(part.re.begin(), part.re.end(), 0.0);
+            std::fill(part.im.begin(), part.im.end(), 0.0);
+        }
         forPieces(static_cast<double>(innerFrame),
                   [this](std::size_t done, std::size_t n, const ClockPiece& piece)
                   {
-                      carriers.follow(piece);
-                      noise.follow(piece);
-                      carriers.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
-                      noise.process(std::span(re).subspan(done, n), std::span(im).subspan(done, n));
+                      for (Part& part : parts)
+                      {
+                          const auto re = std::span(part.re).subspan(done, n);
+                          const auto im = std::span(part.im).subspan(done, n);
+                          part.carriers.follow(piece);
+                          part.noise.follow(piece);
+                          part.carriers.process(re, im);
+                          part.noise.process(re, im);
+                      }
                   });
     }
 
@@ -378,7 +441,9 @@ private:
     {
         if (timeOf(to - 1) < until) // mostly: points are far apart
             return to;
-        while (++from < to && timeOf(from) < until) {}
+        while (++from < to && timeOf(from) < until)
+        {
+        }
         return from;
     }
 
@@ -404,16 +469,15 @@ private:
     double transpositionRatio = 1.0;
     std::size_t ratio = 1;
     double innerRate = 48000.0;
-    CarrierBank carriers;
-    NoiseBank noise;
+    std::vector<Part> parts;
     std::unique_ptr<EnvelopeLeveller> leveller;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
-    std::array<Curve, EnvelopeLeveller::passCount> envelopes; // of each pass, time in inner frames
-    std::array<CurveReader, EnvelopeLeveller::passCount> envelopeReaders;
+    std::vector<Curve> envelopes; // of each pass, time in inner frames
+    std::vector<CurveReader> envelopeReaders;
     PulseTrain pulses;
     DecoderReport plan;
 
-    std::vector<double> re, im, wantedEnvelope;
+    std::vector<double> wantedEnvelope;
     std::vector<float> inner, ready;
     std::int64_t innerFrame = 0;
     std::size_t readyFrom = 0;

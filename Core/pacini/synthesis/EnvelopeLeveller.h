@@ -88,7 +88,8 @@ private:
     {
     public:
         explicit Hop(MovingAverage& average) noexcept
-            : scale(1.0 / static_cast<double>(average.length)), newest(average.history.nextHop()),
+            : scale(1.0 / static_cast<double>(average.length)),
+              newest(average.history.nextHop()),
               oldest(newest - (average.length - 1))
         {
             for (const double* value = oldest; value != newest; ++value)
@@ -115,11 +116,17 @@ private:
     HopHistory history;
 };
 
+/// One part of a signal, as analytic signal.
+struct LevelledPart
+{
+    std::span<double> re, im;
+};
+
 /// Envelope correction. Sinusoids that stand for bands beat against each other, which the source did not. The leveller
 /// measures the magnitude of their analytic sum over a 10 ms window (a triangle, two moving averages) and scales it to
-/// the wanted envelope, twice, since the first gain moves the magnitude within the window too. Beats slower than about
-/// 50 Hz vanish; faster ones, which carry roughness, stay. Works in hops of a fixed length; output is delayed by
-/// latencyFrames().
+/// the wanted envelope: first each part of the signal by itself, then their sum, also because the first gain moves the
+/// magnitude within the window. Beats slower than about 50 Hz vanish; faster ones, which carry roughness, stay. Works
+/// in hops of a fixed length; output is delayed by latencyFrames().
 class EnvelopeLeveller
 {
 public:
@@ -127,12 +134,13 @@ public:
     static constexpr double largestGain = 8.0; ///< beats are not filled deeper than 18 dB
 
     /// Frames are those of the decoder's inner rate `fs`; hops have `hopFrames` frames.
-    EnvelopeLeveller(double fs, std::size_t hopFrames)
-        : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames), passes{Pass(box, hop), Pass(box, hop)}
+    EnvelopeLeveller(double fs, std::size_t hopFrames, std::size_t parts = 1)
+        : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames), passes(parts + 1, Pass(box, hop))
     {
+        assert(parts > 0);
     }
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return passes.size() * (box - 1); }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return delayOfPass(passes.size() - 1); }
 
     void reset() noexcept
     {
@@ -140,33 +148,28 @@ public:
             pass.reset();
     }
 
-    /// Levels one hop in place. `target(k)` is the wanted envelope of pass k for this hop, taken at the time that the
-    /// pass puts out: (k + 1) * (window frames - 1) / 2 before its input.
+    /// Levels one hop of each part and their sum, which is then in the first of `parts`. `target(k)` is the wanted
+    /// envelope for this hop of part k, or of the sum where k is their number, delayOfPass(k) before the input.
     template <typename Target>
-    void process(std::span<double> re, std::span<double> im, Target&& target) noexcept
+    void process(std::span<const LevelledPart> parts, Target&& target) noexcept
     {
-        for (std::size_t k = 0; k < passes.size(); ++k)
-        {
-            Pass& pass = passes[k];
-            for (std::size_t n = 0; n < hop; ++n)
-                magnitude[n] = std::sqrt(re[n] * re[n] + im[n] * im[n]);
-            MovingAverage::process(pass.first, pass.second, magnitude);
-            const double* const delayedRe = pass.re.delayed(re);
-            const double* const delayedIm = pass.im.delayed(im);
-            const std::span<const double> wanted = target(k);
+        assert(parts.size() + 1 == passes.size());
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            level(passes[k], parts[k], target(k));
+        for (std::size_t k = 1; k < parts.size(); ++k)
             for (std::size_t n = 0; n < hop; ++n)
             {
-                const double gain = std::min((wanted[n] + tiny) / (magnitude[n] + tiny), largestGain);
-                re[n] = delayedRe[n] * gain;
-                im[n] = delayedIm[n] * gain;
+                parts[0].re[n] += parts[k].re[n];
+                parts[0].im[n] += parts[k].im[n];
             }
-        }
+        level(passes.back(), parts[0], target(parts.size()));
     }
 
-    /// Frames by which pass k delays.
-    [[nodiscard]] std::size_t delayOfPass(std::size_t k) const noexcept { return (k + 1) * (box - 1); }
-
-    static constexpr std::size_t passCount = 2;
+    /// Frames by which what pass k puts out is delayed: half a window in all parts, another one in their sum.
+    [[nodiscard]] std::size_t delayOfPass(std::size_t k) const noexcept
+    {
+        return (k + 1 < passes.size() ? 1 : 2) * (box - 1);
+    }
 
 private:
     static constexpr double tiny = 1e-5; // -100 dB: silence stays silence
@@ -175,8 +178,7 @@ private:
 
     struct Pass
     {
-        Pass(std::size_t box, std::size_t hop)
-            : first(box, hop), second(box, hop), re(box - 1, hop), im(box - 1, hop)
+        Pass(std::size_t box, std::size_t hop) : first(box, hop), second(box, hop), re(box - 1, hop), im(box - 1, hop)
         {
         }
 
@@ -194,10 +196,26 @@ private:
         HopHistory im;
     };
 
+    void level(Pass& pass, const LevelledPart& part, std::span<const double> wanted) noexcept
+    {
+        const auto [re, im] = part;
+        for (std::size_t n = 0; n < hop; ++n)
+            magnitude[n] = std::sqrt(re[n] * re[n] + im[n] * im[n]);
+        MovingAverage::process(pass.first, pass.second, magnitude);
+        const double* const delayedRe = pass.re.delayed(re);
+        const double* const delayedIm = pass.im.delayed(im);
+        for (std::size_t n = 0; n < hop; ++n)
+        {
+            const double gain = std::min((wanted[n] + tiny) / (magnitude[n] + tiny), largestGain);
+            re[n] = delayedRe[n] * gain;
+            im[n] = delayedIm[n] * gain;
+        }
+    }
+
     std::size_t box;
     std::size_t hop;
     std::vector<double> magnitude;
-    std::array<Pass, passCount> passes;
+    std::vector<Pass> passes;
 };
 
 } // namespace pacini

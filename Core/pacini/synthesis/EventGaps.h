@@ -26,8 +26,9 @@ struct EventGapParams
     double fade = 0.003;   ///< s in which it opens before
     double reach = 0.012;  ///< s
     double attack = 0.001; ///< s in which the level is back after the event's time
-    double train = 0.045;  ///< s: events nearer to the one before leave the time between to their pulses, whose ringing
-                           ///< is all that an actuator can have die away there; the gap is silent
+    /// Between events nearer to each other than this, s, which rise by at least that, dB, pulses carry what is felt:
+    /// the gap is silent and as long as their ringing leaves it.
+    double train = 0.045, trainRise = 10.0;
     double trainHold = 0.45; ///< of the time since the event before, instead of `hold`
     double trainFade = 0.2;  ///< instead of `fade`
     bool operator==(const EventGapParams&) const = default;
@@ -89,9 +90,10 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
         const double full =
             std::max(event.amplitude, peakOfMean * detail::largestWithin(envelope, event.time, event.time + 0.010));
         const double lowest = peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
-        if (!(full > 0.0) || 20.0 * std::log10((full + unfelt) / (lowest + unfelt)) >= params.enough)
+        const double rise = 20.0 * std::log10((full + unfelt) / (lowest + unfelt));
+        const bool inTrain = since < params.train && rise >= params.trainRise;
+        if (!(full > 0.0) || (rise >= params.enough && !inTrain))
             continue;
-        const bool inTrain = since < params.train;
         const double open = event.time - (inTrain ? params.trainHold * since : params.hold);
         const double start = open - (inTrain ? params.trainFade * since : params.fade);
         if (start <= free || event.time <= 0.0)

@@ -75,7 +75,7 @@ std::vector<double> levellingGain(const Clip& clip)
     Curve envelope = clip.envelope;
     for (Breakpoint& point : envelope)
         point.time *= fs;
-    std::array<CurveReader, EnvelopeLeveller::passCount> readers{CurveReader(envelope), CurveReader(envelope)};
+    std::array<CurveReader, 2> readers{CurveReader(envelope), CurveReader(envelope)};
 
     const auto steps = static_cast<std::size_t>(std::ceil(clip.duration / gainStep)) + 1;
     const std::size_t latency = leveller.latencyFrames();
@@ -90,7 +90,7 @@ std::vector<double> levellingGain(const Clip& clip)
         for (std::size_t n = 0; n < hop; ++n)
             if ((frame + n) % framesPerStep == 0 && (frame + n) / framesPerStep < steps)
                 before[(frame + n) / framesPerStep] = std::hypot(re[n], im[n]);
-        leveller.process(re, im,
+        leveller.process(std::array{LevelledPart{re, im}},
                          [&](std::size_t pass) -> std::span<const double>
                          {
                              const double first =

@@ -1,0 +1,91 @@
+#pragma once
+
+// Envelopes of the low and the high part of a clip, to which each is levelled before their sum is.
+
+#include <pacini/clip/Clip.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// Parts of a clip: what lies below and above 200 Hz, where the fibres that feel flutter hand over to the Pacinian ones
+/// (S. Bolanowski et al., "Four channels mediate the mechanical aspects of touch", 1988: from 40 Hz on both, alike
+/// strong up to some 200 Hz in a small contact). Beats within a part are felt there even where the other part fills
+/// the gaps of the sum.
+constexpr std::size_t clipParts = 2;
+
+/// The part of what stands at `frequency`, Hz.
+[[nodiscard]] constexpr std::size_t clipPartOf(double frequency) noexcept
+{
+    return frequency < 200.0 ? 0 : 1;
+}
+
+/// The clip's envelope shared by the powers that the bands and the noise of each part have, the root of the share being
+/// that of the amplitude. Points stand where a level bends, at least 1 ms apart; empty for a part in which nothing
+/// sounds, the clip's own envelope for the only one in which something does.
+[[nodiscard]] inline std::array<Curve, clipParts> partEnvelopes(const Clip& clip)
+{
+    struct Level
+    {
+        std::size_t part;
+        CurveReader reader;
+        double powerOfSquare; // noise is told as its RMS
+    };
+    std::vector<Level> levels;
+    std::vector<double> times;
+    std::array<bool, clipParts> sounds{};
+    const auto add = [&](const Curve& curve, double frequency, double powerOfSquare)
+    {
+        if (std::all_of(curve.begin(), curve.end(), [](const Breakpoint& point) { return point.value == 0.0; }))
+            return;
+        const std::size_t part = clipPartOf(frequency);
+        levels.push_back({part, CurveReader(curve), powerOfSquare});
+        sounds[part] = true;
+        for (const Breakpoint& point : curve)
+            times.push_back(point.time);
+    };
+    for (const Band& band : clip.bands)
+        add(band.amplitude, band.centreFrequency, 1.0);
+    for (const NoiseBand& band : clip.noise)
+        add(band.amplitude, 0.5 * (band.lowFrequency + band.highFrequency), 2.0);
+
+    std::array<Curve, clipParts> envelopes;
+    if (!sounds[0] || !sounds[1])
+    {
+        for (std::size_t part = 0; part < clipParts; ++part)
+            if (sounds[part])
+                envelopes[part] = clip.envelope;
+        return envelopes;
+    }
+    for (const Breakpoint& point : clip.envelope)
+        times.push_back(point.time);
+    std::sort(times.begin(), times.end());
+    constexpr double nearest = 0.001; // s
+    CurveReader envelope(clip.envelope);
+    double last = -1.0;
+    for (const double time : times)
+    {
+        if (time < last + nearest)
+            continue;
+        last = time;
+        std::array<double, clipParts> power{};
+        for (Level& level : levels)
+        {
+            const double a = level.reader.at(time);
+            power[level.part] += level.powerOfSquare * a * a;
+        }
+        const double total = power[0] + power[1];
+        const double whole = envelope.at(time);
+        for (std::size_t part = 0; part < clipParts; ++part)
+            envelopes[part].push_back({time, total > 0.0 ? whole * std::sqrt(power[part] / total) : 0.0});
+    }
+    return envelopes;
+}
+
+} // namespace pacini

@@ -1,0 +1,169 @@
+#include "support/Catch.h"
+
+#include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/EventGaps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <span>
+#include <vector>
+
+using namespace pacini;
+
+namespace
+{
+const Curve steady{{0.0, 0.2}, {2.0, 0.2}};
+
+/// A steady tone of 200 Hz that an event stands in.
+Clip toneWithEvent(double time, double amplitude)
+{
+    Clip clip;
+    clip.duration = 2.0;
+    Band band;
+    band.lowFrequency = 150.0;
+    band.centreFrequency = 200.0;
+    band.highFrequency = 250.0;
+    band.amplitude = {{0.0, 0.4}, {2.0, 0.4}};
+    clip.bands = {band};
+    clip.envelope = {{0.0, 0.4}, {2.0, 0.4}};
+    clip.transients = {{time, amplitude, 0.5}};
+    return clip;
+}
+
+/// Root mean square of the 5 ms from `from` s on.
+double levelAt(std::span<const float> x, double fs, double from)
+{
+    double sum = 0.0;
+    const auto first = static_cast<std::size_t>(from * fs);
+    const auto count = static_cast<std::size_t>(0.005 * fs);
+    for (const float v : x.subspan(first, count))
+        sum += static_cast<double>(v) * static_cast<double>(v);
+    return std::sqrt(sum / static_cast<double>(count));
+}
+
+/// dB by which the level rises over 10 ms at an event of a clip, at most.
+double riseAt(const Clip& clip, double time, const EventGapParams& gaps)
+{
+    DecoderParams params;
+    params.sampleRate = 8000.0;
+    params.gaps = gaps;
+    Decoder decoder(clip, params);
+    std::vector<float> drive(static_cast<std::size_t>(decoder.totalFrames()));
+    decoder.process(drive);
+    double rise = -100.0;
+    for (double t = time - 0.02; t < time + 0.01; t += 0.0005)
+        rise = std::max(rise, 20.0 * std::log10(levelAt(drive, 8000.0, t + 0.01) / levelAt(drive, 8000.0, t)));
+    return rise;
+}
+} // namespace
+
+TEST_CASE("Before an event that does not stand out the level falls, and is back a millisecond after", "[synthesis]")
+{
+    const Curve gapped = withEventGaps(steady, std::vector<Transient>{{1.0, 0.8, 0.5}});
+    // The strongest is the event at 0.8: of that, 30 dB below counts as unfelt.
+    const double unfelt = 0.8 * std::pow(10.0, -1.5);
+    const double low = valueAt(gapped, 0.998);
+    CHECK((0.8 + unfelt) / (2.0 * low + unfelt) == Approx(10.0));
+    CHECK(valueAt(gapped, 0.9961) == Approx(low));
+    CHECK(valueAt(gapped, 0.9929) == 0.2);
+    CHECK(valueAt(gapped, 0.9945) == Approx(0.5 * (0.2 + low)));
+    CHECK(valueAt(gapped, 1.001) == 0.2);
+    CHECK(valueAt(gapped, 1.0005) == Approx(0.5 * (0.2 + low)));
+    CHECK(valueAt(gapped, 0.5) == 0.2);
+    CHECK(valueAt(gapped, 2.0) == 0.2);
+}
+
+TEST_CASE("A soft event gets all the silence there can be, one beyond the range of touch nothing more", "[synthesis]")
+{
+    const Curve loudBefore{{0.0, 0.5}, {0.5, 0.5}, {0.51, 0.02}, {2.0, 0.02}};
+    const Curve gapped = withEventGaps(loudBefore, std::vector<Transient>{{1.0, 0.1, 0.5}});
+    CHECK(valueAt(gapped, 0.998) == 0.0);
+    CHECK(valueAt(gapped, 0.4) == 0.5);
+}
+
+TEST_CASE("What rises by itself, and what has no events, stays as it is", "[synthesis]")
+{
+    const Curve fromSilence{{0.0, 0.0}, {0.995, 0.0}, {1.0, 0.4}, {2.0, 0.4}};
+    CHECK(withEventGaps(fromSilence, std::vector<Transient>{{0.998, 0.8, 0.5}}) == fromSilence);
+    CHECK(withEventGaps(steady, {}) == steady);
+    CHECK(withEventGaps({}, std::vector<Transient>{{1.0, 0.8, 0.5}}).empty());
+    CHECK(withEventGaps(steady, std::vector<Transient>{{0.0, 0.8, 0.5}}) == steady);
+    const Curve silent{{0.0, 0.0}, {2.0, 0.0}};
+    CHECK(withEventGaps(silent, std::vector<Transient>{{1.0, 0.0, 0.5}}) == silent);
+    EventGapParams none;
+    none.enough = 0.0;
+    CHECK(withEventGaps(steady, std::vector<Transient>{{1.0, 0.8, 0.5}}, none) == steady);
+}
+
+TEST_CASE("Between pulses that carry a train it is silent for almost half of the time", "[synthesis]")
+{
+    // The events rise by 14 dB from what the envelope reaches.
+    const Curve soft{{0.0, 0.08}, {2.0, 0.08}};
+    std::vector<Transient> train;
+    for (int k = 0; k < 20; ++k)
+        train.push_back({0.5 + 0.02 * k, 1.0, 0.5});
+    const Curve gapped = withEventGaps(soft, train);
+    for (int k = 1; k < 20; ++k)
+    {
+        CAPTURE(k);
+        const double time = 0.5 + 0.02 * k;
+        CHECK(valueAt(gapped, time - 0.0089) == Approx(0.0).margin(1e-12));
+        CHECK(valueAt(gapped, time - 0.0001) == Approx(0.0).margin(1e-12));
+        CHECK(valueAt(gapped, time - 0.0131) == 0.08);
+        CHECK(valueAt(gapped, time + 0.001) == Approx(0.08));
+    }
+    // Not where the level itself is what is felt, nor from 45 ms on, where events are single ones.
+    for (Transient& event : train)
+        event.amplitude = 0.3;
+    CHECK(valueAt(withEventGaps(steady, train), 0.5929) == 0.2);
+    CHECK(valueAt(withEventGaps(steady, train), 0.598) > 0.0);
+    CHECK(
+        withEventGaps({{0.0, 0.05}, {2.0, 0.05}}, std::vector<Transient>{{1.0, 1.0, 0.5}, {1.046, 1.0, 0.5}}).size() ==
+        2);
+}
+
+TEST_CASE("Gaps keep the order of time and never raise a level, wherever events stand", "[synthesis]")
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int round = 0; round < 50; ++round)
+    {
+        CAPTURE(round);
+        Curve envelope;
+        std::vector<Transient> events;
+        double time = 0.0;
+        while (time < 1.0)
+        {
+            envelope.push_back({time, unit(random)});
+            time += 0.005 + 0.1 * unit(random) * unit(random);
+        }
+        for (double t = 0.0; t < 1.2; t += 0.08 * unit(random) * unit(random))
+            events.push_back({t, unit(random), unit(random)});
+        const Curve gapped = withEventGaps(envelope, events);
+        double highest = 0.0;
+        for (std::size_t i = 0; i < gapped.size(); ++i)
+        {
+            REQUIRE(std::isfinite(gapped[i].value));
+            REQUIRE(gapped[i].value >= 0.0);
+            REQUIRE(gapped[i].time >= (i > 0 ? gapped[i - 1].time : 0.0));
+            highest = std::max(highest, gapped[i].value - valueAt(envelope, gapped[i].time));
+        }
+        CHECK(highest < 1e-12);
+        CHECK(gapped.back().time >= envelope.back().time);
+    }
+}
+
+TEST_CASE("An event in a steady tone is played so that the level rises by more than 15 dB", "[synthesis][events]")
+{
+    EventGapParams none;
+    none.enough = 0.0;
+    for (const double amplitude : {0.5, 0.85, 1.0})
+    {
+        CAPTURE(amplitude);
+        const Clip clip = toneWithEvent(1.0, amplitude);
+        CHECK(riseAt(clip, 1.0, none) < 7.0);
+        CHECK(riseAt(clip, 1.0, {}) > 15.0);
+    }
+}
