@@ -165,6 +165,59 @@ TEST_CASE("Sections join where one ends and the next begins, sounding or silent"
     pinFitted("joined clip, steady pitch", clip);
 }
 
+TEST_CASE("Levels of noise bands are fitted, counted and joined as those of bands", "[analysis]")
+{
+    const auto withNoise = [](BandAnalysisResult found)
+    {
+        found.noise = {found.tracks[2].amplitude, std::vector<float>(found.tracks[0].amplitude.size(), 0.0f)};
+        return found;
+    };
+    const auto begun = []
+    {
+        Clip clip = clipOfThreeBands();
+        clip.noise = {{300.0, 1000.0, {}}, {30.0, 300.0, {}}};
+        clip.duration = 6.0;
+        return clip;
+    };
+    Clip clip = begun();
+    ClipFitter fitter(100.0);
+    fitter.add(clip, withNoise(fittedFrames(1.5, 0.5, 3)), 1.0, 0.0);
+    CHECK(clip.noise[0].amplitude == clip.bands[2].amplitude);
+    CHECK(clip.noise[1].amplitude.empty());
+    CHECK(validate(clip).ok());
+    CHECK(clip.noise[0].lowFrequency == 300.0);
+    // Noise takes its share of importance from the pitches, and draws the centroid up.
+    Clip plain = clipOfThreeBands();
+    fitter.add(plain, fittedFrames(1.5, 0.5, 3), 1.0, 0.0);
+    CHECK(clip.bands[0].amplitude == plain.bands[0].amplitude);
+    CHECK(clip.envelope == plain.envelope);
+    CHECK(valueAt(clip.centroid, 0.3) > valueAt(plain.centroid, 0.3));
+    CHECK(clip.bands[0].pitch.size() <= plain.bands[0].pitch.size());
+    // The cap counts noise bands as bands.
+    for (const double points : {2.0, 5.0})
+    {
+        Clip capped = begun();
+        ClipFitter few(points);
+        few.add(capped, withNoise(fittedFrames(6.0, 0.5, 3)), 1.0, 0.0);
+        CHECK(static_cast<double>(breakpointCount(capped)) <= points * 5.0 * 6.0 + 2.0 * 7.0);
+    }
+    // Cut in two and joined, it is nearly what it was.
+    auto all = withNoise(fittedFrames(6.0, 0.5, 3));
+    Clip whole = begun();
+    fitter.add(whole, all, 1.0, 0.0);
+    Clip joined = begun();
+    const auto first = all.takeFirst(3.0);
+    REQUIRE(first.noise.size() == 2);
+    CHECK(first.noise[0].size() == 151);
+    CHECK(all.noise[0].size() == 151);
+    CHECK(first.noise[0].back() == all.noise[0].front());
+    fitter.add(joined, first, 1.0, 0.0);
+    fitter.add(joined, all, 1.0, 3.0);
+    for (double t = 0.1; t < 6.0; t += 0.05)
+        CHECK(valueAt(joined.noise[0].amplitude, t) == Approx(valueAt(whole.noise[0].amplitude, t)).margin(0.15));
+    CHECK(validate(joined).ok());
+}
+
 TEST_CASE("Clips of a mixed sound are what they were, whatever the encoder is told", "[analysis][encoder]")
 {
     const auto pin = [](const std::string& name, const EncoderParams& params, int channels = 1)

@@ -133,8 +133,8 @@ TEST_CASE("pacini bench methods measures size, quality and speed of every method
         CHECK(row["detectedF1"].is_number());
     }
     // All of this sound lies below 1 kHz: a low-pass there keeps it, a shift by two octaves does not.
-    CHECK(json["rows"][7]["lsd"].get<double>() < 1.0);
-    CHECK(json["rows"][8]["lsd"].get<double>() > 5.0);
+    CHECK(json["rows"][8]["lsd"].get<double>() < 1.0);
+    CHECK(json["rows"][9]["lsd"].get<double>() > 5.0);
 }
 
 TEST_CASE("pacini bench body shows which integrators break at stiff joints, and where", "[cli][bench]")

@@ -99,6 +99,39 @@ TEST_CASE("encode makes the clip of every method in both formats", "[cli]")
         }
 }
 
+TEST_CASE("Bands of noise of a decomposition are in its JSON, in its packed form and in what both play", "[cli]")
+{
+    const TempFolder folder;
+    putSoundFile(folder / "rain.wav", noise(16000, 4, 0.5));
+    REQUIRE(encode(folder, "rain.wav -o rain.json --method decomposition").status == 0);
+    REQUIRE(encode(folder, "rain.wav -o rain.pacb --method decomposition").status == 0);
+    const auto clip = readClip(folder / "rain.json");
+    const auto packed = readClip(folder / "rain.pacb");
+    REQUIRE(clip.ok());
+    REQUIRE(packed.ok());
+    CHECK(clip->clip.noise.size() == 6);
+    CHECK((clip->clip.noise == packed->clip.noise));
+    Clip alone = clip->clip;
+    alone.bands.clear();
+    REQUIRE(writeClip(folder / "alone.json", alone, jsonFormat()).ok());
+    REQUIRE(writeClip(folder / "alone.pacb", alone, packedFormat()).ok());
+    for (const std::string name : {"rain", "alone"})
+        for (const std::string form : {".json", ".pacb"})
+            REQUIRE(std::system(("cd \"" + folder.path().string() + "\" && \"" + paciniCommand().string() +
+                                 "\" render " + name + form + " -o " + name + form + ".wav --rate 8000 > log 2>&1")
+                                    .c_str()) == 0);
+    const auto samplesOf = [&folder](const char* name)
+    {
+        const auto audio = readAudio(folder / name);
+        REQUIRE(audio.ok());
+        return audio->samples;
+    };
+    CHECK((samplesOf("rain.json.wav") == samplesOf("rain.pacb.wav")));
+    CHECK((samplesOf("alone.json.wav") == samplesOf("alone.pacb.wav")));
+    CHECK((samplesOf("alone.json.wav") != samplesOf("rain.json.wav")));
+    CHECK(rms(samplesOf("alone.json.wav")) > 0.05);
+}
+
 TEST_CASE("encode writes the signal of a method as a WAV that never replaces the recording", "[cli]")
 {
     const TempFolder folder;

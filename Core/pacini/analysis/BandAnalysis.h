@@ -106,6 +106,8 @@ struct BandAnalysisResult
     std::vector<float> envelope;   ///< mean magnitude of that analytic signal
     std::vector<Track> tracks;     ///< one for every band
     std::vector<float> heardShare; ///< 0-1 of each value of `envelope`: how far AudibleBlend took over; empty: nowhere
+    std::vector<std::vector<float>>
+        noise; ///< linear RMS, a frame every bandStep, of each noise band of the clip, if any
 
     /// Up to where all frames are there, s. O(bands).
     [[nodiscard]] double seconds() const noexcept
@@ -134,6 +136,8 @@ struct BandAnalysisResult
             first.heardShare = cut(heardShare, envelopeStep);
         for (Track& track : tracks)
             first.tracks.push_back({cut(track.amplitude, bandStep), cut(track.frequency, bandStep)});
+        for (std::vector<float>& levels : noise)
+            first.noise.push_back(cut(levels, bandStep));
         return first;
     }
 };

@@ -20,17 +20,19 @@ namespace pacini
 class ClipFitter
 {
 public:
-    /// At most `breakpoints` per second of sound and band.
+    /// At most `breakpoints` per second of sound and band, noise bands included.
     explicit ClipFitter(double breakpoints) : pointsPerSecond(breakpoints) {}
 
     /// Adds the curves of `found`, which begins `start` s after the clip, a multiple of 0.06 s, at the last frame of
-    /// the section before. The clip has its bands; its curves end at `start`, or are empty.
+    /// the section before. The clip has its bands, noise bands too; its curves end at `start`, or are empty.
     void add(Clip& clip, const BandAnalysisResult& found, double gain, double start)
     {
         Clip section;
         for (const Band& band : clip.bands)
             section.bands.push_back({band.lowFrequency, band.centreFrequency, band.highFrequency, 0, {}, {}});
-        const auto bands = static_cast<double>(clip.bands.size());
+        for (const NoiseBand& band : clip.noise)
+            section.noise.push_back({band.lowFrequency, band.highFrequency, {}});
+        const auto bands = static_cast<double>(clip.bands.size() + clip.noise.size());
         double price = std::pow(20.0 / pointsPerSecond, priceExponent);
         fit(section, found, gain, price);
         const double most = pointsPerSecond * bands * std::max(activeSeconds(found, gain), 0.1);
@@ -44,6 +46,8 @@ public:
             joinLevel(clip.bands[k].amplitude, std::move(section.bands[k].amplitude), start);
             joinPitch(clip.bands[k].pitch, section.bands[k].pitch, start);
         }
+        for (std::size_t k = 0; k < clip.noise.size(); ++k)
+            joinLevel(clip.noise[k].amplitude, std::move(section.noise[k].amplitude), start);
         joinLevel(clip.envelope, std::move(section.envelope), start);
         joinPitch(clip.centroid, section.centroid, start);
     }
@@ -58,6 +62,13 @@ private:
         for (const auto& track : found.tracks)
             for (std::size_t i = 0; i < n; ++i)
                 total[i] += static_cast<double>(track.amplitude[i]) * static_cast<double>(track.amplitude[i]);
+        const auto noisePower = [&found](std::size_t k, std::size_t i) // of the sine that is as strong
+        {
+            return 2.0 * static_cast<double>(found.noise[k][i]) * static_cast<double>(found.noise[k][i]);
+        };
+        for (std::size_t k = 0; k < clip.noise.size(); ++k)
+            for (std::size_t i = 0; i < n; ++i)
+                total[i] += noisePower(k, i);
         std::vector<double> level(n);
         for (std::size_t i = 0; i < n; ++i)
             level[i] = std::max(0.0, 1.0 - 10.0 * std::log10(total[i] * gain * gain) / floorDecibels);
@@ -80,6 +91,14 @@ private:
                 centroid.add(i, f, share * level[i]);
             }
             band.pitch = band.amplitude.empty() ? Curve{} : pitch.fit(curves, band.centreFrequency, pitchPrice * price);
+        }
+        for (std::size_t k = 0; k < clip.noise.size(); ++k)
+        {
+            NoiseBand& band = clip.noise[k];
+            band.amplitude =
+                curves.fitAmplitude(found.noise[k], BandAnalysisResult::bandStep, gain, floor, bandPrice * price);
+            for (std::size_t i = 0; i < n; ++i)
+                centroid.add(i, 0.5 * (band.lowFrequency + band.highFrequency), noisePower(k, i) / total[i] * level[i]);
         }
         const double middle = 0.5 * (clip.bands.front().lowFrequency + clip.bands.back().highFrequency);
         clip.centroid = centroid.fit(curves, middle, centroidPrice * price);

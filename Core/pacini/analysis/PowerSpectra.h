@@ -65,6 +65,16 @@ private:
     }
 };
 
+/// The signal between half a window of zeros on either side: frame m of it has its middle at sample m hop of the
+/// signal.
+[[nodiscard]] inline std::vector<float> withCentredFrames(std::span<const float> signal, const FrameGrid& grid)
+{
+    const auto half = static_cast<std::ptrdiff_t>(grid.window / 2);
+    std::vector<float> padded(signal.size() + 2 * (grid.window / 2), 0.0f);
+    std::copy(signal.begin(), signal.end(), padded.begin() + half);
+    return padded;
+}
+
 /// Calls visit(m, power) for every frame m of the signal, power[k] = |X_m(k)|^2, k = 0..window/2, of the periodic
 /// Hann-windowed frame that starts at sample m hop (Weber 2020, Eq. 4.1).
 template <typename Visit>

@@ -204,7 +204,7 @@ void measureMethods(const BenchSound& sound, const BenchSettings& settings, Benc
         if (info.output == MethodOutput::signal)
             measurement.signal(name, [&] { return translateToSignal(info.method, mix(), fs); });
         else if (info.method != Method::a2vt)
-            measurement.clip(name, "", info.method == Method::thesis,
+            measurement.clip(name, "", info.method == Method::thesis || info.method == Method::decomposition,
                              [&] { return translateToClip(info.method, mix(), fs); });
     }
     if (!settings.sweep)

@@ -3,6 +3,7 @@
 // The translation methods that Pacini can compare, by name.
 
 #include <pacini/analysis/methods/CentroidFlatness.h>
+#include <pacini/analysis/methods/Decomposition.h>
 #include <pacini/analysis/methods/EnvelopeCentroid.h>
 #include <pacini/analysis/methods/EnvelopeSine.h>
 #include <pacini/analysis/methods/FrequencyShift.h>
@@ -31,6 +32,7 @@ enum class Method
 {
     a2vt,
     thesis,
+    decomposition,
     envelopeSine,
     envelopeCentroid,
     vocoder16,
@@ -60,9 +62,11 @@ struct MethodInfo
 };
 
 /// All methods, in the order of Method.
-inline constexpr std::array<MethodInfo, 12> methodTable{{
+inline constexpr std::array<MethodInfo, 13> methodTable{{
     {Method::a2vt, "a2vt", MethodOutput::clip, "Pacini's own: band envelopes and pitches at the best price per point"},
     {Method::thesis, "thesis", MethodOutput::clip, "Weber 2020, literally: six bands on fixed sines, and transients"},
+    {Method::decomposition, "decomposition", MethodOutput::clip,
+     "Weber 2020, its full proposal: tracked partials, events, and bands of noise"},
     {Method::envelopeSine, "envelope-sine", MethodOutput::clip, "the envelope of the sound on a sine of 80 Hz"},
     {Method::envelopeCentroid, "envelope-centroid", MethodOutput::clip,
      "the envelope of the sound on a sine that follows the spectral centroid"},
@@ -100,7 +104,8 @@ inline constexpr std::array<MethodInfo, 12> methodTable{{
 /// Choices that methods share; what is left out is the method's own. Values are clamped as the methods say.
 struct MethodChoices
 {
-    std::optional<double> breakpoints;   ///< per second of active time and curve: all methods that make a clip
+    std::optional<double> breakpoints;   ///< per second of active time and curve: all methods that make a clip;
+                                         ///< for decomposition as for a2vt no more than that
     std::optional<std::size_t> bands;    ///< thesis
     std::optional<double> lowFrequency;  ///< Hz, of the first band: thesis
     std::optional<double> highFrequency; ///< Hz, of the last band: thesis
@@ -129,6 +134,12 @@ struct MethodChoices
         params.layout.high = Hertz(choices.highFrequency.value_or(params.layout.high.value));
         params.quantise = choices.quantise.value_or(params.quantise);
         return thesisClip(mono, fs, params);
+    }
+    case Method::decomposition:
+    {
+        DecompositionParams params;
+        params.breakpoints = choices.breakpoints.value_or(params.breakpoints);
+        return decompositionClip(mono, fs, params);
     }
     case Method::envelopeSine:
         return envelopeSineClip(mono, fs, withBreakpoints(EnvelopeSineParams{}));
@@ -171,6 +182,7 @@ struct MethodChoices
         return pitchMatch(mono, fs);
     case Method::a2vt:
     case Method::thesis:
+    case Method::decomposition:
     case Method::envelopeSine:
     case Method::envelopeCentroid:
     case Method::vocoder16:
