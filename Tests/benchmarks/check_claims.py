@@ -1,4 +1,4 @@
-#!/ usr / bin / env python3
+#!/usr/bin/env python3
 """Compares the figures that the README and its pages state of sizes, speed and strength with what this build does.
 
 check_claims.py PACINI [--plugin-tests PROGRAM] [--write-sizes]   exit 1 when a claim does not hold
