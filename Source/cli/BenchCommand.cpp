@@ -98,7 +98,9 @@ CLI::App* BenchCommand::declare(CLI::App& app)
     addPreset(*command, "-o,--output", output, "Folder for the tables and charts", "DIR");
     addPreset(*command, "--repeat", settings.repeats, "Runs of which the fastest counts; long ones are not repeated",
               wholeNumberFrom(1, 1000));
-    command->add_flag("--sweep", settings.sweep, "methods: also Pacini's own at many settings");
+    command->add_flag(
+        "--sweep", settings.sweep,
+        "methods: also Pacini's own at many settings; actuators: also small steps of strength, other boosts");
     addPreset(*command, "--format", format, "Format of the charts", oneOf({"svg", "png"}));
     addOption(*command, "--markdown", markdown, "Also write all tables into one Markdown page", "FILE");
     overwriting.declare(*command);

@@ -160,6 +160,7 @@ private:
     bool noAdaptation = false;
     std::string mapping = "profile";
     double maxBoost = AdaptationParams{}.maxBoost.value; // dB
+    double strength = AdaptationParams{}.strength;
     bool noProtection = false;
     bool force = false;
     OverwriteOptions overwriting;
@@ -225,6 +226,10 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     addPreset(*command, "--max-boost", maxBoost,
               "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance",
               numberFrom(0.0, 40.0));
+    addPreset(*command, "--strength", strength,
+              "Trade of likeness for strength on resonant actuators: 0 plays as flat as can be, 1 all of it on the "
+              "resonance",
+              numberFrom(0.0, 1.0), "S");
     command->add_flag("--no-protection", noProtection,
                       "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
                       "as they are, or clipped as PCM");
@@ -306,6 +311,7 @@ Exit RenderCommand::run(Console& console)
         mapping,
         {{"clamp", FrequencyMapping::clamp}, {"rescale", FrequencyMapping::rescale}, {"fold", FrequencyMapping::fold}});
     settings.compile.adaptation.maxBoost = Decibels(maxBoost);
+    settings.compile.adaptation.strength = strength;
     settings.protect = !noProtection;
     settings.transposition = transpose;
     settings.stretch = stretch;

@@ -1,5 +1,6 @@
 #include "document/ActuatorTrace.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/clip/BandPriority.h>
 #include <pacini/synthesis/ClipAdaptation.h>
@@ -68,13 +69,8 @@ private:
 /// The range of frequencies that an adapted clip may have.
 TimeRange reachOf(const Profile& profile)
 {
-    TimeRange reach{profile.range.lowFrequency, profile.range.highFrequency};
-    if (const auto flattening = flatteningOf(profile, AdaptationParams{}.maxBoost))
-    {
-        const double ratio = std::exp2(flattening->octaves);
-        reach = {std::max(reach.from / ratio, 1.0), std::min(reach.to * ratio, 20000.0)};
-    }
-    return reach;
+    const ActuatorRange range = fitActuator(profile, {}).range;
+    return {range.lowFrequency, range.highFrequency};
 }
 
 /// Everything that is asked about one source at each step.

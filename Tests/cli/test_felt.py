@@ -82,6 +82,27 @@ class Felt(CommandTest):
         self.succeeds("render", clip, "-o", name, "--profile", profile, *options)
         return read_float_wav(self.folder / name)[1]
 
+    def test_strength_wins_back_what_flattening_costs_and_0_is_as_flat_as_can_be(self):
+        self.succeeds("encode", str(SOURCE / "Resources/demo/iter_drum_roll.flac"), "-o", "roll.json", "--audible", "0")
+        for profile in ("lra-175", "lra-235-narrow", "phone-taptic"):
+            def level(*options):
+                return 20 * math.log10(rms(self.rendered(profile, "--felt", "-f", *options, clip="roll.json")))
+
+            plain = level("--max-boost", "0")
+            levels = [level("--strength", strength) for strength in ("0", "0.2", "0.4", "0.6", "0.8", "1")]
+            self.assertEqual(levels, sorted(levels), profile)
+            self.assertLess(levels[0], plain - 4, profile)
+            self.assertGreater(level(), plain - 3, profile)  # the default
+            self.assertEqual(level(), levels[2], profile)
+        for strength in ("-0.1", "1.1", "nan", "strong"):
+            self.fails(2, ["render", "roll.json", "--profile", "lra-175", "--strength", strength], "--strength")
+
+    def test_strength_leaves_a_motor_and_a_plain_signal_as_they_are(self):
+        self.steady()
+        for profile in ("erm-coin", "flat-pcm"):
+            self.assertEqual(self.rendered(profile, "-f", "--strength", "0"),
+                             self.rendered(profile, "-f", "--strength", "1"), profile)
+
     def test_a_demo_sound_is_felt_on_a_voice_coil_and_on_a_motor(self):
         self.succeeds("encode", str(SOURCE / "Resources/demo/knock_wood_bridge.flac"), "-o", "knock.json")
         for profile in ("l5-wristband", "erm-coin"):

@@ -255,6 +255,7 @@ Strain strainOfScene(const LimitCase& limitCase, Random& random)
     compile.leaveOut = random.uniform() < 0.5;
     const std::array boosts{0.0, 6.0, 20.0, 40.0};
     compile.adaptation.maxBoost = Decibels(boosts[random.next() % boosts.size()]);
+    compile.adaptation.strength = random.uniform();
     auto plan = compilePlan(scene, &limitCase.profile, compile);
     if (!plan)
         return {};
@@ -292,6 +293,7 @@ Strain strainOfLive(const LimitCase& limitCase, Random& random)
     setup.profile = limitCase.profile;
     setup.bands.bands = 1 + random.next() % 6;
     setup.maxBoost = Decibels(random.uniform() < 0.5 ? 6.0 : 40.0 * random.uniform());
+    setup.strength = random.uniform();
     Translator translator;
     translator.setSetup(setup);
     translator.prepare({limitCase.fs, 256});

@@ -246,6 +246,7 @@ TEST_CASE("flattening widens the range that an actuator reaches", "[realtime]")
     auto setup = designSetup(Technology::lra, 140.0, 200.0);
     setup.profile->resonance = {167.0, 12.0};
     setup.maxBoost = Decibels(12.0);
+    setup.strength = 0.0;
     const auto flattening = flatteningOf(*setup.profile, setup.maxBoost);
     REQUIRE(flattening.has_value());
     const double ratio = std::exp2(flattening->octaves);
@@ -262,6 +263,33 @@ TEST_CASE("flattening widens the range that an actuator reaches", "[realtime]")
     const TranslatorDesign all = designTranslator(setup, 48000.0);
     CHECK(all.lowest == 1.0);
     CHECK(all.pulses.highest == 20000.0);
+}
+
+TEST_CASE("strength draws what is played in to the resonance", "[realtime]")
+{
+    auto setup = designSetup(Technology::lra, 140.0, 200.0);
+    setup.profile->resonance = {167.0, 12.0};
+    setup.maxBoost = Decibels(6.0);
+    double lowest = 0.0;
+    double highest = 1e9;
+    double gain = 0.0;
+    for (const double strength : {0.0, 0.2, standardStrength, 0.7, 1.0})
+    {
+        CAPTURE(strength);
+        setup.strength = strength;
+        const TranslatorDesign design = designTranslator(setup, 48000.0);
+        CHECK(design.lowest > lowest);
+        CHECK(design.highest < highest);
+        const double atResonance = std::abs(design.filter.response(167_Hz, design.innerRate));
+        CHECK(atResonance > gain);
+        CHECK(design.frequencies->operator()(60.0) == design.lowest);
+        lowest = design.lowest;
+        highest = design.highest;
+        gain = atResonance;
+    }
+    CHECK(lowest == Approx(167.0 / (1.0 + 1.0 / 24.0)).margin(0.6)); // half of 1 / Q below
+    CHECK(gain == Approx(1.0).epsilon(0.01));
+    CHECK(TranslatorSetup{}.strength == 0.4);
 }
 
 TEST_CASE("the plan of parameters names what is muted or off", "[realtime]")

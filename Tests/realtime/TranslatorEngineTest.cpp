@@ -129,6 +129,7 @@ void pinEngine(const std::string& name, const EngineResult& result)
 TranslatorSetup engineSetup(Technology technology, double low, double high, double range, int polyphony)
 {
     TranslatorSetup setup;
+    setup.strength = 0.0;
     Profile& profile = setup.profile.emplace();
     profile.technology = technology;
     profile.resonance = {std::sqrt(low * high), 6.0};

@@ -42,7 +42,7 @@ Clip fittedClip()
 /// Nothing else than what the test wants.
 AdaptationParams onlyAdapting(bool frequencies, bool voices, bool dynamicRange)
 {
-    return {frequencies, voices, dynamicRange, Decibels(0.0), {}};
+    return {frequencies, voices, dynamicRange, Decibels(0.0), 0.0, {}};
 }
 
 void pinFitted(const std::string& name, const Clip& clip)

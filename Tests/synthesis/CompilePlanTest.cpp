@@ -100,6 +100,7 @@ TEST_CASE("A plan is made for 48 kHz and -60 dB, and leaves out and adapts, unle
     CHECK(adaptation.voices);
     CHECK(adaptation.dynamicRange);
     CHECK(adaptation.maxBoost == Decibels(6.0));
+    CHECK(adaptation.strength == 0.4);
     CHECK_FALSE(adaptation.mapping.has_value());
     CHECK(detail::maxUnrolledPoints == 20'000'000);
 }
@@ -244,7 +245,11 @@ TEST_CASE("Pulses keep to the actuator's range and are those of the profile unle
             DecoderChoice choice;
             if (chosen)
                 choice.pulseShape = PulseShape::sine;
-            detail::fitPulses(params, profile, choice);
+            detail::fitPulses(params, profile, {100.0, 200.0, 60.0}, choice);
+            CHECK(params.pulses.lowest == 100.0);
+            CHECK(params.pulses.highest == 200.0);
+            detail::fitPulses(params, profile, {30.0, 800.0, 60.0},
+                              choice); // flattening does not make it reach further
             CHECK(params.pulses.lowest == 60.0);
             CHECK(params.pulses.highest == 400.0);
             const bool own = !chosen && shape != TransientShape::adaptive;
@@ -283,7 +288,12 @@ TEST_CASE("A play is decoded with its pitch, speed and seed, at a rate for all i
     CHECK(compilePlan(scene)->plays[0].decoder.pulses.shape == PulseShape::square);
     const Profile profile = plannedProfile();
     CHECK(compilePlan(scene, &profile)->plays[0].decoder.pulses.frequency == 150.0);
-    CHECK(compilePlan(scene, &profile)->plays[0].decoder.pulses.lowest == 60.0);
+    CompileParams flattest;
+    flattest.adaptation.strength = 0.0;
+    CHECK(compilePlan(scene, &profile, flattest)->plays[0].decoder.pulses.lowest == 60.0);
+    const ActuatorRange played = fitActuator(profile, {}).range;
+    CHECK(played.lowFrequency > 60.0);
+    CHECK(compilePlan(scene, &profile)->plays[0].decoder.pulses.lowest == played.lowFrequency);
     CompileParams asItIs;
     asItIs.adapt = false;
     CHECK(compilePlan(scene, &profile, asItIs)->plays[0].decoder.pulses.lowest == 1.0);
@@ -302,6 +312,17 @@ TEST_CASE("A plan says what was adapted: clips, resonance and voices", "[scene]"
     {
         const auto plan = compilePlan(scene, &profile);
         REQUIRE(plan.ok());
+        CHECK(adaptationsOf(*plan) ==
+              "clips[0]: 2 of 2 bands are moved towards the resonance\n"
+              "clips[1]: 1 of 1 bands are moved towards the resonance\n"
+              "profile: its resonance at 150 Hz is flattened down to 115 Hz\n"
+              "plays[1]: has no voice for 500 ms: plays of more priority or strength have them\n");
+    }
+    CompileParams params;
+    params.adaptation.strength = 0.0;
+    {
+        const auto plan = compilePlan(scene, &profile, params);
+        REQUIRE(plan.ok());
         REQUIRE(plan->flattening.has_value());
         CHECK(adaptationsOf(*plan) ==
               "clips[0]: 1 of 2 bands are moved into the range\n"
@@ -310,7 +331,6 @@ TEST_CASE("A plan says what was adapted: clips, resonance and voices", "[scene]"
         CHECK_FALSE(plan->motor);
         pinPlan("two plays on two voices", *plan);
     }
-    CompileParams params;
     params.adaptation.maxBoost = Decibels(0.0);
     params.adaptation.frequencies = false;
     params.adaptation.voices = false;
@@ -355,7 +375,7 @@ TEST_CASE("Of plays as important the stronger for its length keeps the voice", "
     profile.polyphony = 1;
     CompileParams params;
     params.leaveOut = false;
-    params.adaptation = {false, true, false, Decibels(0.0), {}};
+    params.adaptation = {false, true, false, Decibels(0.0), 0.0, {}};
     const auto silenced = [&](const Scene& scene)
     {
         const auto plan = compilePlan(scene, &profile, params);
@@ -420,6 +440,7 @@ TEST_CASE("Plans are in order of start, and those behind limiters are what they 
                     profile.equalizer.pushBack(flat);
                 CompileParams params;
                 params.tolerance = tolerance;
+                params.adaptation.strength = 0.0;
                 const auto plan = compilePlan(scene, which == 0 ? nullptr : &profile, params);
                 REQUIRE(plan.ok());
                 for (std::size_t i = 1; i < plan->plays.size(); ++i)

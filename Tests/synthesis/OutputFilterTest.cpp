@@ -36,6 +36,7 @@ double rise(const Profile& profile, double frequency, double maxBoost)
     CompileParams params;
     params.sampleRate = fs;
     params.adaptation.frequencies = params.adaptation.voices = params.adaptation.dynamicRange = false;
+    params.adaptation.strength = 0.0;
     ScenePlayerParams playing;
     playing.sampleRate = fs;
     playing.protect = false;

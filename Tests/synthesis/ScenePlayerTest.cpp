@@ -45,6 +45,7 @@ RenderPlan planOf(const Scene& scene, const Profile* profile = nullptr, double f
     CompileParams params;
     params.sampleRate = fs;
     params.leaveOut = false;
+    params.adaptation.strength = 0.0;
     const auto plan = compilePlan(scene, profile, params);
     REQUIRE(plan.ok());
     return *plan;

@@ -2,6 +2,7 @@
 
 // Set-up of the translator for one actuator, designed before the audio thread gets it.
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/EqualizerPruning.h>
 #include <pacini/actuator/FrequencyMap.h>
@@ -31,9 +32,10 @@ namespace pacini
 /// Configuration: what is decided once for a set-up of the translator.
 struct TranslatorSetup
 {
-    std::optional<Profile> profile; ///< valid; none: the drive signal as it is
-    BandLayoutParams bands;         ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
-    Decibels maxBoost{6.0};         ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
+    std::optional<Profile> profile;     ///< valid; none: the drive signal as it is
+    BandLayoutParams bands;             ///< six from 30 to 1000 Hz; at most maxTranslatorBands count
+    Decibels maxBoost{6.0};             ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB
+    double strength = standardStrength; ///< 0: as flat as can be; 1: as strong as can be (see fitActuator)
     bool operator==(const TranslatorSetup&) const = default;
 };
 
@@ -105,16 +107,11 @@ inline void choosePulses(TranslatorDesign& design, const ActuatorTransient& tran
                          transient.frequency, transient.cycles};
 }
 
-/// The frequencies that the actuator reaches with the flattening, and how many of them at a time.
-inline void adoptRange(TranslatorDesign& design, const Profile& profile, const std::optional<Flattening>& flattening)
+/// The frequencies that are played, and how many of them at a time.
+inline void adoptRange(TranslatorDesign& design, const Profile& profile, const ActuatorFit& fit)
 {
     Profile reached = profile;
-    if (flattening)
-    {
-        const double ratio = std::exp2(flattening->octaves);
-        reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
-        reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
-    }
+    reached.range = fit.range;
     design.frequencies = FrequencyMap(reached);
     design.lowest = design.pulses.lowest = reached.range.lowFrequency;
     design.highest = design.pulses.highest = reached.range.highFrequency;
@@ -130,16 +127,16 @@ inline void adoptRange(TranslatorDesign& design, const Profile& profile, const s
 }
 
 /// The equaliser as far as it is felt, and the flattening.
-inline void adoptFilter(TranslatorDesign& design, const Profile& profile, const std::optional<Flattening>& flattening)
+inline void adoptFilter(TranslatorDesign& design, const Profile& profile, const ActuatorFit& fit)
 {
     const auto pruned = pruneEqualizer(
-        profile.equalizer, {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
+        fit.equalizer, {Hertz(profile.range.lowFrequency), Hertz(profile.range.highFrequency), Decibels(0.1)},
         design.innerRate);
     if (!design.motor)
-        design.filter = designOutputFilter({pruned.kept, flattening}, design.innerRate);
+        design.filter = designOutputFilter({pruned.kept, fit.flattening}, design.innerRate);
     for (const DroppedSection& section : pruned.dropped)
         design.plan.push_back({"equalizer[" + std::to_string(section.index) + "]", "is flat in the actuator's range"});
-    if (!flattening)
+    if (!fit.flattening)
         design.plan.push_back({"flattening", profile.technology == Technology::erm
                                                  ? "a motor has no resonance that a filter could undo"
                                                  : "the equaliser does it"});
@@ -224,8 +221,8 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
 } // namespace detail
 
 /// The set of one actuator for a host rate of `fs` Hz. A valid profile without polyphony to spare (fewer voices than
-/// bands) gets carriers only; otherwise a band whose centre the actuator reaches, with the flattening (see
-/// flatteningOf), is played by its own signal. [message]
+/// bands) gets carriers only; otherwise a band whose centre is played as it is fitted (see fitActuator) is played by
+/// its own signal. [message]
 [[nodiscard]] inline TranslatorDesign designTranslator(const TranslatorSetup& setup, double fs)
 {
     TranslatorDesign design;
@@ -242,9 +239,9 @@ inline void designBrightness(TranslatorDesign& design, bool anyWaveform)
         detail::choosePulses(design, profile.transient);
         if (known)
         {
-            const auto flattening = flatteningOf(profile, setup.maxBoost);
-            detail::adoptRange(design, profile, flattening);
-            detail::adoptFilter(design, profile, flattening);
+            const ActuatorFit fit = fitActuator(profile, {setup.maxBoost, setup.strength});
+            detail::adoptRange(design, profile, fit);
+            detail::adoptFilter(design, profile, fit);
         }
         detail::adoptProtection(design, profile);
     }

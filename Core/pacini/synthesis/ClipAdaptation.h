@@ -2,9 +2,9 @@
 
 // Adaptation of a clip to an actuator: what it can show of it.
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/DynamicRangeMap.h>
 #include <pacini/actuator/FrequencyMap.h>
-#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Units.h>
@@ -28,6 +28,7 @@ struct AdaptationParams
     bool voices = true;       ///< as many sinusoids as the actuator has voices
     bool dynamicRange = true; ///< raise what would not be felt
     Decibels maxBoost{6.0};   ///< by which the drive may be raised to flatten a resonance, 0 to 40 dB; 0 leaves it
+    double strength = standardStrength;      ///< 0: as flat as can be; 1: as strong as can be (see fitActuator)
     std::optional<FrequencyMapping> mapping; ///< instead of the profile's
     bool operator==(const AdaptationParams&) const = default;
 };
@@ -168,8 +169,9 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
 
 /// Makes a valid clip fit a valid profile:
 ///
-/// - frequencies outside the range, as far as flattening extends it (see flatteningOf), are moved into it, each band as
-///   a whole (see FrequencyMap);
+/// - frequencies outside the range, as far as flattening extends it or strength draws it in (see fitActuator), are
+/// moved
+///   into it, each band as a whole (see FrequencyMap);
 /// - bands that have no voice of their own join their nearest neighbour that has one (see mergeVoices);
 /// - amplitudes are pressed into what the actuator can show (see DynamicRangeMap);
 /// - a motor gets its strength as the amplitude of one band, events as bursts as long as it needs to spin up:
@@ -201,12 +203,8 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
     {
         Profile reached = profile;
         reached.frequencyMapping = params.mapping.value_or(profile.frequencyMapping);
-        if (const auto flattening = flatteningOf(profile, params.maxBoost))
-        {
-            const double ratio = std::exp2(flattening->octaves);
-            reached.range.lowFrequency = std::max(reached.range.lowFrequency / ratio, 1.0);
-            reached.range.highFrequency = std::min(reached.range.highFrequency * ratio, 20000.0);
-        }
+        const ActuatorFit fit = fitActuator(profile, {params.maxBoost, params.strength});
+        reached.range = fit.range;
         const FrequencyMap map(reached);
         std::size_t moved = 0;
         for (Band& band : adapted.bands)
@@ -219,7 +217,8 @@ inline Curve curveThrough(const std::vector<double>& samples, double step, doubl
                       });
         if (moved > 0)
             result.changes.push_back(std::to_string(moved) + " of " + std::to_string(adapted.bands.size()) +
-                                     " bands are moved into the range");
+                                     " bands are moved " +
+                                     (fit.towardsResonance > 0.0 ? "towards the resonance" : "into the range"));
     }
 
     const auto voices = static_cast<std::size_t>(std::max(profile.polyphony, 1));

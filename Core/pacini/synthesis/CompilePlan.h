@@ -2,6 +2,7 @@
 
 // Scene compiler: Scene -> RenderPlan.
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/synthesis/ClipAdaptation.h>
 #include <pacini/synthesis/Culling.h>
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,11 +95,12 @@ inline double limitEnergies(const RenderPlan& plan, std::vector<PlayEnergy>& ene
     return LimitedScene::wholeScene;
 }
 
-/// How an actuator's own events are played, after the clip's method and the user.
-inline void fitPulses(DecoderParams& params, const Profile& profile, const DecoderChoice& choice)
+/// How an actuator's own events are played, after the clip's method and the user; `range` is what is played of its own.
+inline void fitPulses(DecoderParams& params, const Profile& profile, const ActuatorRange& range,
+                      const DecoderChoice& choice)
 {
-    params.pulses.lowest = profile.range.lowFrequency;
-    params.pulses.highest = profile.range.highFrequency;
+    params.pulses.lowest = std::max(range.lowFrequency, profile.range.lowFrequency);
+    params.pulses.highest = std::min(range.highFrequency, profile.range.highFrequency);
     if (choice.pulseShape || profile.transient.shape == TransientShape::adaptive)
         return;
     params.pulses.shape = profile.transient.shape == TransientShape::square ? PulseShape::square : PulseShape::sine;
@@ -119,10 +122,11 @@ inline std::vector<Clip> adaptClips(RenderPlan& plan, const std::vector<Clip>& c
     return adapted;
 }
 
-/// Flattens the actuator's resonance where that helps, and notes it.
-inline void flatten(RenderPlan& plan, const AdaptationParams& params)
+/// Flattens the actuator's resonance where that helps, as far as its strength allows, and notes it.
+inline void flatten(RenderPlan& plan, const ActuatorFit& fit)
 {
-    plan.flattening = flatteningOf(*plan.profile, params.maxBoost);
+    plan.flattening = fit.flattening;
+    plan.profile->equalizer = fit.equalizer;
     if (plan.flattening)
         plan.adaptations.push_back(
             {"profile", "its resonance at " + std::to_string(std::lround(plan.flattening->actuator.frequency)) +
@@ -197,9 +201,9 @@ inline Result<Clip> bakedClip(const Clip& clip, const ScenePlay& play, const Pla
     return played;
 }
 
-/// How a play's clip is decoded; `adapts`: fitted to the plan's actuator.
+/// How a play's clip is decoded; `fit`: fitted so to the plan's actuator, or as it is.
 inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const ScenePlay& play,
-                                 const CompileParams& params, bool adapts)
+                                 const CompileParams& params, const std::optional<ActuatorFit>& fit)
 {
     DecoderParams base;
     base.sampleRate = params.sampleRate;
@@ -208,8 +212,8 @@ inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const
     base.variation.seed = play.variation.seed; // of the noise; the bands have been varied
     const double resonance = plan.profile ? plan.profile->resonance.frequency : 67.0;
     DecoderParams decoder = decoderParamsFor(clip, base, params.decoder, resonance);
-    if (adapts)
-        fitPulses(decoder, *plan.profile, params.decoder);
+    if (fit)
+        fitPulses(decoder, *plan.profile, fit->range, params.decoder);
     if (plan.motor)
         decoder.carriers = CarrierMode::none;
     // Without its highest bands a clip would get another inner rate, and with it other rounding.
@@ -220,7 +224,8 @@ inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const
 /// Plans all plays that can be heard, from the clips as they are fitted to the actuator. Errors: those of
 /// bakedClip().
 inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::vector<Clip>& clips,
-                              std::vector<PlayTimeline> timelines, const CompileParams& params, bool adapts)
+                              std::vector<PlayTimeline> timelines, const CompileParams& params,
+                              const std::optional<ActuatorFit>& fit)
 {
     std::size_t points = 0;
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
@@ -236,7 +241,7 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
         auto played = bakedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
         if (!played)
             return played.error();
-        const DecoderParams decoder = planDecoder(plan, *played, play, params, adapts);
+        const DecoderParams decoder = planDecoder(plan, *played, play, params, fit);
         plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i])});
     }
     return {};
@@ -266,22 +271,26 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
     const bool adapts = profile != nullptr && params.adapt && profile->technology != Technology::pcm;
     plan.motor = adapts && params.adaptation.voices && profile->technology == Technology::erm;
     std::vector<Clip> adapted;
+    std::optional<ActuatorFit> fit;
     if (adapts)
+    {
+        fit = fitActuator(*profile, {params.adaptation.maxBoost, params.adaptation.strength});
         adapted = detail::adaptClips(plan, scene.clips, params.adaptation);
+    }
     if (adapts && !plan.motor)
-        detail::flatten(plan, params.adaptation);
+        detail::flatten(plan, *fit);
 
     // Lengths first: endless loops need to know.
     auto timelines = detail::planTimelines(plan, scene);
     if (!(plan.duration <= limits::duration))
         return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
     if (auto planned =
-            detail::planPlays(plan, scene, adapts ? adapted : scene.clips, std::move(timelines), params, adapts);
+            detail::planPlays(plan, scene, adapts ? adapted : scene.clips, std::move(timelines), params, fit);
         !planned)
         return planned.error();
 
     const auto outputFilter = designOutputFilter(
-        {profile != nullptr ? profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
+        {plan.profile ? plan.profile->equalizer : EqualizerSections{}, plan.flattening}, params.sampleRate);
     std::vector<PlayEnergy> energies;
     for (const PlannedPlay& planned : plan.plays)
         energies.push_back(

@@ -4,10 +4,12 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/FeltModel.h>
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/evaluate/Hts.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
+#include <pacini/evaluate/match/MatchParts.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/ScenePlayer.h>
 
@@ -27,26 +29,69 @@ namespace
 {
 constexpr double actuatorsExcerpt = 10.0; // s of each sound
 
-/// Ways to play a clip on an actuator.
-std::vector<std::pair<std::string, CompileParams>> ways()
+/// A way to play a clip on an actuator.
+struct Way
 {
-    CompileParams asItIs, unflattened, adapted, strong;
+    std::string name;
+    CompileParams params;
+};
+
+/// As it is, not flattened, and the trade of strength for likeness; with `sweep` in small steps, at other boosts too.
+std::vector<Way> ways(bool sweep)
+{
+    CompileParams asItIs, unflattened;
     asItIs.adapt = false;
     unflattened.adaptation.maxBoost = 0_dB;
-    strong.adaptation.maxBoost = 12_dB;
-    return {{"as it is", asItIs}, {"not flattened", unflattened}, {"adapted", adapted}, {"boost 12 dB", strong}};
+    std::vector<Way> all{{"as it is", asItIs}, {"not flattened", unflattened}, {"adapted", {}}};
+    const auto add = [&](double boost, double strength)
+    {
+        CompileParams params;
+        params.adaptation.maxBoost = Decibels(boost);
+        params.adaptation.strength = strength;
+        std::string name = fmt::format("strength {:g}", strength);
+        if (params.adaptation.maxBoost != AdaptationParams{}.maxBoost)
+            name += fmt::format(", boost {:g} dB", boost);
+        all.push_back({std::move(name), params});
+    };
+    if (sweep)
+        for (const double boost : {3.0, 6.0, 12.0, 18.0})
+            for (int tenth = 0; tenth <= 10; ++tenth)
+                add(boost, 0.1 * tenth);
+    else
+        for (const double strength : {0.0, 0.2, 0.6, 0.8, 1.0})
+            add(AdaptationParams{}.maxBoost.value, strength);
+    return all;
+}
+
+/// The part of a clip's energy, %, that its bands have where the actuator needs least drive: in the half-power band of
+/// its resonance.
+double shareOnResonance(const RenderPlan& plan, const Profile& profile)
+{
+    constexpr double step = 0.005; // s
+    const Resonance worn = profile.body ? loadedResonance(*profile.body, profile.resonance) : profile.resonance;
+    auto [low, high] = detail::halfPowerBand(worn);
+    low *= 1.0 - 1e-6; // its ends are part of it
+    high *= 1.0 + 1e-6;
+    double within = 0.0, whole = 0.0;
+    for (const PlannedPlay& play : plan.plays)
+        for (const Band& band : play.clip.bands)
+        {
+            CurveReader amplitude(band.amplitude), pitch(band.pitch);
+            for (double t = 0.0; t < play.clip.duration; t += step)
+            {
+                const double a = amplitude.at(t);
+                const double f = band.pitch.empty() ? band.centreFrequency : pitch.at(t);
+                whole += a * a;
+                within += f >= low && f <= high ? a * a : 0.0;
+            }
+        }
+    return whole > 0.0 ? 100.0 * within / whole : 0.0;
 }
 
 /// The drive signal at 48 kHz, with the protection.
-std::vector<float> drive(const Clip& clip, const Profile& profile, const CompileParams& params)
+std::vector<float> drive(const RenderPlan& plan)
 {
-    Scene scene;
-    scene.clips = {clip};
-    scene.plays.resize(1);
-    auto plan = compilePlan(scene, &profile, params);
-    if (!plan)
-        return {};
-    ScenePlayer player(std::move(*plan));
+    ScenePlayer player(plan);
     std::vector<float> signal(static_cast<std::size_t>(player.totalFrames()));
     const std::span<float> all(signal);
     player.process(std::span(&all, 1));
@@ -91,21 +136,36 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
     bands.audible = 0.0;
     Encoder encoder{bands};
     const Clip clip = encodePrecisely(encoder, {sound.sampleRate, 1}, SoundParts(mono, 1)).value();
+    const auto heard = heardTrack(mono, sound.sampleRate);
+    if (!heard)
+        return;
+    TouchAnalyzer touch;
+    Scene scene;
+    scene.clips = {clip};
+    scene.plays.resize(1);
     for (const ShippedProfile& shipped : shippedProfiles(programFolder()))
     {
         const auto profile = readProfile(shipped.path);
         if (!profile)
             continue;
-        for (const auto& [name, params] : ways())
+        for (const Way& way : ways(settings.sweep))
         {
-            const auto run = timed(settings.repeats, [&, &way = params] { return drive(clip, *profile, way); });
+            const auto plan = compilePlan(scene, &*profile, way.params);
+            if (!plan)
+                continue;
+            const auto run =
+                timed(settings.repeats, [&] { return drive(compilePlan(scene, &*profile, way.params).value()); });
             const auto acceleration = felt(run.result, *profile);
-            const auto features = htsCandidateFeatures(analyzer, std::span<const float>(acceleration), 48000);
-            if (!features)
+            const std::span<const float> skin(acceleration);
+            const auto features = htsCandidateFeatures(analyzer, skin, 48000);
+            const auto track = touchTrack(touch, skin, 48000);
+            if (!features || !track)
                 continue;
             const HtsScore score = compare(*source, *features, HtsMode::translation);
-            rows.add({sound.name, shipped.name, name, clip.duration, run.seconds, score.score, 100.0 * score.wide,
-                      100.0 * score.band, 100.0 * score.spectrum, 100.0 * score.event, levelOf(acceleration)});
+            rows.add({sound.name, shipped.name, way.name, clip.duration, run.seconds, score.score, 100.0 * score.wide,
+                      100.0 * score.band, 100.0 * score.spectrum, 100.0 * score.event,
+                      predictedMatch(matchParts(*heard, *track)), shareOnResonance(*plan, *profile),
+                      levelOf(acceleration)});
         }
     }
 }
@@ -118,10 +178,13 @@ Bench actuatorsBench()
         "Actuators: what adapting a clip gains on each shipped profile",
         "The clip that the encoder makes of the bands of each sound (first 10 s, --audible 0) is played at 48 kHz on "
         "every shipped profile, "
-        "with its protection: as it is; adapted without flattening; adapted (the default: the inverse of the "
-        "resonance raises the drive by at most 6 dB); and with 12 dB. HTS and its parts compare the sound with the "
-        "acceleration at the skin that the profile's body model predicts (with the drive where there is none). "
-        "Level is the felt acceleration in dB below or above 1 m/s^2 RMS: flattening trades some for likeness.",
+        "with its protection: as it is; adapted without flattening; adapted (the default); and with other strengths, "
+        "from as flat as can be (0) to all of it on the resonance (1). HTS with its parts and the predicted match "
+        "compare the sound with the acceleration at the skin that the profile's body model predicts (with the drive "
+        "where there is none). On resonance is the part of the energy of the clip's bands that is played where the "
+        "actuator needs least drive, in the half-power band of its resonance. Level is the felt acceleration in dB "
+        "below or above 1 m/s^2 RMS: strength trades likeness for it. --sweep also takes small steps of strength and "
+        "other boosts.",
         columnsOf({"profile", "played"}, {summed("duration", "s"),
                                           summed("seconds", "s"),
                                           {"HTS", ""},
@@ -129,9 +192,12 @@ Bench actuatorsBench()
                                           {"band", "%"},
                                           {"spectrum", "%"},
                                           {"events", "%"},
+                                          {"match", ""},
+                                          {"onResonance", "%"},
                                           {"level", "dB"},
                                           {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}}),
-        {{"", "Likeness against felt level", "played", "level", "HTS", "profile", {}, {}, false}},
+        {{"", "Likeness against felt level", "profile", "level", "HTS", "played"},
+         {"match", "Predicted match against felt level", "profile", "level", "match", "played"}},
         {},
         measureActuators};
     bench.needsProfiles = true;

@@ -2,11 +2,11 @@
 
 #include "cli/ProfileReport.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/BodyChain.h>
 #include <pacini/actuator/MotorDrive.h>
 #include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Wearer.h>
-#include <pacini/synthesis/ClipAdaptation.h>
 
 #include <fmt/format.h>
 
@@ -84,8 +84,9 @@ struct ShownFilter
 
 ShownFilter outputFilter(const Profile& profile, const std::vector<double>& frequencies)
 {
-    const auto flattening = flatteningOf(profile, AdaptationParams{}.maxBoost);
-    const auto filter = designOutputFilter({profile.equalizer, flattening}, sampleRate);
+    const ActuatorFit fit = fitActuator(profile, {});
+    const auto& flattening = fit.flattening;
+    const auto filter = designOutputFilter({fit.equalizer, flattening}, sampleRate);
     ShownFilter shown;
     for (const double f : frequencies)
         shown.response.push_back({f, decibels(std::abs(filter.response(Hertz(f), sampleRate)))});

@@ -223,6 +223,7 @@ SingleVoice oneVoice(const Clip& clip, const std::optional<Profile>& profile, do
     onlyFrequencies.voices = false;
     onlyFrequencies.dynamicRange = false;
     onlyFrequencies.maxBoost = 0_dB;
+    onlyFrequencies.strength = 0.0;
     SingleVoice voice = singleVoiceOf(profile ? adaptClip(clip, *profile, onlyFrequencies).clip : clip);
     if (voice.frequency.empty())
         voice.frequency = {{0.0, otherwise}};
@@ -313,7 +314,7 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
 {
     const NormalisedRange range = normalisedRangeOf(params.profile, format.range);
     SingleVoice voice = params.profile
-                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, {}}).clip,
+                            ? singleVoiceOf(adaptClip(clip, *params.profile, {true, false, false, 0_dB, 0.0, {}}).clip,
                                             range.low, range.high)
                             : singleVoiceOf(clip, range.low, range.high);
     NormalisedVoice result;
