@@ -21,6 +21,11 @@ void ExportOptions::declare(CLI::App& command)
     command.add_flag(
         "--quick", quick,
         "Write without a search for the best file (hjif): much faster, mostly a little less like the sound");
+    addOption(
+        command, "--events", events,
+        "Events of other formats: each a transient of its own, with the voice ducked around it, or merged into the "
+        "voice where that is as strong (haptic, ahap, hjif)",
+        oneOf({"transients", "merged"}));
     addOption(command, "--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]",
               wholeNumberFrom(100, 384000));
     addOption(command, "--profile", profile,
@@ -43,6 +48,7 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
         result.sampleRate = rate;
     result.split = split;
     result.quick = quick;
+    result.events = events == "merged" ? EventExport::merged : EventExport::transients;
     if (!profile.empty())
     {
         result.profile = openProfile(console, profile);
@@ -54,13 +60,15 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
 
 std::string ExportOptions::record() const
 {
-    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}", points, frequencyPoints, rate,
-                       split ? ", split" : "", quick ? ", quick" : "", profile.empty() ? "" : ", profile " + profile);
+    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}", points, frequencyPoints, rate,
+                       split ? ", split" : "", quick ? ", quick" : "", events == "merged" ? ", events merged" : "",
+                       profile.empty() ? "" : ", profile " + profile);
 }
 
 bool ExportOptions::given() const noexcept
 {
-    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || !profile.empty();
+    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || events == "merged" ||
+           !profile.empty();
 }
 
 } // namespace pacini::cli

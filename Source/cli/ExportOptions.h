@@ -34,6 +34,7 @@ private:
     int rate = 0;
     bool split = false;
     bool quick = false;
+    std::string events = "transients";
     std::string profile;
 };
 

@@ -58,7 +58,7 @@ constexpr std::string_view sceneKind = "scene";
 std::vector<std::string> kindNames()
 {
     std::vector<std::string> names;
-    for (int kind = 0; kind <= static_cast<int>(LossKind::text); ++kind)
+    for (int kind = 0; kind <= static_cast<int>(LossKind::transient); ++kind)
         names.emplace_back(lossName(static_cast<LossKind>(kind)));
     names.emplace_back(sceneKind);
     return names;

@@ -185,9 +185,9 @@ const ClipFormat* clipFormatOf(std::string_view extension, std::string_view byte
 
 std::string_view lossName(LossKind kind)
 {
-    constexpr std::array<std::string_view, 11> names{"bands",    "points",    "length",   "frequency",
+    constexpr std::array<std::string_view, 12> names{"bands",    "points",    "length",   "frequency",
                                                      "timeStep", "amplitude", "crowding", "event",
-                                                     "noise",    "empty",     "text"};
+                                                     "noise",    "empty",     "text",     "transient"};
     return names[static_cast<std::size_t>(kind)];
 }
 

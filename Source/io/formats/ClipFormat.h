@@ -29,7 +29,8 @@ enum class LossKind
     event,     ///< an event or a property of it cannot be said
     noise,     ///< residual noise cannot be said
     empty,     ///< nothing is left here
-    text       ///< names, markers or sources cannot be said
+    text,      ///< names, markers or sources cannot be said
+    transient  ///< an event is none of the format's transients; one loss for each
 };
 
 /// One loss. Losses of one kind that follow each other are one.
@@ -39,7 +40,8 @@ struct FormatLoss
     double time = 0.0;     ///< s from the start of the clip
     double duration = 0.0; ///< s; 0 for a moment or the whole clip
     double error = 0.0;    ///< largest error of the amplitude there (1 = full drive), of the frequency in octaves for
-                           ///< `frequency`, of the time in s for `timeStep` and `length`
+                           ///< `frequency`, of the time in s for `timeStep` and `length`; the event's amplitude for
+                           ///< `transient`
     std::string message;   ///< what happens, for people
     bool operator==(const FormatLoss&) const = default;
 };
@@ -63,6 +65,13 @@ struct ExportedClip
     std::vector<FormatLoss> losses; ///< by time
 };
 
+/// How the events of a clip of several bands are written where the format has transients of its own.
+enum class EventExport
+{
+    transients, ///< every event is one, with the voice ducked around it: nothing is played twice
+    merged      ///< events that the voice reaches by itself are left to it
+};
+
 struct ExportParams
 {
     std::string name;                      ///< of the clip, for formats that carry one; empty: the clip's own
@@ -72,6 +81,7 @@ struct ExportParams
     std::optional<int> sampleRate;         ///< Hz, of formats that are samples
     bool split = false;                    ///< formats that can be one file or several: several
     bool quick = false;                    ///< formats whose best file is searched for: one that is mostly good
+    EventExport events = EventExport::transients;
     bool operator==(const ExportParams&) const = default;
 };
 

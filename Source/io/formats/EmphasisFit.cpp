@@ -1,11 +1,14 @@
 #include "io/formats/EmphasisFit.h"
 
+#include "io/formats/LossList.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace pacini
@@ -13,7 +16,7 @@ namespace pacini
 
 namespace
 {
-constexpr const char* leftOut = "events are left out where the amplitude curve alone is as strong";
+constexpr double train = 0.06; // s: nearer events are a train for the decoder, see makePulse
 
 double square(double x)
 {
@@ -94,48 +97,107 @@ private:
 
 /// Without those that the voice reaches by itself: played on top of it they hide the onset that is there already, which
 /// cost up to 9 points of HTS in single sounds.
-std::vector<Transient> playedOnTop(std::vector<Transient> events, const Curve& amplitude, const NormalisedRange& range,
-                                   LossList& losses)
+std::vector<Transient> playedOnTop(std::vector<Transient> events, const Curve& amplitude, const NormalisedRange& range)
 {
+    std::erase_if(events, [](const Transient& event) { return event.amplitude <= 0.0; });
     for (Transient& event : events)
     {
-        if (event.amplitude <= 0.0)
-            losses.add(LossKind::event, event.time, 0.0, 0.0, leftOut);
-        else // players must not show an event weaker than the voice around it
-            event.amplitude = std::max(event.amplitude, valueAt(amplitude, event.time));
+        // Players must not show an event weaker than the voice around it.
+        event.amplitude = std::max(event.amplitude, valueAt(amplitude, event.time));
         event.sharpness = range.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
     }
-    std::erase_if(events, [](const Transient& event) { return event.amplitude <= 0.0; });
     return events;
+}
+
+/// The sharpness at which `player` shows the frequency of an event, or the one at which it is over in time where the
+/// next event is `gap` s away.
+double sharpnessFor(const EmphasisPlayer& player, const Transient& event, double gap)
+{
+    const double own = player.range.normalisedOf(100.0 * std::pow(2.8, event.sharpness));
+    return gap < train ? std::max(own, player.sharpnessOfLength(std::clamp(0.6 * gap, 0.006, 0.015))) : own;
 }
 } // namespace
 
-std::vector<Transient> emphasesOf(std::vector<Transient> events, const Curve& amplitude, const EmphasisPlayer& player,
-                                  LossList& losses)
+std::vector<Transient> emphasesOf(std::vector<Transient> events, const Curve& amplitude, const EmphasisPlayer& player)
 {
     if (player.ducking == 1.0)
-        return playedOnTop(std::move(events), amplitude, player.range, losses);
-    constexpr double train = 0.06;     // s: nearer events are a train for the decoder, see makePulse
+        return playedOnTop(std::move(events), amplitude, player.range);
     constexpr double noticeable = 1.5; // dB: the difference of levels from which on HTS counts
     std::vector<Transient> emphases;
     for (std::size_t i = 0; i < events.size(); ++i)
     {
         Transient emphasis = events[i];
         const double gap = nearestGap(events, i);
-        emphasis.sharpness = player.range.normalisedOf(100.0 * std::pow(2.8, emphasis.sharpness));
-        if (gap < train)
-            emphasis.sharpness =
-                std::max(emphasis.sharpness, player.sharpnessOfLength(std::clamp(0.6 * gap, 0.006, 0.015)));
+        emphasis.sharpness = sharpnessFor(player, emphasis, gap);
         const VoicePower voice(amplitude, emphasis.time, std::min(player.lengthOf(emphasis.sharpness), gap));
         const double beside = (1.0 - square(player.ducking)) * voice.meanOfPulse();
         if (events[i].amplitude <= 0.0 &&
             (beside < square(leastAmplitude) || voice.deviation(beside, player.ducking) > noticeable))
-        {
-            losses.add(LossKind::event, emphasis.time, 0.0, 0.0, leftOut);
             continue;
-        }
         emphasis.amplitude =
             std::min(std::sqrt((square(events[i].amplitude) + beside) / powerOf(emphasis.sharpness)), 1.0);
+        emphases.push_back(emphasis);
+    }
+    return emphases;
+}
+
+std::vector<std::size_t> separated(const std::vector<Transient>& events, double separation)
+{
+    std::vector<std::size_t> byStrength(events.size());
+    std::iota(byStrength.begin(), byStrength.end(), std::size_t{0});
+    std::stable_sort(byStrength.begin(), byStrength.end(),
+                     [&](std::size_t a, std::size_t b) { return events[a].amplitude > events[b].amplitude; });
+    std::vector<bool> isKept(events.size(), true);
+    const auto isNear = [&](std::size_t a, std::size_t b)
+    {
+        return std::abs(events[a].time - events[b].time) < separation;
+    };
+    for (const std::size_t strong : byStrength)
+    {
+        if (!isKept[strong])
+            continue;
+        for (std::size_t i = strong; i-- > 0 && isNear(i, strong);)
+            isKept[i] = false;
+        for (std::size_t i = strong + 1; i < events.size() && isNear(i, strong); ++i)
+            isKept[i] = false;
+    }
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < events.size(); ++i)
+        if (isKept[i])
+            kept.push_back(i);
+    return kept;
+}
+
+std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events, const std::vector<double>& beyond,
+                                      const Curve& amplitude, const EmphasisPlayer& player)
+{
+    constexpr double comesBack = 0.010;   // s after a pulse in which a rise of the voice is felt as another event
+    constexpr double sharpnessStep = 0.1; // finer ones gain nothing
+    const double ducked = square(player.ducking);
+    std::vector<Transient> emphases;
+    for (std::size_t i = 0; i < events.size(); ++i)
+    {
+        const double gap = nearestGap(events, i);
+        Transient emphasis = events[i];
+        double least = std::numeric_limits<double>::infinity();
+        for (double sharpness = sharpnessFor(player, events[i], gap);;
+             sharpness = std::min(sharpness + sharpnessStep, 1.0))
+        {
+            const double length = std::min(player.lengthOf(sharpness), gap);
+            const VoicePower voice(amplitude, events[i].time, length);
+            const double mean = voice.meanOfPulse();
+            const double after = VoicePower(amplitude, events[i].time + length, comesBack).meanOfPulse();
+            const double pulse = std::max((1.0 - ducked) * mean, after - ducked * mean);
+            if (const double deviation = voice.deviation(pulse, player.ducking); deviation < least)
+            {
+                least = deviation;
+                const double wave = player.periods > 0.0 ? 1.0 : powerOf(sharpness);
+                emphasis.sharpness = sharpness;
+                emphasis.amplitude = std::clamp(std::sqrt((square(beyond[i]) + pulse) / wave), leastAmplitude, 1.0);
+            }
+            if (sharpness >= 1.0)
+                break;
+        }
         emphases.push_back(emphasis);
     }
     return emphases;

@@ -2,12 +2,12 @@
 
 // Conversion of a clip's events to emphases, for players that duck the voice under them.
 
-#include "io/formats/LossList.h"
 #include "io/formats/NormalisedFrequency.h"
 
 #include <pacini/clip/Clip.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace pacini
@@ -21,19 +21,25 @@ struct EmphasisPlayer
     double dullLength = 0.0;    ///< s
     double crispLength = 0.0;   ///< s
     double ducking = 1.0;       ///< gain of the voice meanwhile; at 1 they are played on top of it
+    double separation = 0.0;    ///< s; of two events that are nearer it shows one
+    double periods = 0.0;       ///< above 0: events are so many periods of a sine, whatever the lengths are
 
     [[nodiscard]] double lengthOf(double sharpness) const noexcept
     {
+        if (periods > 0.0)
+            return periods / range.hertzOf(sharpness);
         return dullLength + (crispLength - dullLength) * sharpness;
     }
     [[nodiscard]] double sharpnessOfLength(double length) const noexcept
     {
+        if (periods > 0.0)
+            return range.normalisedOf(periods / length);
         return std::clamp((dullLength - length) / (dullLength - crispLength), 0.0, 1.0);
     }
 };
 
 /// That of Quest controllers, as the Meta haptics SDK and its actuator file say.
-inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5};
+inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5, 0.0121};
 
 /// The events of a clip of several bands beside its one voice `amplitude` (not empty; linear): `events` are as strong
 /// as what the voice does not reach by itself, and their sharpness means 100 to 280 Hz (see makePulse), which becomes
@@ -43,8 +49,20 @@ inline constexpr EmphasisPlayer questPlayer{{55.0, 165.0}, 0.0364, 0.0121, 0.5};
 /// it reaches are left out. Under a player that ducks the voice, the level of each makes up for that: both together
 /// have the power of voice and event. So an event that the voice reaches can be an emphasis too, which is what phones
 /// show best; it is left out only where that would change the levels by more than is noticed. In fast trains the
-/// sharpness rises until the pulse is as short as the decoder's own. What is left out is in `losses`.
+/// sharpness rises until the pulse is as short as the decoder's own.
 [[nodiscard]] std::vector<Transient> emphasesOf(std::vector<Transient> events, const Curve& amplitude,
-                                                const EmphasisPlayer& player, LossList& losses);
+                                                const EmphasisPlayer& player);
+
+/// The same with an emphasis for each event, for a player that ducks the voice or a file that is ducked for it.
+/// `beyond` is how strong each of `events` is beside the voice. An emphasis is as strong as what is ducked and the
+/// event together, and at least as the voice that comes back after it, which would else be felt as a second hit; no
+/// less than leastAmplitude. It is as sharp as the event, or sharper, where a shorter pulse leaves the levels nearer to
+/// those of the voice.
+[[nodiscard]] std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events,
+                                                    const std::vector<double>& beyond, const Curve& amplitude,
+                                                    const EmphasisPlayer& player);
+
+/// Indices of the events, in order, of which none is nearer than `separation` s to another: the stronger ones stay.
+[[nodiscard]] std::vector<std::size_t> separated(const std::vector<Transient>& events, double separation);
 
 } // namespace pacini

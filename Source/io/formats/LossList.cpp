@@ -96,6 +96,21 @@ void LossList::limit(std::vector<Transient>& events, double most)
     append(track);
 }
 
+void LossList::addOmitted(const std::vector<Transient>& events, const std::vector<Transient>& transients,
+                          const std::string& message)
+{
+    auto next = transients.begin();
+    for (const Transient& event : events)
+    {
+        while (next != transients.end() && next->time < event.time)
+            ++next;
+        if (next == transients.end() || next->time > event.time)
+            add(LossKind::transient, event.time, 0.0, event.amplitude, message);
+        else
+            ++next;
+    }
+}
+
 void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
     LossTrack track(LossKind::crowding,
@@ -115,7 +130,8 @@ std::vector<FormatLoss> LossList::sorted() &&
         const auto before = std::find_if(merged.rbegin(), merged.rend(),
                                          [&](const FormatLoss& earlier)
                                          {
-                                             return earlier.kind == loss.kind && earlier.message == loss.message &&
+                                             return loss.kind != LossKind::transient && earlier.kind == loss.kind &&
+                                                    earlier.message == loss.message &&
                                                     (earlier.time + earlier.duration >= loss.time - touching ||
                                                      loss.kind == LossKind::text || loss.kind == LossKind::event);
                                          });

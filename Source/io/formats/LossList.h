@@ -80,10 +80,14 @@ public:
     void limit(Curve& curve, double most);
     void limit(std::vector<Transient>& events, double most);
 
+    /// Events that have no transient at their time.
+    void addOmitted(const std::vector<Transient>& events, const std::vector<Transient>& transients,
+                    const std::string& message);
+
     /// Events that follow one another faster than `gap` s.
     void addCrowding(const std::vector<Transient>& events, double gap);
 
-    /// All of them by time; those of one kind and message that touch are one.
+    /// All of them by time; those of one kind and message that touch are one, but for events that are no transients.
     [[nodiscard]] std::vector<FormatLoss> sorted() &&;
 
 private:

@@ -125,6 +125,32 @@ void lowerToEvents(Curve& level, const std::vector<Transient>& events)
     }
 }
 
+/// The transients for the events of a clip of several bands. `beside` are its events as strong as they are beside the
+/// voice `amplitude`.
+std::vector<Transient> transientsOf(const std::vector<Transient>& events, const std::vector<Transient>& beside,
+                                    const Curve& amplitude, const EmphasisPlayer& player, EventExport how,
+                                    LossList& losses)
+{
+    if (how == EventExport::merged)
+    {
+        std::vector<Transient> shown = emphasesOf(beside, amplitude, player);
+        losses.addOmitted(events, shown, "is no transient: the voice alone is as strong");
+        return shown;
+    }
+    std::vector<Transient> shown;
+    std::vector<double> beyond;
+    for (const std::size_t i : separated(events, player.separation))
+        if (events[i].amplitude > 0.0)
+        {
+            shown.push_back(events[i]);
+            beyond.push_back(beside[i].amplitude);
+        }
+    losses.addOmitted(
+        events, shown,
+        fmt::format("is no transient: a stronger one is less than {:g} ms away", 1000.0 * player.separation));
+    return emphasisOfEach(shown, beyond, amplitude, player);
+}
+
 std::size_t pointCount(double perSecond, double duration)
 {
     return std::max<std::size_t>(2, static_cast<std::size_t>(std::floor(perSecond * duration)));
@@ -338,10 +364,13 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
     const Curve frequency = whole(normalised(voice, range, result.losses), 0.5);
     const bool keepsPoints = isSingleVoice(clip);
     const EmphasisPlayer* player = keepsPoints || format.events.ducking == 1.0 ? nullptr : &format.events;
-    for (Transient& event : voice.events)
-        event.time = std::clamp(event.time, 0.0, result.duration);
-    result.events = keepsPoints ? std::move(voice.events)
-                                : emphasesOf(std::move(voice.events), voice.amplitude, format.events, result.losses);
+    std::vector<Transient> events = clip.transients;
+    for (std::vector<Transient>* moved : {&events, &voice.events})
+        for (Transient& event : *moved)
+            event.time = std::clamp(event.time, 0.0, result.duration);
+    result.events =
+        keepsPoints ? std::move(voice.events)
+                    : transientsOf(events, voice.events, voice.amplitude, format.events, params.events, result.losses);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
     {

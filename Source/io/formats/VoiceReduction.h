@@ -68,7 +68,7 @@ struct VoiceFormat
 {
     LevelScale scale = LevelScale::amplitude;
     NormalisedRange range;         ///< without a profile
-    EmphasisPlayer events;         ///< how players show events
+    EmphasisPlayer events;         ///< how players show events, with a file that is ducked for them
     double amplitudePoints = 40.0; ///< per second, the density of Meta's analysis
     double frequencyPoints = 30.0; ///< per second
 };
@@ -90,9 +90,10 @@ struct NormalisedVoice
 /// keep each level within half a step of 8 bits, at most params.amplitudePoints per second, or else the format's, whose
 /// levels then fit best; and likewise for frequencies, where the loud parts count most. A clip that is one voice
 /// already keeps its points unless the params ask for a density, and its events their sharpness. Those of other clips
-/// mean 100 Hz (dull) to 280 Hz (crisp, see makePulse) and get the sharpness that is played at their frequency. Where
-/// players play them on top of the voice, those that the voice reaches by itself are left out; where players duck the
-/// voice see emphasesOf. A clip without any duration gets 10 ms.
+/// mean 100 Hz (dull) to 280 Hz (crisp, see makePulse) and get the sharpness that is played at their frequency. Each is
+/// a transient where the voice is ducked (see emphasisOfEach), but of those that are nearer to each other than the
+/// player's separation only the stronger; merged (see emphasesOf), those that the voice reaches by itself are left out.
+/// A clip without any duration gets 10 ms.
 [[nodiscard]] NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, const VoiceFormat& format);
 
 } // namespace pacini

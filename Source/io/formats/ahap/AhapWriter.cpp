@@ -20,6 +20,9 @@ namespace
 constexpr std::size_t maxControlPoints = 16; // of a curve; the last is the first of the next
 constexpr double neutral = 0.5;              // sharpness of the continuous events, to which curves add
 constexpr double transientLength = 0.015;    // s in which a transient needs its curve
+constexpr double transientPeriods = 2.0;     // of a sine, as MPEG's reference software plays a transient
+constexpr double resolved = 0.01;            // s: taps nearer than this are one for the skin
+constexpr double ducking = 0.15;             // gain of the voice under a transient that stands for it: see formats.md
 constexpr double lead = 0.001;               // s before it, for players that round times to floats
 constexpr double shortestSection = 0.001;    // s; shorter ones become part of their neighbour: rounded to a duration
                                              // of 0 they would have no end
@@ -85,10 +88,13 @@ void addPlain(Pattern& pattern, const Curve& level, double from, double to)
         add(pattern.intensity, point);
 }
 
-/// The time of transients that need the curve at `need` or above.
-void addRaised(Pattern& pattern, const Curve& level, double from, double to, double need, LossTrack& raised)
+/// The time of transients that need the curve at `need` or above, with the level at `gain` times what it is.
+void addRaised(Pattern& pattern, const Curve& level, double from, double to, double need, double gain,
+               LossTrack& raised)
 {
-    const Curve points = between(level, from, to);
+    Curve points = between(level, from, to);
+    for (Breakpoint& point : points)
+        point.value *= gain;
     const double peak = rounded(peakOf(points));
     if (to > from)
         pattern.sections.push_back({from, to, peak > leastAmplitude ? peak : 0.0});
@@ -102,8 +108,9 @@ void addRaised(Pattern& pattern, const Curve& level, double from, double to, dou
     }
 }
 
-/// The curves of a voice and, unless they have a file of their own, its events compensated for them.
-Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
+/// The curves of a voice and, unless they have a file of their own, its events compensated for them. While an event
+/// plays the voice has the gain `duck`.
+Pattern patternOf(const NormalisedVoice& voice, bool split, double duck, LossList& losses)
 {
     Pattern pattern;
     const auto [lowest, highest] =
@@ -115,7 +122,7 @@ Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
         for (const Breakpoint& point : voice.frequency)
             pattern.sharpness.push_back({point.time, point.value - neutral});
     pattern.transients = voice.events;
-    if (split)
+    if (split && duck == 1.0)
     {
         addPlain(pattern, voice.level, 0.0, voice.duration);
         return pattern;
@@ -129,24 +136,29 @@ Pattern patternOf(const NormalisedVoice& voice, bool split, LossList& losses)
         // Events too near to each other to have curves of their own share one.
         const double first = voice.events[i].time;
         double last = first;
-        double need = 0.0;
+        double need = 0.0, length = transientLength;
         for (; i < voice.events.size() && voice.events[i].time <= last + 2.0 * lead; ++i)
         {
             last = voice.events[i].time;
-            need = std::max(need, voice.events[i].amplitude);
+            if (!split)
+                need = std::max(need, voice.events[i].amplitude);
+            if (duck < 1.0)
+                length = transientPeriods / sharpnessRange.hertzOf(voice.events[i].sharpness);
         }
         const double next = i < voice.events.size() ? voice.events[i].time - lead : voice.duration;
-        double from = std::max(first - lead, done);
-        double end = std::min(last + transientLength, next);
+        double from = std::max(split ? first : first - lead, done);
+        double end = std::min(last + length, next);
         if (from - done < shortestSection)
             from = done;
         if (next - end < shortestSection)
             end = next;
         addPlain(pattern, voice.level, done, from);
-        addRaised(pattern, voice.level, from, end, need, raised);
+        addRaised(pattern, voice.level, from, end, need, std::sqrt(duck), raised);
         done = end;
     }
     addPlain(pattern, voice.level, done, voice.duration);
+    if (split)
+        return pattern;
     for (Transient& event : pattern.transients)
     {
         const double curve = valueAt(pattern.intensity, event.time);
@@ -275,13 +287,20 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    NormalisedVoice voice = normalisedVoice(
-        clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = {.range = sharpnessRange}});
-    constexpr double resolved = 0.01; // s: taps nearer than this are one for the skin
+    // Players play transients on top of the voice: the file has to make room for those that stand for it.
+    const double duck = params.events == EventExport::transients && !isSingleVoice(clip) ? ducking : 1.0;
+    EmphasisPlayer player{.range = sharpnessRange, .ducking = duck};
+    if (duck < 1.0)
+    {
+        player.separation = resolved;
+        player.periods = transientPeriods;
+    }
+    NormalisedVoice voice =
+        normalisedVoice(clip, params, {.scale = LevelScale::root, .range = sharpnessRange, .events = player});
     voice.losses.addCrowding(voice.events, resolved);
     // A file without continuous vibration has no curves that its events would have to be kept from.
     const bool split = params.split && !voice.events.empty() && peakOf(voice.level) > 0.0;
-    const Pattern pattern = patternOf(voice, split, voice.losses);
+    const Pattern pattern = patternOf(voice, split, duck, voice.losses);
     ExportedClip result;
     Writer main(voice.name);
     writeContinuous(main, pattern);

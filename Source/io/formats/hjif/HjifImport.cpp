@@ -293,7 +293,7 @@ private:
             return;
         }
         LossList losses;
-        Clip played = hjifVoicesOf(translated, losses);
+        Clip played = hjifVoicesOf(translated, losses).clip;
         std::move(played.bands.begin(), played.bands.end(), std::back_inserter(clip.bands));
         clip.transients.insert(clip.transients.end(), played.transients.begin(), played.transients.end());
     }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -42,12 +43,11 @@ void addPulse(std::vector<float>& samples, double time, double length, double am
         samples[n] += static_cast<float>(amplitude * shape(static_cast<double>(n) / rate - time));
 }
 
-std::vector<float> playedAsFile(const Clip& file)
+std::vector<float> playedAsFile(const Clip& file, const std::vector<HjifEvent>& events)
 {
     Clip waves = file;
     waves.transients.clear();
     std::vector<float> samples = played(waves, {});
-    const std::vector<HjifEvent> events = hjifEventsOf(file);
     constexpr double tau = 2.0 * std::numbers::pi;
     for (std::size_t i = 0; i < events.size(); ++i)
     {
@@ -83,30 +83,84 @@ public:
         }
     }
 
-    [[nodiscard]] double value() const { return total > 0.0 ? apart / total : 0.0; }
+    [[nodiscard]] double value() const { return partOf(*this); }
+
+    /// What of `whole` is in here.
+    [[nodiscard]] double partOf(const LevelDistance& whole) const
+    {
+        return whole.total > 0.0 ? apart / whole.total : 0.0;
+    }
 
 private:
     double strongest, gain;
     double total = 0.0, apart = 0.0;
 };
 
-double levelDistance(const HtsFeatures& own, const HtsFeatures& heard)
+/// The values from `first` to before `end`, both in s, and one at least, of a track with one every `spacing` s.
+template <typename Track>
+auto partOf(const Track& track, double spacing, double first, double end)
 {
-    // Features are scaled by powers of two.
-    const double gain = std::sqrt(detail::energy(own.felt) / std::max(detail::energy(heard.felt), 1e-30));
-    const double strongest = detail::highest(own.felt);
-    LevelDistance wide(strongest, gain), bands(strongest, gain);
-    wide.add(own.felt, heard.felt);
-    for (std::size_t k = 0; k < HtsFeatures::bandCount; ++k)
-        bands.add(own.bands[k], heard.bands[k]);
-    double strongestCell = 0.0;
-    for (const auto& frame : own.spectrum)
-        strongestCell = std::max(strongestCell, detail::highest(frame));
-    LevelDistance spectrum(strongestCell, gain);
-    for (std::size_t m = 0; m < std::min(own.spectrum.size(), heard.spectrum.size()); ++m)
-        spectrum.add(own.spectrum[m], heard.spectrum[m]);
-    return 35.0 * wide.value() + 20.0 * bands.value() + 20.0 * spectrum.value();
+    const auto size = static_cast<double>(track.size());
+    const double from = std::min(std::floor(std::max(first, 0.0) / spacing), size);
+    const double to = std::min(std::max(std::floor(end / spacing), from + 1.0), size);
+    return std::span(track).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from));
 }
+
+/// Distances of the levels of both, all together and in parts.
+class LevelDistances
+{
+public:
+    LevelDistances(const HtsFeatures& ownFeatures, const HtsFeatures& heardFeatures)
+        : own(ownFeatures),
+          heard(heardFeatures),
+          gain(std::sqrt(detail::energy(own.felt) / std::max(detail::energy(heard.felt), 1e-30))),
+          strongest(detail::highest(own.felt))
+    {
+        for (const auto& frame : own.spectrum)
+            strongestCell = std::max(strongestCell, detail::highest(frame));
+        all = between(0.0, std::numeric_limits<double>::infinity());
+    }
+
+    [[nodiscard]] double value() const { return all.weighted(all); }
+
+    /// What of it lies in a part, from and to in s.
+    [[nodiscard]] double valueOf(double from, double to) const { return between(from, to).weighted(all); }
+
+private:
+    struct Three
+    {
+        LevelDistance wide, bands, spectrum;
+
+        [[nodiscard]] double weighted(const Three& whole) const
+        {
+            return 35.0 * wide.partOf(whole.wide) + 20.0 * bands.partOf(whole.bands) +
+                   20.0 * spectrum.partOf(whole.spectrum);
+        }
+    };
+
+    [[nodiscard]] Three between(double from, double to) const
+    {
+        constexpr double envelopeStep = HtsFeatures::envelopeSpacing / rate;
+        constexpr double frameStep = 0.064; // s
+        // Features are scaled by powers of two.
+        Three found{{strongest, gain}, {strongest, gain}, {strongestCell, gain}};
+        found.wide.add(partOf(own.felt, envelopeStep, from, to), partOf(heard.felt, envelopeStep, from, to));
+        for (std::size_t k = 0; k < HtsFeatures::bandCount; ++k)
+            found.bands.add(partOf(own.bands[k], envelopeStep, from, to),
+                            partOf(heard.bands[k], envelopeStep, from, to));
+        const auto wanted = partOf(own.spectrum, frameStep, from, to);
+        const auto played = partOf(heard.spectrum, frameStep, from, to);
+        for (std::size_t m = 0; m < std::min(wanted.size(), played.size()); ++m)
+            found.spectrum.add(wanted[m], played[m]);
+        return found;
+    }
+
+    const HtsFeatures& own;
+    const HtsFeatures& heard;
+    double gain, strongest;
+    double strongestCell = 0.0;
+    Three all{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+};
 
 void addUnmatched(std::vector<double>& unmatched, const std::vector<double>& events, const std::vector<double>& others)
 {
@@ -124,10 +178,15 @@ HjifLikeness::HjifLikeness(const Clip& clip, const DecoderParams& decoder)
 {
 }
 
-HjifDistance HjifLikeness::distanceTo(const Clip& file)
+HtsFeatures HjifLikeness::featuresOf(const Clip& file, const std::vector<HjifEvent>& events)
 {
-    const auto heard = analyzer.analyze(std::span<const float>(playedAsFile(file)), HtsRole::candidate);
-    HjifDistance distance{levelDistance(own, heard), {}};
+    return analyzer.analyze(std::span<const float>(playedAsFile(file, events)), HtsRole::candidate);
+}
+
+HjifDistance HjifLikeness::distanceTo(const Clip& file, const std::vector<HjifEvent>& events)
+{
+    const HtsFeatures heard = featuresOf(file, events);
+    HjifDistance distance{LevelDistances(own, heard).value(), {}};
     // An event is one thing that changes, not 5 ms of many: it weighs half as much again as in HTS.
     constexpr double points = 1.5 * 25.0;
     const auto both = static_cast<double>(own.feltEvents.size() + heard.feltEvents.size());
@@ -137,6 +196,31 @@ HjifDistance HjifLikeness::distanceTo(const Clip& file)
     addUnmatched(distance.events, own.feltEvents, heard.feltEvents);
     addUnmatched(distance.events, heard.feltEvents, own.feltEvents);
     return distance;
+}
+
+std::vector<double> HjifLikeness::distancesAround(const Clip& file, const std::vector<HjifEvent>& events)
+{
+    constexpr double before = 0.02, after = 0.06; // s
+    constexpr double rises = 0.004;               // s: an event is felt when it has risen
+    constexpr double points = 25.0;               // as in HTS
+    const HtsFeatures heard = featuresOf(file, events);
+    std::vector<double> wanted, unmatched, distances;
+    for (const Transient& event : file.transients)
+        wanted.push_back(event.time + rises);
+    addUnmatched(unmatched, wanted, heard.feltEvents);
+    addUnmatched(unmatched, heard.feltEvents, wanted);
+    const auto both = static_cast<double>(wanted.size() + heard.feltEvents.size());
+    const LevelDistances levels(own, heard);
+    for (const Transient& event : file.transients)
+    {
+        const auto isHere = [&](double time)
+        {
+            return time > event.time - before && time < event.time + after;
+        };
+        const auto lost = static_cast<double>(std::count_if(unmatched.begin(), unmatched.end(), isHere));
+        distances.push_back(levels.valueOf(event.time - before, event.time + after) + points * lost / both);
+    }
+    return distances;
 }
 
 } // namespace pacini

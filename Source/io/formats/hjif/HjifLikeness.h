@@ -2,6 +2,8 @@
 
 // Perceptual distance between a clip and its HJIF file.
 
+#include "io/formats/hjif/HjifEvents.h"
+
 #include <pacini/clip/Clip.h>
 #include <pacini/evaluate/HtsAnalyzer.h>
 #include <pacini/evaluate/HtsFeatures.h>
@@ -28,10 +30,16 @@ class HjifLikeness
 public:
     HjifLikeness(const Clip& clip, const DecoderParams& decoder);
 
-    /// The distance of a file with these waves and events (see hjifEventsOf).
-    [[nodiscard]] HjifDistance distanceTo(const Clip& file);
+    /// The distance of a file with these waves and events, which are told as `events` say.
+    [[nodiscard]] HjifDistance distanceTo(const Clip& file, const std::vector<HjifEvent>& events);
+
+    /// The part of it that lies around each event of the file, 20 ms before to 60 ms after it. Here the clip's own
+    /// events are those to be felt: they know more of the sound than the render does.
+    [[nodiscard]] std::vector<double> distancesAround(const Clip& file, const std::vector<HjifEvent>& events);
 
 private:
+    [[nodiscard]] HtsFeatures featuresOf(const Clip& file, const std::vector<HjifEvent>& events);
+
     HtsAnalyzer analyzer;
     HtsFeatures own;
 };

@@ -5,6 +5,7 @@
 #include "io/formats/hjif/HjifFit.h"
 #include "io/formats/hjif/HjifFormat.h"
 #include "io/formats/hjif/HjifLikeness.h"
+#include "io/formats/hjif/HjifTaps.h"
 
 #include <pacini/synthesis/DecoderChoice.h>
 #include <pacini/synthesis/VoiceMerge.h>
@@ -30,6 +31,7 @@ constexpr double floorBelowLoudest = 0.018;  // -35 dB
 constexpr double bytesPerPoint = 58.0;       // about
 constexpr double pointsPerKilobyte = 0.6;    // of HjifDistance: what a kilobyte per second must gain
 constexpr double longestSearched = 120.0;    // s: it takes 50 ms a second
+constexpr double pointsPerEvent = 2.0;       // of HjifDistance: what an event as a Transient is worth
 constexpr std::size_t candidatesRefined = 2; // of the ways to make few voices
 
 /// A way to make few voices of a clip.
@@ -104,8 +106,23 @@ void markCovered(Clip& played, const Clip& clip)
     }
 }
 
+/// How much each event takes of the waves; none: events are merged.
+using TapShares = std::vector<HjifTapShare>;
+
+constexpr double usualShare = 0.25; // of the waves
+constexpr double nearlyAll = 0.95;  // better for hits with little else around them
+
+TapShares sharesOfAll(const Clip& clip, double share)
+{
+    constexpr double rounding = 1.01; // amplitudes have three digits in the file
+    TapShares shares;
+    for (const Transient& event : clip.transients)
+        shares.push_back({share, rounding * hjifLeastTap * event.amplitude});
+    return shares;
+}
+
 /// The clip on few bands, levelled, with a point every millisecond.
-Clip reduced(const Clip& clip, CarrierMode carriers, const Reduction& how)
+HjifVoices reduced(const Clip& clip, CarrierMode carriers, const Reduction& how, const TapShares& shares)
 {
     Clip few = clip;
     if (carriers == CarrierMode::pitch)
@@ -116,7 +133,10 @@ Clip reduced(const Clip& clip, CarrierMode carriers, const Reduction& how)
     }
     Clip played = bakedClip(few, 1.0, fineStep);
     markCovered(played, clip);
-    return played;
+    std::vector<HjifEvent> events = hjifEventsOf(played);
+    if (!shares.empty())
+        hjifMakeRoom(played, events, shares, clip.envelope);
+    return {std::move(played), std::move(events)};
 }
 
 double leastFelt(const Clip& clip)
@@ -134,16 +154,102 @@ Clip withCurves(Clip clip, std::vector<Curve> curves)
 /// What is to be written, and what it was made of.
 struct Written
 {
-    Clip all;
+    HjifVoices all;
     std::vector<Curve> curves;
+};
+
+/// What is mostly the best.
+Written usual(const Clip& clip, CarrierMode carriers, const TapShares& shares)
+{
+    Written written{reduced(clip, carriers, {}, shares), {}};
+    const HjifFit fit(written.all.clip, leastFelt(written.all.clip), false);
+    written.curves = fit.curves(usualPrice, std::vector<double>(fit.steps(), 1.0));
+    return written;
+}
+
+/// Chooses how much of the waves the events take.
+class TapChoice
+{
+public:
+    TapChoice(const Clip& clipToWrite, CarrierMode carrierMode, HjifLikeness& measure)
+        : clip(clipToWrite), carriers(carrierMode), likeness(measure)
+    {
+        const HjifVoices merged = reduced(clip, carriers, {}, {});
+        without = likeness.distancesAround(merged.clip, merged.events);
+    }
+
+    /// Every event a quarter, but those where that costs more than the event is worth.
+    [[nodiscard]] TapShares quick() const
+    {
+        TapShares shares = sharesOfAll(clip, usualShare);
+        const std::vector<double> costs = costsOf(shares);
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            if (costs[i] > pointsPerEvent)
+                shares[i] = {};
+        return shares;
+    }
+
+    /// The best of some ways, as a whole file each.
+    [[nodiscard]] TapShares searched() const
+    {
+        TapShares best(clip.transients.size());
+        double least = costOf(best);
+        for (const double share : {usualShare, nearlyAll})
+        {
+            const TapShares every = sharesOfAll(clip, share);
+            const std::vector<double> costs = costsOf(every);
+            std::vector<double> sorted = costs;
+            std::sort(sorted.begin(), sorted.end());
+            for (const double part : {1.0, 0.9, 0.75, 0.5, 0.25})
+            {
+                const double count = std::ceil(part * static_cast<double>(sorted.size()));
+                TapShares some = every;
+                for (std::size_t i = 0; i < some.size(); ++i)
+                    if (costs[i] > sorted[static_cast<std::size_t>(count) - 1])
+                        some[i] = {};
+                if (const double cost = costOf(some); cost < least)
+                {
+                    least = cost;
+                    best = std::move(some);
+                }
+            }
+        }
+        return best;
+    }
+
+private:
+    /// What each event costs more than a merged one.
+    [[nodiscard]] std::vector<double> costsOf(const TapShares& shares) const
+    {
+        const HjifVoices with = reduced(clip, carriers, {}, shares);
+        std::vector<double> costs = likeness.distancesAround(with.clip, with.events);
+        for (std::size_t i = 0; i < costs.size(); ++i)
+            costs[i] -= without[i];
+        return costs;
+    }
+
+    /// The distance of the whole file, and what the events that are no Transients are worth.
+    [[nodiscard]] double costOf(const TapShares& shares) const
+    {
+        const Written file = usual(clip, carriers, shares);
+        double cost = likeness.distanceTo(withCurves(file.all.clip, file.curves), file.all.events).value;
+        for (const HjifTapShare& share : shares)
+            cost += share.least > 0.0 ? 0.0 : pointsPerEvent;
+        return cost;
+    }
+
+    const Clip& clip;
+    CarrierMode carriers;
+    HjifLikeness& likeness;
+    std::vector<double> without;
 };
 
 /// Looks for the file that is most like the clip for its bytes.
 class Search
 {
 public:
-    Search(const Clip& clipToWrite, const DecoderParams& decoder)
-        : clip(clipToWrite), carriers(decoder.carriers), likeness(clip, decoder)
+    Search(const Clip& clipToWrite, CarrierMode carrierMode, HjifLikeness& measure, const TapShares& eventShares)
+        : clip(clipToWrite), carriers(carrierMode), likeness(measure), shares(eventShares)
     {
     }
 
@@ -154,7 +260,7 @@ public:
         std::vector<Candidate> candidates;
         for (const Reduction& way : ways)
         {
-            candidates.emplace_back(reduced(clip, carriers, way));
+            candidates.emplace_back(reduced(clip, carriers, way, shares));
             candidates.back().cost = refine(candidates.back(), usualPrice, 1);
             if (carriers != CarrierMode::pitch)
                 break; // they are the bands that the clip has
@@ -172,9 +278,11 @@ private:
     struct Candidate
     {
         Candidate() = default;
-        explicit Candidate(Clip wanted) : exact(std::move(wanted)), fit(exact, leastFelt(exact), true) {}
+        explicit Candidate(HjifVoices wanted) : exact(std::move(wanted)), fit(exact.clip, leastFelt(exact.clip), true)
+        {
+        }
 
-        Clip exact;
+        HjifVoices exact;
         HjifFit fit;
         double cost = 0.0;
     };
@@ -191,7 +299,9 @@ private:
             std::size_t points = 0;
             for (const Curve& curve : curves)
                 points += curve.size();
-            const HjifDistance distance = likeness.distanceTo(withCurves(candidate.exact, curves));
+            const Clip file = withCurves(candidate.exact.clip, curves);
+            const HjifDistance distance =
+                likeness.distanceTo(file, shares.empty() ? hjifEventsOf(file) : candidate.exact.events);
             const double kilobytes =
                 1e-3 * bytesPerPoint * static_cast<double>(points) / std::max(clip.duration, HjifFit::step);
             const double cost = distance.value + pointsPerKilobyte * kilobytes;
@@ -221,35 +331,66 @@ private:
 
     const Clip& clip;
     CarrierMode carriers;
-    HjifLikeness likeness;
+    HjifLikeness& likeness;
+    const TapShares& shares;
     Written found;
     double leastOfAll = std::numeric_limits<double>::infinity();
 };
 
-/// What is mostly the best.
-Written usual(const Clip& clip, CarrierMode carriers)
+/// Events that are no Transients of the file.
+void addMerged(LossList& losses, const Clip& clip, const std::vector<HjifEvent>& events, EventExport how)
 {
-    Written written{reduced(clip, carriers, {}), {}};
-    const HjifFit fit(written.all, leastFelt(written.all), false);
-    written.curves = fit.curves(usualPrice, std::vector<double>(fit.steps(), 1.0));
-    return written;
+    for (std::size_t i = 0; i < events.size(); ++i)
+        if (!isHjifTap(events[i], clip.transients[i].amplitude))
+            losses.add(LossKind::transient, clip.transients[i].time, 0.0, clip.transients[i].amplitude,
+                       how == EventExport::merged
+                           ? "is no transient that is felt: its wave and the bands are as strong"
+                           : "is no transient that is felt: two periods of 91 Hz would be too far from what sounds");
 }
 } // namespace
 
-Clip hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort)
+HjifVoices hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort, EventExport events)
 {
     const DecoderParams decoder = decoderParamsFor(clip, {}, {}, 67.0);
     if (clip.envelope.empty() || clip.bands.empty() || !decoder.followEnvelope)
-        return bakedClip(clip, 1.0, fineStep);
-    const bool search = effort == HjifEffort::search && clip.duration <= longestSearched;
-    Written written = search ? Search(clip, decoder).best() : usual(clip, decoder.carriers);
-    if (clip.bands.size() > written.all.bands.size())
+    {
+        HjifVoices all{bakedClip(clip, 1.0, fineStep), {}};
+        all.events = hjifEventsOf(all.clip);
+        if (events == EventExport::transients)
+            hjifMakeRoom(all.clip, all.events, sharesOfAll(clip, 0.0), {});
+        addMerged(losses, clip, all.events, events);
+        return all;
+    }
+    const bool isShort = clip.duration <= longestSearched;
+    const bool search = isShort && effort == HjifEffort::search;
+    const bool taps = events == EventExport::transients && !clip.transients.empty();
+    Written written;
+    if (search || (isShort && taps))
+    {
+        HjifLikeness likeness(clip, decoder);
+        TapShares shares;
+        if (taps)
+        {
+            const TapChoice choice(clip, decoder.carriers, likeness);
+            shares = search ? choice.searched() : choice.quick();
+        }
+        written =
+            search ? Search(clip, decoder.carriers, likeness, shares).best() : usual(clip, decoder.carriers, shares);
+    }
+    else
+        written = usual(clip, decoder.carriers, taps ? sharesOfAll(clip, usualShare) : TapShares{});
+    HjifVoices& all = written.all;
+    if (clip.bands.size() > all.clip.bands.size())
         losses.add(LossKind::bands, 0.0, clip.duration, 0.0,
-                   fmt::format("{} bands share {}", clip.bands.size(), written.all.bands.size()));
+                   fmt::format("{} bands share {}", clip.bands.size(), all.clip.bands.size()));
     for (std::size_t i = 0; i < written.curves.size(); ++i)
-        if (!written.curves[i].empty() && !written.all.bands[i].amplitude.empty())
-            losses.addThinned(written.all.bands[i].amplitude, written.curves[i]);
-    return withCurves(std::move(written.all), std::move(written.curves));
+        if (!written.curves[i].empty() && !all.clip.bands[i].amplitude.empty())
+            losses.addThinned(all.clip.bands[i].amplitude, written.curves[i]);
+    all.clip = withCurves(std::move(all.clip), std::move(written.curves));
+    if (!taps)
+        all.events = hjifEventsOf(all.clip);
+    addMerged(losses, clip, all.events, events);
+    return std::move(all);
 }
 
 } // namespace pacini

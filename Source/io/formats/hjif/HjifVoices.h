@@ -2,9 +2,13 @@
 
 // Reduction of a clip to few waves with few keyframes.
 
+#include "io/formats/ClipFormat.h"
 #include "io/formats/LossList.h"
+#include "io/formats/hjif/HjifEvents.h"
 
 #include <pacini/clip/Clip.h>
+
+#include <vector>
 
 namespace pacini
 {
@@ -12,8 +16,15 @@ namespace pacini
 /// Effort of the search for a file of few bytes that feels like the clip.
 enum class HjifEffort
 {
-    search, ///< up to 42 files are compared with the clip: 45 ms a second of sound
-    usual   ///< one that is mostly good: 1 ms
+    search, ///< up to 54 files are compared with the clip: 60 ms a second of sound
+    usual   ///< one that is mostly good
+};
+
+/// What a file has of a clip.
+struct HjifVoices
+{
+    Clip clip;
+    std::vector<HjifEvent> events; ///< how its transients are told
 };
 
 /// The clip as bakedClip() makes it, on four to six bands where its bands have pitch (with the events that leaves the
@@ -25,6 +36,10 @@ enum class HjifEffort
 /// five bands within two semitones and points that save 12 dB^2 in steps of 5 ms. Events that the bands reach by
 /// themselves have an amplitude by which their pulses stand 25 dB below the bands: they are still events of the file,
 /// and add nothing. Clips that are not levelled keep their points and their events.
-[[nodiscard]] Clip hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort = HjifEffort::search);
+///
+/// With `events` as transients the bands make room for Transients (see hjifMakeRoom): for all events, but those where
+/// that would change more of what is felt than an event is worth; these are in `losses` one by one, as are merged ones.
+[[nodiscard]] HjifVoices hjifVoicesOf(const Clip& clip, LossList& losses, HjifEffort effort = HjifEffort::search,
+                                      EventExport events = EventExport::merged);
 
 } // namespace pacini

@@ -66,7 +66,7 @@ double putOnTicks(const Curve& curve, Put put)
     return moved;
 }
 
-double highestSum(const Clip& clip)
+double highestSum(const Clip& clip, const std::vector<HjifEvent>& events)
 {
     std::vector<double> times;
     for (const Band& band : clip.bands)
@@ -88,14 +88,19 @@ double highestSum(const Clip& clip)
     highest = std::max(highest, hjifHighestLevel(clip)); // on a step the earlier value may be the larger one
     for (const Transient& event : clip.transients)
         highest = std::max(highest, event.amplitude);
+    for (const HjifEvent& event : events)
+        highest = std::max(highest, event.tap);
     return highest;
 }
 
 class Writer
 {
 public:
-    Writer(const Clip& clipToWrite, const ExportParams& wanted)
-        : clip(clipToWrite), params(wanted), gain(std::max(1.0, std::ceil(highestSum(clip) * 1000.0) / 1000.0))
+    Writer(const Clip& clipToWrite, const std::vector<HjifEvent>& eventsToWrite, const ExportParams& wanted)
+        : clip(clipToWrite),
+          told(eventsToWrite),
+          params(wanted),
+          gain(std::max(1.0, std::ceil(highestSum(clip, told) * 1000.0) / 1000.0))
     {
     }
 
@@ -262,23 +267,22 @@ private:
     void addEvents(std::vector<std::string>& bands)
     {
         EventBand transients, waves;
-        const std::vector<HjifEvent> told = hjifEventsOf(clip);
         for (std::size_t i = 0; i < told.size(); ++i)
         {
             const Transient& event = clip.transients[i];
-            if (event.amplitude <= 0.0)
+            if (told[i].tap <= 0.0 && told[i].wave <= 0.0)
                 continue;
             const std::int64_t tick = tickOf(event.time);
             movedTime = std::max(movedTime, std::abs(static_cast<double>(tick) / ticksPerSecond - event.time));
             if (told[i].wave > 0.0)
                 waves.add(wavePulse(tick, told[i]), told[i].frequency, told[i].frequency);
-            if (told[i].inTrain)
+            if (told[i].inTrain && told[i].tap <= 0.0)
                 losses.add(LossKind::event, event.time, told[i].length, 0.0,
                            "a transient would fill the gaps of a fast train: its events are written as short waves");
             if (told[i].tap > 0.0 && told[i].wave > 0.0)
                 losses.add(
                     LossKind::event, event.time, hjifTransientLength, 0.0,
-                    "half of a sharp event is a transient, which is dull and 22 ms long in the reference player; "
+                    "a part of a sharp event is a transient, which is dull and 22 ms long in the reference player; "
                     "the rest is a short wave of its own frequency");
             if (told[i].tap > 0.0)
             {
@@ -322,6 +326,7 @@ private:
     }
 
     const Clip& clip;
+    const std::vector<HjifEvent>& told;
     const ExportParams& params;
     double gain; ///< of the channel: amplitudes are at most 1, and a player cuts the sum of the bands there
     double movedTime = 0.0, bentPitch = 0.0;
@@ -331,7 +336,9 @@ private:
 Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     LossList losses;
-    Clip played = hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search);
+    HjifVoices voices =
+        hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search, params.events);
+    Clip& played = voices.clip;
     losses.addNoise(clip);
     losses.addText(clip, true);
     const std::size_t room = bandsOfLevel2 - (played.transients.empty() ? 0 : 2); // events take up to two
@@ -341,7 +348,7 @@ Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
                    fmt::format("{} bands share {}", played.bands.size(), room));
         mergeVoices(played, room);
     }
-    Writer writer(played, params);
+    Writer writer(played, voices.events, params);
     writer.losses = std::move(losses);
     std::string text = writer.write(nameOfClip(clip, params.name)); // finds losses
     return oneFile(std::move(text), std::move(writer.losses));
