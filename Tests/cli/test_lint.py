@@ -29,10 +29,13 @@ class Lint(CommandTest):
                   transients=[{"time": 0.5, "amplitude": 1, "sharpness": 0.5},
                               {"time": 0.504, "amplitude": 1, "sharpness": 0.5}])
         losses = {loss["kind"]: loss for loss in self.losses("clip.json", "--target", "haptic")}
-        self.assertTrue({"bands", "text", "crowding"} <= set(losses), losses)
+        self.assertTrue({"bands", "text", "transient"} <= set(losses), losses)
         self.assertAlmostEqual(losses["bands"]["time"], 1.0, places=3)
         self.assertAlmostEqual(losses["bands"]["error"], 0.5, places=2)
-        self.assertAlmostEqual(losses["crowding"]["time"], 0.504, places=3)
+        self.assertAlmostEqual(losses["transient"]["time"], 0.504, places=3)
+        self.assertEqual(losses["transient"]["error"], 1)
+        merged = {loss["kind"]: loss for loss in self.losses("clip.json", "--target", "haptic", "--events", "merged")}
+        self.assertAlmostEqual(merged["crowding"]["time"], 0.504, places=3)
         low = dict(band, amplitude=[{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5},
                                     {"time": 1, "amplitude": 0}, {"time": 2, "amplitude": 0}])
         self.clip(seconds=2.0, envelope=[], bands=[low, high], transients=[])  # the voice has to follow the high one
@@ -124,7 +127,7 @@ class Lint(CommandTest):
         self.assertIn("22 ms", dull[0]["message"])
         train = [dict(weak[0], time=0.25 + 0.03 * i) for i in range(3)]
         self.clip(envelope=[], bands=[steady], transients=train)
-        waves = self.only("event", "hjif")
+        waves = self.only("event", "hjif", "--events", "merged")
         self.assertAlmostEqual(waves["time"], 0.25, places=3)
         self.assertIn("short waves", waves["message"])
         several = [dict(steady, lowFrequency=70 * i, centreFrequency=75 * i, highFrequency=80 * i)
@@ -134,9 +137,9 @@ class Lint(CommandTest):
         self.clip(envelope=[], bands=several, transients=[])  # nothing to level: bands stay as they are
         self.assertNotIn("bands", [loss["kind"] for loss in self.losses("clip.json", "--target", "hjif")])
         self.clip(transients=[weak[0], dict(weak[1], amplitude=0.2)])  # the second is reached by the envelope
-        left = self.only("event", "ahap")
+        left = self.only("transient", "ahap", "--events", "merged")
         self.assertAlmostEqual(left["time"], 0.5, places=3)
-        self.assertIn("left out", left["message"])
+        self.assertIn("is no transient", left["message"])
 
     def test_a_limit_gates(self):
         points = [{"time": i / 1000, "amplitude": i % 2} for i in range(1001)]

@@ -179,7 +179,7 @@ std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events, cons
     {
         const double gap = nearestGap(events, i);
         Transient emphasis = events[i];
-        double least = std::numeric_limits<double>::infinity();
+        double least = -1.0; // none yet; in silence no deviation is a number
         for (double sharpness = sharpnessFor(player, events[i], gap);;
              sharpness = std::min(sharpness + sharpnessStep, 1.0))
         {
@@ -188,9 +188,9 @@ std::vector<Transient> emphasisOfEach(const std::vector<Transient>& events, cons
             const double mean = voice.meanOfPulse();
             const double after = VoicePower(amplitude, events[i].time + length, comesBack).meanOfPulse();
             const double pulse = std::max((1.0 - ducked) * mean, after - ducked * mean);
-            if (const double deviation = voice.deviation(pulse, player.ducking); deviation < least)
+            if (const double deviation = voice.deviation(pulse, player.ducking); least < 0.0 || deviation < least)
             {
-                least = deviation;
+                least = std::isfinite(deviation) ? deviation : 0.0;
                 const double wave = player.periods > 0.0 ? 1.0 : powerOf(sharpness);
                 emphasis.sharpness = sharpness;
                 emphasis.amplitude = std::clamp(std::sqrt((square(beyond[i]) + pulse) / wave), leastAmplitude, 1.0);

@@ -1,5 +1,6 @@
 #include "io/formats/ahap/AhapFormat.h"
 
+#include "io/formats/EmphasisFit.h"
 #include "io/formats/EventsBeyond.h"
 #include "io/formats/ahap/SumLimit.h"
 #include "io/formats/haptic/HapticFormat.h"
@@ -8,6 +9,7 @@
 #include "support/RandomClip.h"
 
 #include <pacini/foundation/Random.h>
+#include <pacini/synthesis/SingleVoice.h>
 
 #include <nlohmann/json.hpp>
 
@@ -339,8 +341,12 @@ TEST_CASE("AHAP: any clip is written and read again", "[io][formats]")
         const auto back = readAhap(text);
         REQUIRE((back.ok() ? "" : back.error().text()) == "");
         REQUIRE(back->warnings.empty());
-        REQUIRE(back->clip.transients.size() == test::eventsBeyond(clip));
+        REQUIRE(back->clip.transients.size() ==
+                (isSingleVoice(clip) ? clip.transients.size() : separated(clip.transients, 0.01).size()));
         REQUIRE(writtenFiles(clip)[0] == text);
+        ExportParams merged;
+        merged.events = EventExport::merged;
+        REQUIRE(readAhap(writeAhap(clip, merged)->files[0].bytes)->clip.transients.size() == test::eventsBeyond(clip));
     }
     Clip empty;
     REQUIRE(readAhap(writtenFiles(empty)[0]).ok());
@@ -585,4 +591,49 @@ TEST_CASE("Slopes that pass the limit between their points stay as they are unti
                             Approx(valueAt(before[i].amplitude, time)).margin(1e-9));
             }
         }
+}
+
+TEST_CASE("AHAP: every event of a clip of bands is a transient under which the voice is ducked", "[io][formats]")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    for (const double hertz : {80.0, 150.0})
+        clip.bands.push_back({hertz, hertz, hertz, 0, {{0.0, 0.3}, {2.0, 0.3}}, {}});
+    clip.envelope = {{0.0, 0.4}, {2.0, 0.4}};
+    clip.transients = {{0.5, 0.3, 0.5}, {1.0, 0.3, 0.0}, {1.5, 0.2, 0.5}, {1.506, 0.3, 0.5}};
+    for (const bool split : {false, true})
+    {
+        CAPTURE(split);
+        ExportParams params;
+        params.split = split;
+        const auto exported = writeAhap(clip, params);
+        REQUIRE(exported.ok());
+        const test::AhapPattern voice = test::parseAhap(exported->files.front().bytes);
+        const test::AhapPattern taps = test::parseAhap(exported->files.back().bytes);
+        std::vector<double> times;
+        for (const test::AhapEvent& event : taps.events)
+            if (event.transient)
+            {
+                times.push_back(event.time);
+                const double played = std::pow(event.intensity * test::controlAt(taps.intensity, event.time, 1.0), 2.0);
+                CHECK(played == Approx(0.4 * std::sqrt(1.0 - 0.15 * 0.15)).epsilon(0.02)); // instead of the voice
+                CHECK(playedAmplitude(voice, event.time + 0.003) == Approx(0.15 * 0.4).margin(1.5 / 255.0));
+            }
+        CHECK(times == std::vector<double>{0.5, 1.0, 1.506});
+        CHECK(playedAmplitude(voice, 0.4) == Approx(0.4).margin(1.5 / 255.0));
+        std::vector<FormatLoss> omitted;
+        for (const FormatLoss& loss : exported->losses)
+            if (loss.kind == LossKind::transient)
+                omitted.push_back(loss);
+        REQUIRE(omitted.size() == 1);
+        CHECK(omitted[0].time == 1.5);
+        CHECK(omitted[0].error == 0.2);
+    }
+    ExportParams merged;
+    merged.events = EventExport::merged;
+    const auto exported = writeAhap(clip, merged);
+    REQUIRE(exported.ok());
+    CHECK(std::count_if(exported->losses.begin(), exported->losses.end(),
+                        [](const FormatLoss& loss) { return loss.kind == LossKind::transient; }) == 4);
+    CHECK(exported->files[0].bytes.find("HapticTransient") == std::string::npos);
 }

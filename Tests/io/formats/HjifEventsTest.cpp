@@ -16,9 +16,11 @@ using namespace pacini;
 
 namespace
 {
-std::string hjifOf(const Clip& clip)
+std::string hjifOf(const Clip& clip, EventExport events = EventExport::transients)
 {
-    const auto exported = writeHjif(clip, {});
+    ExportParams params;
+    params.events = events;
+    const auto exported = writeHjif(clip, params);
     REQUIRE(exported);
     return exported->files.at(0).bytes;
 }
@@ -104,14 +106,14 @@ TEST_CASE("Events are transients of HJIF but where these would fill the gaps of 
     CHECK(static_cast<double>(transients) > 0.8 * static_cast<double>(all));
 }
 
-TEST_CASE("An event is as strong in HJIF as beside the bands, not on top of them", "[formats]")
+TEST_CASE("A merged event is as strong in HJIF as beside the bands, not on top of them", "[formats]")
 {
     constexpr double fs = 8000.0;
     for (const test::DemoSound& sound : test::demoSounds())
     {
         CAPTURE(sound.name);
         const std::vector<float> own = test::decoded(sound.clip, static_cast<int>(fs));
-        const std::vector<float> exported = test::playHjif(hjifOf(sound.clip), fs);
+        const std::vector<float> exported = test::playHjif(hjifOf(sound.clip, EventExport::merged), fs);
         double wanted = 0.0, found = 0.0;
         for (const Transient& event : sound.clip.transients)
         {
@@ -143,7 +145,7 @@ TEST_CASE("An event of any sharpness is a transient of HJIF that keeps its stren
     }
 }
 
-TEST_CASE("An event that the bands reach is an event of HJIF that adds nothing", "[formats]")
+TEST_CASE("A merged event that the bands reach is an event of HJIF that adds nothing", "[formats]")
 {
     constexpr double fs = 8000.0;
     const auto levelAround = [](const std::vector<float>& samples)
@@ -153,8 +155,8 @@ TEST_CASE("An event that the bands reach is an event of HJIF that adds nothing",
     const Clip covered = clipWithEvent(0.4, 0.7); // bands peak at up to twice their envelope
     Clip without = covered;
     without.transients.clear();
-    CHECK(transientTimes(hjifOf(covered)) == std::vector<double>{500.0});
-    CHECK(levelAround(test::playHjif(hjifOf(covered), fs)) ==
+    CHECK(transientTimes(hjifOf(covered, EventExport::merged)) == std::vector<double>{500.0});
+    CHECK(levelAround(test::playHjif(hjifOf(covered, EventExport::merged), fs)) ==
           Approx(levelAround(test::playHjif(hjifOf(without), fs))).margin(0.3));
 
     const Clip above = clipWithEvent(0.1, 0.9);
@@ -176,4 +178,36 @@ TEST_CASE("An HJIF file of the demo sounds takes few bytes", "[formats]")
     }
     CAPTURE(bytes, seconds);
     CHECK(bytes < 12e3 * seconds);
+}
+
+TEST_CASE("Most events are Transients of HJIF of a quarter of their amplitude, the others are losses", "[formats]")
+{
+    std::size_t all = 0, taps = 0;
+    for (const test::DemoSound& sound : test::demoSounds())
+    {
+        CAPTURE(sound.name);
+        const auto exported = writeHjif(sound.clip, {});
+        REQUIRE(exported);
+        const auto lost = static_cast<std::size_t>(std::count_if(exported->losses.begin(), exported->losses.end(),
+                                                                 [](const FormatLoss& loss)
+                                                                 { return loss.kind == LossKind::transient; }));
+        const auto root = nlohmann::json::parse(exported->files.at(0).bytes);
+        const auto& channel = root.at("perceptions").at(0).at("channels").at(0);
+        std::size_t strong = 0;
+        for (const auto& band : channel.at("bands"))
+            if (band.at("band_type") == "Transient")
+                for (const auto& effect : band.at("effects"))
+                    for (const Transient& event : sound.clip.transients)
+                        strong += std::round(1000.0 * event.time) == effect.at("position").get<double>() &&
+                                          effect.at("keyframes").at(0).at("amplitude_modulation").get<double>() *
+                                                  channel.at("gain").get<double>() >=
+                                              0.245 * event.amplitude
+                                      ? 1
+                                      : 0;
+        CHECK(strong + lost == sound.clip.transients.size());
+        all += sound.clip.transients.size();
+        taps += strong;
+    }
+    CAPTURE(all, taps);
+    CHECK(static_cast<double>(taps) > 0.8 * static_cast<double>(all));
 }

@@ -44,24 +44,24 @@ Clip silence()
 
 TEST_CASE("A file of the same waves is no distance from its clip, silence none from silence", "[formats]")
 {
-    const HjifDistance same = HjifLikeness(hum(0.5), {}).distanceTo(hum(0.5));
+    const HjifDistance same = HjifLikeness(hum(0.5), {}).distanceTo(hum(0.5), hjifEventsOf(hum(0.5)));
     CHECK(std::abs(same.value) < 1e-6);
     CHECK(same.events.empty());
-    const HjifDistance nothing = HjifLikeness(silence(), {}).distanceTo(silence());
+    const HjifDistance nothing = HjifLikeness(silence(), {}).distanceTo(silence(), hjifEventsOf(silence()));
     CHECK(nothing.value == 0.0);
     CHECK(nothing.events.empty());
 }
 
 TEST_CASE("An event that only one of clip and file has is far and told with its time", "[formats]")
 {
-    const HjifDistance lost = HjifLikeness(tap(), {}).distanceTo(silence());
+    const HjifDistance lost = HjifLikeness(tap(), {}).distanceTo(silence(), hjifEventsOf(silence()));
     REQUIRE(lost.events.size() == 1);
     CHECK(lost.events[0] == Approx(0.5).margin(0.02));
     CHECK(lost.value >= 100.0); // as something else altogether
-    const HjifDistance added = HjifLikeness(silence(), {}).distanceTo(tap());
+    const HjifDistance added = HjifLikeness(silence(), {}).distanceTo(tap(), hjifEventsOf(tap()));
     REQUIRE(added.events.size() == 1);
     CHECK(added.events[0] == Approx(0.5).margin(0.02));
-    const HjifDistance kept = HjifLikeness(tap(), {}).distanceTo(tap());
+    const HjifDistance kept = HjifLikeness(tap(), {}).distanceTo(tap(), hjifEventsOf(tap()));
     CHECK(kept.events.empty());
     CHECK(kept.value < 0.5 * lost.value);
 }
@@ -72,12 +72,12 @@ TEST_CASE("Events within 6 ms of each other are the same, others are told both",
     for (const double apart : {-0.005, -0.003, 0.0, 0.003, 0.005})
     {
         CAPTURE(apart);
-        CHECK(likeness.distanceTo(begin(0.5 + apart)).events.empty());
+        CHECK(likeness.distanceTo(begin(0.5 + apart), hjifEventsOf(begin(0.5 + apart))).events.empty());
     }
     for (const double apart : {-0.2, -0.008, 0.008, 0.2})
     {
         CAPTURE(apart);
-        const auto events = likeness.distanceTo(begin(0.5 + apart)).events;
+        const auto events = likeness.distanceTo(begin(0.5 + apart), hjifEventsOf(begin(0.5 + apart))).events;
         REQUIRE(events.size() == 2);
         CHECK(events[1] - events[0] == Approx(apart).margin(0.002));
     }

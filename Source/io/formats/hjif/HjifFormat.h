@@ -23,10 +23,10 @@ namespace pacini
 
 /// Levelled clips become a few VectorialWave bands of few keyframes (see hjifVoicesOf), others one for each of their
 /// bands with all of its points. Events become a Transient band, which is two periods of 91 Hz in the reference player
-/// whatever their sharpness, and short waves where that is not enough (see hjifEventsOf), which the reader takes for
-/// events again. Up to 7 bands make the Simple Parametric profile at level 1, up to 63 the Main profile at level 2.
-/// `amplitudePoints` and `frequencyPoints` limit the keyframes of each band. Time is in ms, frequency in Hz without
-/// fraction, amplitudes have three digits.
+/// whatever their sharpness and for which the bands make room (see hjifMakeRoom) unless events are merged, and short
+/// waves where that is not enough (see hjifEventsOf), which the reader takes for events again. Up to 7 bands make the
+/// Simple Parametric profile at level 1, up to 63 the Main profile at level 2. `amplitudePoints` and `frequencyPoints`
+/// limit the keyframes of each band. Time is in ms, frequency in Hz without fraction, amplitudes have three digits.
 [[nodiscard]] Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params);
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
