@@ -24,7 +24,7 @@ void ExportOptions::declare(CLI::App& command)
     addOption(
         command, "--events", events,
         "Events of other formats: each a transient of its own, with the voice ducked around it, or merged into the "
-        "voice where that is as strong (haptic, ahap, hjif)",
+        "voice where that is as strong (haptic, ahap, hjif) [transients; in hjif merged]",
         oneOf({"transients", "merged"}));
     addOption(command, "--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]",
               wholeNumberFrom(100, 384000));
@@ -48,7 +48,8 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
         result.sampleRate = rate;
     result.split = split;
     result.quick = quick;
-    result.events = events == "merged" ? EventExport::merged : EventExport::transients;
+    if (!events.empty())
+        result.events = events == "merged" ? EventExport::merged : EventExport::transients;
     if (!profile.empty())
     {
         result.profile = openProfile(console, profile);
@@ -61,14 +62,13 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
 std::string ExportOptions::record() const
 {
     return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}", points, frequencyPoints, rate,
-                       split ? ", split" : "", quick ? ", quick" : "", events == "merged" ? ", events merged" : "",
+                       split ? ", split" : "", quick ? ", quick" : "", events.empty() ? "" : ", events " + events,
                        profile.empty() ? "" : ", profile " + profile);
 }
 
 bool ExportOptions::given() const noexcept
 {
-    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || events == "merged" ||
-           !profile.empty();
+    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || !events.empty() || !profile.empty();
 }
 
 } // namespace pacini::cli

@@ -34,7 +34,7 @@ private:
     int rate = 0;
     bool split = false;
     bool quick = false;
-    std::string events = "transients";
+    std::string events; ///< empty: the format's own
     std::string profile;
 };
 

@@ -81,7 +81,8 @@ struct ExportParams
     std::optional<int> sampleRate;         ///< Hz, of formats that are samples
     bool split = false;                    ///< formats that can be one file or several: several
     bool quick = false;                    ///< formats whose best file is searched for: one that is mostly good
-    EventExport events = EventExport::transients;
+    std::optional<EventExport> events;     ///< none: transients, but merged in HJIF, whose players give all of them the
+                                           ///< same 22 ms of 91 Hz
     bool operator==(const ExportParams&) const = default;
 };
 

@@ -368,9 +368,9 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
     for (std::vector<Transient>* moved : {&events, &voice.events})
         for (Transient& event : *moved)
             event.time = std::clamp(event.time, 0.0, result.duration);
-    result.events =
-        keepsPoints ? std::move(voice.events)
-                    : transientsOf(events, voice.events, voice.amplitude, format.events, params.events, result.losses);
+    result.events = keepsPoints ? std::move(voice.events)
+                                : transientsOf(events, voice.events, voice.amplitude, format.events,
+                                               params.events.value_or(EventExport::transients), result.losses);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
     {

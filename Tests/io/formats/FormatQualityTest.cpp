@@ -225,7 +225,8 @@ TEST_CASE("A .haptic file of the usual density sounds as the clip's one voice do
         player.sampleRate = fs;
         return test::playHaptic(mainFile(writeHaptic(clip, {})), player);
     };
-    compareAll(".haptic, all points on its player", asHaptic, exported, 1.0, 3.0);
+    // Most in a river, whose five splashes are emphases of 12 ms now that every event is one; merged it lost 3.0.
+    compareAll(".haptic, all points on its player", asHaptic, exported, 1.0, 4.0);
     compareAll(
         ".haptic", [](const Clip& clip) { return reduced(clip, {.low = 55.0, .high = 200.0}); }, exported, 2.0,
         7.0); // most in a roll of 44 drum strokes, for which there are 98 points

@@ -336,8 +336,8 @@ private:
 Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     LossList losses;
-    HjifVoices voices =
-        hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search, params.events);
+    HjifVoices voices = hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search,
+                                     params.events.value_or(EventExport::merged));
     Clip& played = voices.clip;
     losses.addNoise(clip);
     losses.addText(clip, true);
