@@ -18,13 +18,15 @@ namespace pacini
 /// brief stimuli", 1967). The values were found by trial on the annotated recordings of the corpus.
 struct EventGapParams
 {
-    double rise = 20.0;    ///< dB by which the level is to rise from the gap to the event; softer events get it as far
-                           ///< as the range below allows
-    double enough = 17.0;  ///< dB of rise within `reach` before an event that needs no gap
-    double range = 30.0;   ///< dB below the strongest moment of the clip; what is softer is not felt beside it
-    double hold = 0.004;   ///< s for which the gap is open
-    double fade = 0.003;   ///< s in which it opens before
-    double reach = 0.012;  ///< s
+    double rise = 22.0;   ///< dB by which the level is to rise from the gap to the event; softer events get it as far
+                          ///< as the range below allows
+    double enough = 17.0; ///< dB of rise within `reach` before an event that needs no gap
+    double range = 30.0;  ///< dB below the strongest moment of the clip; what is softer is not felt beside it
+    double hold = 0.003;  ///< s for which the gap is open
+    double fade = 0.002;  ///< s in which it opens before
+    double least = 4.0;   ///< dB by which an event rises by itself at least: softer ones are texture, such as rain, and
+                          ///< gaps before each would be felt instead of it
+    double reach = 0.012; ///< s
     double attack = 0.001; ///< s in which the level is back after the event's time
     /// Between events nearer to each other than this, s, which rise by at least that, dB, pulses carry what is felt:
     /// the gap is silent and as long as their ringing leaves it.
@@ -92,7 +94,7 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
         const double lowest = peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
         const double rise = 20.0 * std::log10((full + unfelt) / (lowest + unfelt));
         const bool inTrain = since < params.train && rise >= params.trainRise;
-        if (!(full > 0.0) || (rise >= params.enough && !inTrain))
+        if (!(full > 0.0) || (!inTrain && (rise < params.least || rise >= params.enough)))
             continue;
         const double open = event.time - (inTrain ? params.trainHold * since : params.hold);
         const double start = open - (inTrain ? params.trainFade * since : params.fade);
