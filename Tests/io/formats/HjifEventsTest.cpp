@@ -186,7 +186,9 @@ TEST_CASE("Most events are Transients of HJIF of a quarter of their amplitude, t
     for (const test::DemoSound& sound : test::demoSounds())
     {
         CAPTURE(sound.name);
-        const auto exported = writeHjif(sound.clip, {});
+        ExportParams params;
+        params.events = EventExport::transients;
+        const auto exported = writeHjif(sound.clip, params);
         REQUIRE(exported);
         const auto lost = static_cast<std::size_t>(std::count_if(exported->losses.begin(), exported->losses.end(),
                                                                  [](const FormatLoss& loss)
