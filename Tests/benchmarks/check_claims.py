@@ -113,19 +113,23 @@ def speed(folder):
 
 
 def strength(folder):
-    """What flattening the resonance costs: level of what is felt, adapted against adapted but not flattened."""
-    wide = stated(r"costs strength at the resonance: (\d+) to (\d+) dB on wide actuators")
+    """What flattening the resonance costs: level of what is felt, as flat as can be and by default, against not flattened."""
+    wide = stated(r"(\d+) to (\d+) dB of what is felt on wide actuators")
     narrow = stated(r"on wide actuators, (\d+) to (\d+) dB on narrow ones")
+    most, = stated(r"By default no shipped actuator is felt more than (\d+) dB weaker than not flattened")
     text, _ = pacini("bench", "actuators", DEMO, "-o", folder / "bench", "--repeat", "1", "--json")
     level = {(row["profile"], row["played"]): row["level"] for row in rows(json.loads(text), "profile", "played", "level")
              if "clip" not in row}
-    cost = {name: level[name, "not flattened"] - level[name, "adapted"] for name, _ in level}
+    cost = {name: level[name, "not flattened"] - level[name, "strength 0"] for name, _ in level}
     for name, decibels in cost.items():
         profile = json.loads((SOURCE / f"profiles/{name}.json").read_text())
         if decibels == 0 or "resonance" not in profile:
             continue
         low, high = narrow if profile["resonance"]["q"] >= 8 else wide
         check(f"flattening {name} costs {low:.0f} to {high:.0f} dB", low - 1 < decibels < high + 1, f"{decibels:.1f} dB")
+    for name in cost:
+        lost = level[name, "not flattened"] - level[name, "adapted"]
+        check(f"{name} is by default felt at most {most:.0f} dB weaker", lost <= most, f"{lost:.1f} dB")
     check("it is measured on at least six actuators", sum(value != 0 for value in cost.values()) >= 6)
 
 

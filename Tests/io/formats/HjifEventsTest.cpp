@@ -204,8 +204,8 @@ TEST_CASE("Most events are Transients of HJIF of a quarter of their amplitude, t
                                           effect.at("keyframes").at(0).at("amplitude_modulation").get<double>() *
                                                   channel.at("gain").get<double>() >=
                                               0.245 * event.amplitude
-                                      ? 1
-                                      : 0;
+                                      ? std::size_t{1}
+                                      : std::size_t{0};
         CHECK(strong + lost == sound.clip.transients.size());
         all += sound.clip.transients.size();
         taps += strong;
