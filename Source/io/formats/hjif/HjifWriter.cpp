@@ -305,10 +305,10 @@ private:
 
     /// A few periods under a Hann window, as the decoder plays an event, in straight lines: between keyframes of every
     /// eighth of it, its peak among them, they are within 4 % of its height.
-    [[nodiscard]] std::string wavePulse(std::int64_t tick, const HjifEvent& told) const
+    [[nodiscard]] std::string wavePulse(std::int64_t tick, const HjifEvent& event) const
     {
         constexpr std::int64_t pieces = 8;
-        const std::int64_t half = std::llround(0.5 * told.length * ticksPerSecond); // 3 ms at least
+        const std::int64_t half = std::llround(0.5 * event.length * ticksPerSecond); // 3 ms at least
         std::string text = fmt::format(R"({{"effect_type":"Basis","position":{},"phase":0,"keyframes":[)", tick);
         std::int64_t last = -1;
         for (std::int64_t n = 0; n <= pieces; ++n)
@@ -318,8 +318,8 @@ private:
                 continue;
             text += fmt::format(
                 R"({}{{"relative_position":{},"amplitude_modulation":{}{}}})", n == 0 ? "" : ",", at,
-                threeDigits(hannAt(static_cast<double>(at) / static_cast<double>(2 * half)) * told.wave / gain),
-                n == 0 ? fmt::format(R"(,"frequency_modulation":{})", told.frequency) : "");
+                threeDigits(hannAt(static_cast<double>(at) / static_cast<double>(2 * half)) * event.wave / gain),
+                n == 0 ? fmt::format(R"(,"frequency_modulation":{})", event.frequency) : "");
             last = at;
         }
         return text + "]}";
