@@ -267,6 +267,16 @@ TEST_CASE("On the resonance overdrive makes up for the rise time that it costs",
     }
 }
 
+TEST_CASE("Strength matters to resonant actuators, and not to motors and plain signals", "[actuator]")
+{
+    CHECK(tradesStrength(resonant(175.0, 20.0)));
+    CHECK(tradesStrength(resonant(60.0, 1.0)));
+    Profile profile = resonant(175.0, 20.0);
+    profile.technology = Technology::erm;
+    CHECK_FALSE(tradesStrength(profile));
+    CHECK_FALSE(tradesStrength(Profile{}));
+}
+
 TEST_CASE("A measured equaliser stays up to the standard strength and has no cuts at the full one", "[actuator]")
 {
     Profile profile = resonant(70.0, 4.0);

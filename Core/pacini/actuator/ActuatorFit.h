@@ -171,4 +171,11 @@ inline ActuatorRange drawnIn(ActuatorRange extended, const ActuatorRange& own, c
     return fit;
 }
 
+/// Whether strength changes how a valid profile's actuator is played with the usual boost: that of plain signals and
+/// motors it does not.
+[[nodiscard]] inline bool tradesStrength(const Profile& profile) noexcept
+{
+    return !(fitActuator(profile, {.strength = 0.0}) == fitActuator(profile, {.strength = 1.0}));
+}
+
 } // namespace pacini

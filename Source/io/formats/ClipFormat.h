@@ -2,6 +2,7 @@
 
 // Table of the clip file formats, Pacini's own and those of other programs: what each reads, writes and loses.
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -72,6 +73,9 @@ enum class EventExport
     merged      ///< events that the voice reaches by itself are left to it
 };
 
+/// What formats with such a choice do unless something else is asked for; HJIF has an own (hjifEvents).
+inline constexpr EventExport usualEvents = EventExport::transients;
+
 struct ExportParams
 {
     std::string name;                      ///< of the clip, for formats that carry one; empty: the clip's own
@@ -81,8 +85,8 @@ struct ExportParams
     std::optional<int> sampleRate;         ///< Hz, of formats that are samples
     bool split = false;                    ///< formats that can be one file or several: several
     bool quick = false;                    ///< formats whose best file is searched for: one that is mostly good
-    std::optional<EventExport> events;     ///< none: transients, but merged in HJIF, whose players give all of them the
-                                           ///< same 22 ms of 91 Hz
+    std::optional<EventExport> events;     ///< none: as usual for the format, see ClipFormat::events
+    double strength = standardStrength;    ///< of drive signals for `profile`, 0 to 1, see fitActuator
     bool operator==(const ExportParams&) const = default;
 };
 
@@ -103,6 +107,8 @@ struct ClipFormat
     Result<ExportedClip> (*writer)(const Clip& clip, const ExportParams& params) = nullptr; ///< null: is not written
     std::string_view companion = {}; ///< suffix of a second file whose events belong to the clip, if there can be one
     bool isSamples = false;          ///< the drive signal, at a rate and for an actuator that can be chosen
+    std::optional<EventExport> events = {}; ///< how events are written unless something else is asked for; none: the
+                                            ///< format leaves no choice
 
     /// Writes a valid clip piece by piece, since a clip of hours is large; only Pacini's own formats, which keep all of
     /// a clip with its encoder's record.

@@ -370,7 +370,7 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
             event.time = std::clamp(event.time, 0.0, result.duration);
     result.events = keepsPoints ? std::move(voice.events)
                                 : transientsOf(events, voice.events, voice.amplitude, format.events,
-                                               params.events.value_or(EventExport::transients), result.losses);
+                                               params.events.value_or(usualEvents), result.losses);
     std::vector<double> eventTimes;
     for (Transient& event : result.events)
     {

@@ -190,3 +190,39 @@ TEST_CASE("A table tells bands of the same frequencies apart by a millionth", "[
     clip.bands[1].centreFrequency = 61.0;
     CHECK(clipFormatNamed("csv")->write(clip)->losses.empty());
 }
+
+TEST_CASE("The table says how each format writes events unless something else is asked for, and which have a choice",
+          "[formats]")
+{
+    Clip clip; // two bands, so that the voice is one of the format's own; the second event is no louder than they are
+    clip.duration = 2.0;
+    for (const double frequency : {80.0, 200.0})
+        clip.bands.push_back(
+            {frequency / 1.2, frequency, frequency * 1.2, 0, {{0.0, 0.4}, {1.0, 0.6}, {2.0, 0.2}}, {}});
+    clip.envelope = {{0.0, 0.5}, {1.0, 0.8}, {2.0, 0.3}};
+    clip.transients = {{0.5, 0.9, 0.5}, {1.0, 0.3, 0.8}};
+    std::set<std::string_view> choices;
+    for (const ClipFormat& format : clipFormats())
+    {
+        if (!format.isWritten())
+            continue;
+        CAPTURE(format.name);
+        const auto bytesWith = [&](std::optional<EventExport> events)
+        {
+            ExportParams params;
+            params.events = events;
+            const auto written = format.write(clip, params);
+            REQUIRE(written);
+            std::string all;
+            for (const ExportedFile& file : written->files)
+                all += file.bytes + "\n";
+            return all;
+        };
+        const std::string transients = bytesWith(EventExport::transients), merged = bytesWith(EventExport::merged);
+        CHECK((transients != merged) == format.events.has_value());
+        CHECK(bytesWith({}) == (format.events == EventExport::merged ? merged : transients));
+        if (format.events)
+            choices.insert(format.name);
+    }
+    CHECK(choices == std::set<std::string_view>{"ahap", "haptic", "hjif"}); // as the help of --events says
+}

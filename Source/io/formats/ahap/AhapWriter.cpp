@@ -288,7 +288,7 @@ Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
     if (auto valid = validate(clip); !valid)
         return valid.error();
     // Players play transients on top of the voice: the file has to make room for those that stand for it.
-    const bool merged = params.events == EventExport::merged || isSingleVoice(clip);
+    const bool merged = params.events.value_or(usualEvents) == EventExport::merged || isSingleVoice(clip);
     const double duck = merged ? 1.0 : ducking;
     EmphasisPlayer player{.range = sharpnessRange, .ducking = duck};
     if (duck < 1.0)

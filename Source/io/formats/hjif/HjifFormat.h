@@ -31,6 +31,9 @@ namespace pacini
 
 [[nodiscard]] bool isHjif(std::string_view bytes);
 
+/// How events are written unless something else is asked for: players give all transients the same 22 ms of 91 Hz.
+inline constexpr EventExport hjifEvents = EventExport::merged;
+
 /// How long the reference player's only transient is, s.
 inline constexpr double hjifTransientLength = 0.022;
 

@@ -337,7 +337,7 @@ Result<ExportedClip> writeHjif(const Clip& clip, const ExportParams& params)
 {
     LossList losses;
     HjifVoices voices = hjifVoicesOf(clip, losses, params.quick ? HjifEffort::usual : HjifEffort::search,
-                                     params.events.value_or(EventExport::merged));
+                                     params.events.value_or(hjifEvents));
     Clip& played = voices.clip;
     losses.addNoise(clip);
     losses.addText(clip, true);

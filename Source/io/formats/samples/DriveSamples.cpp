@@ -12,13 +12,15 @@
 namespace pacini
 {
 
-Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate, const std::optional<Profile>& profile)
+Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate, const std::optional<Profile>& profile,
+                                       double strength)
 {
     Scene scene;
     scene.clips = {clip};
     scene.plays.emplace_back();
     CompileParams params;
     params.sampleRate = sampleRate;
+    params.adaptation.strength = strength;
     auto plan = compilePlan(scene, profile ? &*profile : nullptr, params);
     if (!plan)
         return plan.error();
@@ -42,7 +44,7 @@ Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, 
     drive.sampleRate = params.sampleRate.value_or(usualRate);
     if (drive.sampleRate < 2000 || drive.sampleRate > 48000)
         return Error{ErrorCode::invalidArgument, "sampleRate", "must be 2000 to 48000 Hz"};
-    auto samples = driveSignal(clip, drive.sampleRate, params.profile);
+    auto samples = driveSignal(clip, drive.sampleRate, params.profile, params.strength);
     if (!samples)
         return samples.error();
     drive.samples = std::move(samples).value();

@@ -4,6 +4,7 @@
 
 #include "io/formats/LossList.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -14,10 +15,11 @@
 namespace pacini
 {
 
-/// The drive signal of the clip at `sampleRate` Hz (2000 to 768000), made for `profile` when there is one. Errors:
-/// those of compilePlan().
+/// The drive signal of the clip at `sampleRate` Hz (2000 to 768000), made for `profile` with `strength` (see
+/// fitActuator) when there is one. Errors: those of compilePlan().
 [[nodiscard]] Result<std::vector<float>> driveSignal(const Clip& clip, double sampleRate,
-                                                     const std::optional<Profile>& profile);
+                                                     const std::optional<Profile>& profile,
+                                                     double strength = standardStrength);
 
 /// The drive signal within full scale.
 struct DriveSamples
