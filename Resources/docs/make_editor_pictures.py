@@ -19,11 +19,11 @@ from check_editor import Screen  # noqa: E402
 from host_test import picture, until  # noqa: E402
 
 DEMO = ROOT / "Resources" / "demo" / "drums_tabla_pattern.flac"
-ACTUATOR_CHOICE = (1280 - 60, 26 + 21)  # in the toolbar
+ACTUATOR_CHOICE = (1000, 26 + 21)  # in the toolbar
 DOWN_TO_ACTUATOR = 8  # a phone, in the list behind «none»: it has few voices and a narrow range
 FORMAT_CHOICE = (640, 212)  # in the sheet
 DOWN_TO_FORMAT = 3  # .haptic, which keeps little
-FILE_FIELD = (640, 292)
+FILE_FIELD = (640, 332)
 NOWHERE = (1150, 560)
 
 

@@ -67,9 +67,9 @@ private:
 };
 
 /// The range of frequencies that an adapted clip may have.
-TimeRange reachOf(const Profile& profile)
+TimeRange reachOf(const Profile& profile, double strength)
 {
-    const ActuatorRange range = fitActuator(profile, {}).range;
+    const ActuatorRange range = fitActuator(profile, {.strength = strength}).range;
     return {range.lowFrequency, range.highFrequency};
 }
 
@@ -141,13 +141,13 @@ std::vector<std::size_t> voicesOf(const std::vector<Band>& bands, const std::vec
     return owners;
 }
 
-void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, bool adapts, TimeRange reach,
-              const OutputGain& gain)
+void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, const AdaptationParams& adaptation,
+              bool adapts, TimeRange reach, const OutputGain& gain)
 {
-    AdaptationParams separate;
+    AdaptationParams separate = adaptation;
     separate.voices = false;
     const Clip moved = adapts ? adaptClip(clip, trace.actuator, separate).clip : clip;
-    const Clip fitted = adapts ? adaptClip(clip, trace.actuator).clip : clip;
+    const Clip fitted = adapts ? adaptClip(clip, trace.actuator, adaptation).clip : clip;
     const bool shared = fitted.bands.size() < moved.bands.size();
     const auto owners = shared ? voicesOf(moved.bands, fitted.bands, clip.duration) : std::vector<std::size_t>{};
     for (std::size_t k = 0; k < clip.bands.size(); ++k)
@@ -280,7 +280,7 @@ std::vector<LostPart> ActuatorTrace::parts(std::span<const Loss> losses)
     return result;
 }
 
-Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, const Profile& profile,
+Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, const Profile& profile, double strength,
                                                            const std::atomic<bool>& cancelled)
 {
     Scene scene;
@@ -288,6 +288,7 @@ Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, con
     scene.plays.emplace_back();
     CompileParams params;
     params.sampleRate = traceRate;
+    params.adaptation.strength = strength;
     auto plan = compilePlan(scene, &profile, params);
     if (!plan)
         return plan.error();
@@ -321,8 +322,8 @@ Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, con
     for (const Adaptation& adaptation : planned.adaptations)
         trace->changes.push_back(adaptation.what);
     const bool adapts = profile.technology != Technology::pcm;
-    const TimeRange reach = adapts && profile.polyphony > 0 ? reachOf(profile) : TimeRange{0.0, 1e9};
-    addBands(*trace, clip, planned, adapts, reach, OutputGain(planned));
+    const TimeRange reach = adapts && profile.polyphony > 0 ? reachOf(profile, strength) : TimeRange{0.0, 1e9};
+    addBands(*trace, clip, planned, params.adaptation, adapts, reach, OutputGain(planned));
     return std::shared_ptr<const ActuatorTrace>(std::move(trace));
 }
 

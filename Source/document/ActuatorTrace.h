@@ -94,9 +94,9 @@ public:
     [[nodiscard]] static std::vector<LostPart> parts(std::span<const Loss> losses);
 };
 
-/// Plays the clip on the actuator as `pacini render` does, at 16 kHz. Null when `cancelled` has become true meanwhile.
-/// Errors: those of compilePlan(). [worker]
-[[nodiscard]] Result<std::shared_ptr<const ActuatorTrace>> traceActuator(const Clip& clip, const Profile& profile,
-                                                                         const std::atomic<bool>& cancelled);
+/// Plays the clip on the actuator as `pacini render` does, at 16 kHz, with `strength` as fitActuator() has it. Null
+/// when `cancelled` has become true meanwhile. Errors: those of compilePlan(). [worker]
+[[nodiscard]] Result<std::shared_ptr<const ActuatorTrace>>
+traceActuator(const Clip& clip, const Profile& profile, double strength, const std::atomic<bool>& cancelled);
 
 } // namespace pacini

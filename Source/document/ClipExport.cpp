@@ -30,7 +30,7 @@ Result<void> writeRendered(const Clip& clip, const ExportParams& wanted, const s
     params.sampleRate = wanted.sampleRate                  ? *wanted.sampleRate
                         : clip.source.sampleRate >= 2000.0 ? static_cast<int>(std::lround(clip.source.sampleRate))
                                                            : usualRate;
-    auto samples = driveSignal(clip, params.sampleRate, wanted.profile);
+    auto samples = driveSignal(clip, params.sampleRate, wanted.profile, wanted.strength);
     if (!samples)
         return samples.error();
     params.expectedFrames = samples->size();

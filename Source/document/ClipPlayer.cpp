@@ -16,7 +16,7 @@ void ClipPlayer::prepare(double sampleRate)
     engine = std::make_unique<PreviewEngine>(rate);
     worker = std::make_unique<PreviewWorker>(*engine);
     engine->set(playback);
-    engine->setProfile(profile);
+    engine->setProfile(profile, strength);
     resample();
 }
 
@@ -27,10 +27,11 @@ void ClipPlayer::set(Playback wanted)
     worker->wake();
 }
 
-void ClipPlayer::setProfile(std::shared_ptr<const Profile> wanted)
+void ClipPlayer::setProfile(std::shared_ptr<const Profile> wanted, double wantedStrength)
 {
     profile = std::move(wanted);
-    engine->setProfile(profile);
+    strength = wantedStrength;
+    engine->setProfile(profile, strength);
     worker->wake();
 }
 

@@ -31,7 +31,8 @@ public:
     }
 
     void set(Playback playback);
-    void setProfile(std::shared_ptr<const Profile> profile);
+    /// See PreviewEngine::setProfile().
+    void setProfile(std::shared_ptr<const Profile> profile, double strength = standardStrength);
     /// The sound beside the clip; null: none. It is heard when it has been resampled, on a thread of its own.
     void setSound(std::shared_ptr<const AudioData> sound);
 
@@ -49,6 +50,7 @@ private:
     double rate = 0.0;
     Playback playback;
     std::shared_ptr<const Profile> profile;
+    double strength = standardStrength;
     std::shared_ptr<const AudioData> sound;
     std::unique_ptr<PreviewEngine> engine;
     std::unique_ptr<PreviewWorker> worker; // ends before the engine

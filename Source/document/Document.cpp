@@ -129,14 +129,16 @@ void Document::renameGroup(const std::string& from, const std::string& to, std::
     commit(std::move(name), std::move(next));
 }
 
-Result<void> Document::setProfile(ProjectProfile profile, std::string name)
+Result<void> Document::setProfile(ProjectProfile profile, std::string name, Gesture gesture)
 {
+    if (!isStrength(profile.strength))
+        return Error{ErrorCode::invalidArgument, "strength", "must be 0 to 1"};
     if (profile.embedded)
         if (auto valid = validate(*profile.embedded); !valid)
             return valid.error();
     Project next = content;
     next.profile = std::move(profile);
-    commit(std::move(name), std::move(next));
+    commit(std::move(name), std::move(next), gesture);
     return {};
 }
 

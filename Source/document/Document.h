@@ -114,7 +114,8 @@ public:
 
     /// Gives a group another name; that of another group joins the two, an empty one leaves its clips without a group.
     void renameGroup(const std::string& from, const std::string& to, std::string name);
-    Result<void> setProfile(ProjectProfile profile, std::string name);
+    /// Errors: invalidArgument for the strength, those of validate(*profile.embedded).
+    Result<void> setProfile(ProjectProfile profile, std::string name, Gesture gesture = 0);
 
     /// Another place, or an embedded copy or none, for a sound whose id `sound` has.
     Result<void> setSound(AudioReference sound, std::string name);

@@ -60,10 +60,11 @@ void PreviewEngine::set(Playback playback)
         wantedVersion.store(++wanted.version, std::memory_order_release);
 }
 
-void PreviewEngine::setProfile(std::shared_ptr<const Profile> profile)
+void PreviewEngine::setProfile(std::shared_ptr<const Profile> profile, double strength)
 {
     const std::lock_guard lock(mutex);
     wanted.profile = std::move(profile);
+    wanted.strength = strength;
     wantedVersion.store(++wanted.version, std::memory_order_release);
 }
 
@@ -189,6 +190,7 @@ Result<PreviewEngine::Piece> PreviewEngine::build(const Wanted& now, std::int64_
     scene.plays.emplace_back();
     CompileParams params;
     params.sampleRate = fs;
+    params.adaptation.strength = now.strength;
     auto plan = compilePlan(scene, now.profile.get(), params);
     if (!plan)
         return plan.error();

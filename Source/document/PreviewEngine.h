@@ -4,6 +4,7 @@
 
 #include "document/PreviewSource.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/Protection.h>
 #include <pacini/clip/edits/Audition.h>
@@ -70,8 +71,9 @@ public:
     /// Another clip, another loop, other bands soloed: heard once service() has run. [message]
     void set(Playback playback);
 
-    /// The actuator that is previewed (null: the plain drive signal), and the sound beside it (null: none). [any]
-    void setProfile(std::shared_ptr<const Profile> profile);
+    /// The actuator that is previewed (null: the plain drive signal) with its strength (see fitActuator), and the sound
+    /// beside it (null: none). [any]
+    void setProfile(std::shared_ptr<const Profile> profile, double strength = standardStrength);
     void setSource(std::shared_ptr<const PreviewSource> source);
 
     /// Starts at `time` s of the clip, or jumps there while playing. [message]
@@ -110,6 +112,7 @@ private:
     {
         Playback playback;
         std::shared_ptr<const Profile> profile;
+        double strength = standardStrength;
         std::shared_ptr<const PreviewSource> source;
         std::uint64_t version = 0;
         std::uint64_t start = 0; ///< counts calls of play()

@@ -6,6 +6,7 @@
 #include "document/AudioReference.h"
 #include "document/Reapply.h"
 
+#include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/analysis/Encoder.h>
 
@@ -31,13 +32,19 @@ struct ClipItem
     std::shared_ptr<const Clip> clip;     ///< the analysis with the edits; never null
 };
 
-/// The actuator that the project is made for.
+/// The actuator that the project is made for, and how it is played.
 struct ProjectProfile
 {
-    std::string name;                ///< of a shipped profile or a file; empty: none
-    std::optional<Profile> embedded; ///< its content, which counts before the name
+    std::string name;                   ///< of a shipped profile or a file; empty: none
+    std::optional<Profile> embedded;    ///< its content, which counts before the name
+    double strength = standardStrength; ///< 0 to 1, see fitActuator; kept when another actuator is chosen
     bool operator==(const ProjectProfile&) const = default;
 };
+
+[[nodiscard]] inline bool isStrength(double value) noexcept
+{
+    return value >= 0.0 && value <= 1.0;
+}
 
 struct Project
 {

@@ -223,4 +223,16 @@ void visitEncoder(Params& params, Visitor& visitor)
     visitor.number("silence", params.onsets.silence.value, usual);
 }
 
+template <typename Chosen, typename Visitor>
+void visitProfile(Chosen& chosen, Visitor& visitor)
+{
+    visitor.text("name", chosen.name);
+    visitor.optionalObject("content", chosen.embedded,
+                           [&](auto& content) { profileFields::visitFields(content, visitor); });
+    if constexpr (isReader<Visitor>)
+        if (!chosen.name.empty() || chosen.embedded)
+            chosen.strength = 0.0; // before there was such a field, actuators were played as flat as can be
+    visitor.number("strength", chosen.strength, Need::usual);
+}
+
 } // namespace pacini::projectFields

@@ -180,6 +180,8 @@ std::optional<Error> checkReferences(const Project& project)
     if (project.profile.embedded)
         if (auto valid = validate(*project.profile.embedded); !valid)
             return wrong("profile.content." + valid.error().where, valid.error().message);
+    if (!isStrength(project.profile.strength))
+        return wrong("profile.strength", "must be 0 to 1");
     return {};
 }
 } // namespace
@@ -207,13 +209,7 @@ std::string projectJson(const Project& project, const ProjectTextOptions& option
     writer.list("groups", project.groups, most, "groups",
                 [&](const std::string& group) { writer.text("name", group); });
     writer.object("profile", project.profile, Need::optional,
-                  [&](const ProjectProfile& profile)
-                  {
-                      writer.text("name", profile.name);
-                      writer.optionalObject("content", profile.embedded,
-                                            [&](const Profile& content)
-                                            { profileFields::visitFields(content, writer); });
-                  });
+                  [&](const ProjectProfile& profile) { visitProfile(profile, writer); });
     writer.list("clips", project.clips, most, "clips",
                 [&](const std::shared_ptr<const ClipItem>& item)
                 {
@@ -267,12 +263,7 @@ Result<ReadProject> readProjectJson(std::string_view text, const fs::path& folde
                 });
     reader.list("groups", project.groups, most, "groups", [&](std::string& group) { reader.text("name", group); });
     reader.object("profile", project.profile, Need::optional,
-                  [&](ProjectProfile& profile)
-                  {
-                      reader.text("name", profile.name);
-                      reader.optionalObject("content", profile.embedded,
-                                            [&](Profile& content) { profileFields::visitFields(content, reader); });
-                  });
+                  [&](ProjectProfile& profile) { visitProfile(profile, reader); });
     reader.list("clips", project.clips, most, "clips",
                 [&](std::shared_ptr<const ClipItem>& place)
                 {

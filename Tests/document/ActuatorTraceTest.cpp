@@ -1,8 +1,16 @@
 #include "document/ActuatorTrace.h"
 
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
 
+#include <pacini/actuator/ActuatorFit.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 using namespace pacini;
 
@@ -24,10 +32,10 @@ Band bandAt(double frequency, Curve amplitude)
     return {frequency / 1.1, frequency, frequency * 1.1, 0, std::move(amplitude), {}};
 }
 
-std::shared_ptr<const ActuatorTrace> trace(const Clip& clip, const Profile& profile)
+std::shared_ptr<const ActuatorTrace> trace(const Clip& clip, const Profile& profile, double strength = standardStrength)
 {
     const std::atomic<bool> cancelled{false};
-    auto made = traceActuator(clip, profile, cancelled);
+    auto made = traceActuator(clip, profile, strength, cancelled);
     REQUIRE(made.ok());
     REQUIRE(*made != nullptr);
     return *made;
@@ -82,6 +90,47 @@ TEST_CASE("A pitch that leaves the range is out of range just then, and told wit
     CHECK(!made->changes.empty());
 }
 
+TEST_CASE("With more strength a trace is nearer to the resonance and shows more drive there, as a rendering does")
+{
+    const Profile profile = test::shippedProfile("lra-175");
+    Clip clip;
+    clip.duration = 1.0;
+    clip.bands = {bandAt(profile.resonance.frequency, {{0.0, 0.3}, {1.0, 0.3}})};
+    clip.bands[0].pitch = {{0.0, 175.0}, {0.5, 175.0}, {0.5, 130.0}, {1.0, 130.0}};
+    double away = 1000.0;
+    for (const double strength : {0.0, standardStrength, 1.0})
+    {
+        CAPTURE(strength);
+        const auto made = trace(clip, profile, strength);
+        const ActuatorRange range = fitActuator(profile, {.strength = strength}).range;
+        const bool within = range.lowFrequency <= 130.0;
+        CHECK(made->sources[0].losses[150] == (within ? Loss::none : Loss::outOfRange));
+        CHECK(static_cast<double>(made->sources[0].played[150]) == Approx(within ? 130.0 : range.lowFrequency));
+        CHECK(std::abs(175.0 - static_cast<double>(made->sources[0].played[150])) <= away);
+        away = std::abs(175.0 - static_cast<double>(made->sources[0].played[150]));
+
+        Scene scene;
+        scene.clips = {clip};
+        scene.plays.emplace_back();
+        CompileParams params;
+        params.sampleRate = 16000.0;
+        params.adaptation.strength = strength;
+        ScenePlayer player(compilePlan(scene, &profile, params).value(), {.sampleRate = 16000.0});
+        std::vector<float> rendered(16000);
+        std::span<float> out(rendered);
+        player.process(std::span(&out, 1));
+        for (std::size_t step = 0; step < 200; ++step)
+        {
+            float peak = 0.0f;
+            for (std::size_t i = 80 * step; i < 80 * (step + 1); ++i)
+                peak = std::max(peak, std::abs(rendered[i]));
+            REQUIRE(made->peaks[step] == peak);
+        }
+    }
+    CHECK(away < 30.0);
+    CHECK(trace(clip, profile, 1.0)->peaks[50] > 2.0f * trace(clip, profile, 0.0)->peaks[50]);
+}
+
 TEST_CASE("Bands that share a voice, and those that are too weak to matter, are told")
 {
     Profile profile = plainActuator();
@@ -134,11 +183,11 @@ TEST_CASE("A trace that is not wanted any more ends early, and a wrong profile i
     clip.duration = 60.0;
     clip.bands = {bandAt(100.0, {{0.0, 0.2}})};
     const std::atomic<bool> cancelled{true};
-    const auto made = traceActuator(clip, plainActuator(), cancelled);
+    const auto made = traceActuator(clip, plainActuator(), standardStrength, cancelled);
     REQUIRE(made.ok());
     CHECK(*made == nullptr);
     Profile wrong = plainActuator();
     wrong.range.lowFrequency = -1.0;
     const std::atomic<bool> going{false};
-    CHECK(!traceActuator(clip, wrong, going).ok());
+    CHECK(!traceActuator(clip, wrong, standardStrength, going).ok());
 }

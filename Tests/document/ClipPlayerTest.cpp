@@ -3,6 +3,7 @@
 #include "document/HostedProject.h"
 #include "document/ProjectJson.h"
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
 
 #include <algorithm>
 #include <array>
@@ -89,6 +90,29 @@ TEST_CASE("A clip and its sound are heard at every rate of the device, without a
         CHECK(heard.haptic > 0.3f);
         CHECK(heard.sound == Approx(0.25f).margin(0.01));
     }
+}
+
+TEST_CASE("Actuator and strength stay when the device changes its rate")
+{
+    Clip onResonance = *tone(100.0);
+    onResonance.bands = {{200.0, 235.0, 270.0, 0, {{0.0, 0.3}, {100.0, 0.3}}, {}}};
+    const auto clip = std::make_shared<const Clip>(onResonance);
+    const auto loudest = [&](double strength)
+    {
+        ClipPlayer player;
+        player.setProfile(std::make_shared<const Profile>(test::shippedProfile("lra-235-narrow")), strength);
+        player.set(playbackOf(clip));
+        player.prepare(16000.0);
+        player.play(0.0);
+        int blocks = 0; // that sound
+        const auto process = [&](auto haptic, auto sound)
+        {
+            player.process(haptic, sound);
+            blocks += haptic[0] != 0.0f ? 1 : 0;
+        };
+        return listen(process, [&](const Heard&) { return blocks > 40; }).haptic;
+    };
+    CHECK(loudest(1.0) > 1.5f * loudest(0.0));
 }
 
 TEST_CASE("Another sound, or none, takes the place of one that is still being resampled")

@@ -9,6 +9,7 @@
 #include <pacini/clip/edits/PointEdits.h>
 
 #include <filesystem>
+#include <limits>
 
 using namespace pacini;
 
@@ -340,3 +341,31 @@ TEST_CASE("A full disk is told with its reason, and the project stays unsaved an
     CHECK(Document::open(folder / "p.pacini")->project() == before);
 }
 #endif
+
+TEST_CASE("Strength turned in one gesture is one step, which undo takes back; out of range it is refused")
+{
+    Document document;
+    ProjectProfile profile;
+    profile.name = "lra-175";
+    REQUIRE(document.setProfile(profile, "Choose actuator"));
+    const Gesture gesture = document.beginGesture();
+    for (const double strength : {0.5, 0.7, 1.0})
+    {
+        profile.strength = strength;
+        REQUIRE(document.setProfile(profile, "Strength", gesture));
+    }
+    CHECK(document.project().profile == profile);
+    CHECK(document.undoName() == "Strength");
+    for (const double strength : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
+    {
+        profile.strength = strength;
+        CHECK_FALSE(document.setProfile(profile, "Strength"));
+    }
+    CHECK(document.project().profile.strength == 1.0);
+    REQUIRE(document.undo());
+    CHECK(document.project().profile.strength == standardStrength);
+    CHECK(document.project().profile.name == "lra-175");
+    REQUIRE(document.undo());
+    CHECK(document.project().profile.name.empty());
+    CHECK_FALSE(document.canUndo());
+}

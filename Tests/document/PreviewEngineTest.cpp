@@ -4,6 +4,7 @@
 #include "document/PreviewWorker.h"
 #include "support/Catch.h"
 #include "support/HeapGuard.h"
+#include "support/ShippedProfile.h"
 
 #include <pacini/clip/edits/RangeEdits.h>
 #include <pacini/synthesis/CompilePlan.h>
@@ -77,6 +78,52 @@ TEST_CASE("A preview from the start is what is rendered, bit for bit behind the 
     player.process(std::span(&out, 1));
     CHECK(largest(rendered) > 0.4f);
     CHECK(std::equal(heard.begin() + 241, heard.end(), rendered.begin() + 241));
+}
+
+TEST_CASE("A preview with a strength is what is rendered with it, and another one is heard while it plays")
+{
+    const auto clip = tone(1.0, 0.5, 100.0);
+    const auto profile = std::make_shared<const Profile>(test::shippedProfile("lra-175"));
+    std::vector<float> flattest;
+    for (const double strength : {0.0, standardStrength, 0.7, 1.0})
+    {
+        CAPTURE(strength);
+        PreviewEngine engine(fs);
+        engine.setProfile(profile, strength);
+        engine.set(playbackOf(clip));
+        engine.play(0.0);
+        REQUIRE(engine.service());
+        const auto heard = run(engine, 40000);
+
+        Scene scene;
+        scene.clips = {*clip};
+        scene.plays.emplace_back();
+        CompileParams params;
+        params.adaptation.strength = strength; // as `pacini render --strength` has it
+        ScenePlayer player(compilePlan(scene, profile.get(), params).value());
+        std::vector<float> rendered(40000);
+        std::span<float> out(rendered);
+        player.process(std::span(&out, 1));
+        REQUIRE(largest(rendered) > 0.05f);
+        CHECK(std::equal(heard.begin() + 241, heard.end(), rendered.begin() + 241));
+        if (flattest.empty())
+            flattest = heard;
+        else
+            CHECK(heard != flattest);
+    }
+    PreviewEngine engine(fs);
+    engine.setProfile(profile, 1.0);
+    engine.set(playbackOf(clip));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    (void)run(engine, 9600);
+    engine.setProfile(profile, 0.0);
+    REQUIRE(engine.wantsService());
+    REQUIRE(engine.service());
+    (void)run(engine, 2400);
+    const auto heard = run(engine, 9600);
+    for (std::size_t i = 0; i < heard.size(); ++i)
+        REQUIRE(heard[i] == Approx(flattest[12000 + i]).margin(1e-5));
 }
 
 TEST_CASE("Jumping about takes an actuator that rings and is warm no farther than its limits")

@@ -76,6 +76,7 @@ Project fullProject(const std::filesystem::path& folder)
     project.groups = {"one", "two"};
     project.profile.name = "wristband";
     project.profile.embedded = test::randomProfile(3);
+    project.profile.strength = 0.25;
     std::vector<std::shared_ptr<const Edit>> edits;
     for (const Edit& edit : allEdits())
         edits.push_back(std::make_shared<const Edit>(edit));
@@ -139,6 +140,21 @@ TEST_CASE("A project from before what is heard was felt keeps its clips as they 
     CHECK(read->project.clips[0]->encoder.audible == 0.0);
 }
 
+TEST_CASE(
+    "A project from before there was a strength plays its actuator as it did; without an actuator it has the usual one")
+{
+    std::string text = projectJson(fullProject("/"));
+    text = with(text, "\"strength\": 0.25", "\"other\": 0");
+    const auto read = readProjectJson(text);
+    REQUIRE(read);
+    CHECK(read->project.profile.embedded);
+    CHECK(read->project.profile.strength == 0.0);
+    CHECK(Project{}.profile.strength == standardStrength);
+    const auto none = readProjectJson(R"({"format": "pacini.project", "version": 1, "profile": {"name": ""}})");
+    REQUIRE(none);
+    CHECK(none->project.profile.strength == standardStrength);
+}
+
 TEST_CASE("Damaged projects are refused with the place")
 {
     const std::string text = projectJson(fullProject("/"));
@@ -151,6 +167,7 @@ TEST_CASE("Damaged projects are refused with the place")
     CHECK(errorOf(with(text, "\"pacini.project\"", "\"pacini.clip\"")).where == "format");
     CHECK(errorOf(with(text, "\"version\": 1", "\"version\": 2")).code == ErrorCode::unsupportedVersion);
     CHECK(errorOf(with(text, "\"source\": 4", "\"source\": 5")).where == "clips[0].source");
+    CHECK(errorOf(with(text, "\"strength\": 0.25", "\"strength\": 1.25")).where == "profile.strength");
     CHECK(errorOf(with(text, "\"id\": 8", "\"id\": 7")).where == "clips[1].id");
     CHECK(errorOf(with(text, "\"id\": 4", "\"id\": 3")).where == "sources[1].id");
     CHECK(errorOf(with(text, "\"kind\": \"fade\"", "\"kind\": \"fades\"")).where == "clips[0].edits[7].kind");

@@ -6,6 +6,7 @@
 #include "io/ProfileFile.h"
 #include "support/Catch.h"
 #include "support/Paths.h"
+#include "support/ShippedProfile.h"
 
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,34 @@ namespace pacini::test
 inline std::filesystem::path demoSound(const std::string& name)
 {
     return sourceFolder() / "Resources/demo" / (name + ".flac");
+}
+
+inline NamedProfile shipped(const std::string& name)
+{
+    return {name, std::make_shared<const Profile>(shippedProfile(name))};
+}
+
+/// The first component of a kind with that title inside another.
+template <typename Kind>
+Kind* find(juce::Component& inside, const juce::String& title)
+{
+    for (juce::Component* child : inside.getChildren())
+    {
+        if (auto* found = dynamic_cast<Kind*>(child); found != nullptr && child->getTitle() == title)
+            return found;
+        if (auto* found = find<Kind>(*child, title))
+            return found;
+    }
+    return nullptr;
+}
+
+template <typename Kind>
+Kind& get(juce::Component& inside, const juce::String& title)
+{
+    auto* found = find<Kind>(inside, title);
+    INFO(title);
+    REQUIRE(found != nullptr);
+    return *found;
 }
 
 constexpr Lane envelope{LaneKind::envelope, 0};

@@ -180,7 +180,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
     {
         const auto start = Clock::now();
         const std::atomic<bool> cancelled{false};
-        auto trace = traceActuator(bench.clip(), *profile, cancelled);
+        auto trace = traceActuator(bench.clip(), *profile, standardStrength, cancelled);
         REQUIRE(trace.ok());
         WARN("What the actuator plays: " << since(start) << " ms of rendering in the background");
         view.actuatorRow().show(*trace);

@@ -16,29 +16,6 @@ using namespace pacini::test;
 
 namespace
 {
-/// The first component of a kind with that title inside another.
-template <typename Kind>
-Kind* find(juce::Component& inside, const juce::String& title)
-{
-    for (juce::Component* child : inside.getChildren())
-    {
-        if (auto* found = dynamic_cast<Kind*>(child); found != nullptr && child->getTitle() == title)
-            return found;
-        if (auto* found = find<Kind>(*child, title))
-            return found;
-    }
-    return nullptr;
-}
-
-template <typename Kind>
-Kind& get(juce::Component& inside, const juce::String& title)
-{
-    auto* found = find<Kind>(inside, title);
-    INFO(title);
-    REQUIRE(found != nullptr);
-    return *found;
-}
-
 bool analysed(const editor::Session& session)
 {
     return !session.sounds.workNow();

@@ -1,7 +1,6 @@
 // What the rows of the sound and of the actuator show, and how the view follows.
 
 #include "editor/Bench.h"
-#include "support/ShippedProfile.h"
 
 #include <array>
 
@@ -10,11 +9,6 @@ using namespace pacini::test;
 
 namespace
 {
-NamedProfile shipped(const std::string& name)
-{
-    return {name, std::make_shared<const Profile>(shippedProfile(name))};
-}
-
 juce::Image pictureOf(juce::Component& component)
 {
     return component.createComponentSnapshot(component.getLocalBounds(), true, 1.0f);

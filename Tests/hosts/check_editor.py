@@ -126,8 +126,8 @@ def main():
               (folder / "first.json").read_bytes() == (folder / "before.json").read_bytes())
 
         plain = screen.export(folder / "plain.wav", rendered=True)
-        # The actuator is the last choice of the toolbar.
-        screen.move(1280 - 60, 26 + 21)
+        # The actuator is the last menu of the toolbar, before its strength.
+        screen.move(1000, 26 + 21)
         screen.tool("click", 1)
         time.sleep(0.5)
         screen.keys("Down", "Down", "Down", "Return")

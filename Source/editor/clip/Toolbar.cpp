@@ -11,7 +11,12 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int plainDrive = 1; // menus know no item 0; profiles follow
+constexpr int plainDrive = 1;        // menus know no item 0; profiles follow
+constexpr juce::uint32 pause = 1000; // ms: after it, keys begin another step of undo
+constexpr int clipWidth = 28, heardWidth = 36, profileWidth = 60, strengthWidth = 52; // of the labels
+constexpr int sliderWidth = 124;
+constexpr int leastHeard = 76;
+constexpr int leastChoices = 300; // of the three menus together: with less, labels are left out
 
 juce::String clockText(double seconds)
 {
@@ -58,8 +63,7 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     time.setTooltip("Playhead and length of the clip, minutes:seconds");
     addAndMakeVisible(time);
 
-    const auto choice =
-        [this](juce::ComboBox& box, juce::Label& label, const juce::String& name, const juce::String& help)
+    const auto choice = [this](auto& box, juce::Label& label, const juce::String& name, const juce::String& help)
     {
         label.setText(name, juce::dontSendNotification);
         label.setFont(smallFont());
@@ -84,6 +88,22 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     {
         const int chosen = profile.getSelectedId() - plainDrive - 1;
         actuators.setProfile(chosen < 0 ? std::string() : actuators.profiles()[static_cast<std::size_t>(chosen)].name);
+    };
+    choice(strength, strengthLabel, "Strength",
+           "Likeness against felt level: 0 % is as flat as can be, 100 % plays all on the actuator's resonance");
+    strength.setSliderStyle(juce::Slider::LinearHorizontal);
+    strength.setTextBoxStyle(juce::Slider::TextBoxRight, false, 6 * grid, 3 * grid);
+    strength.setRange(0.0, 100.0, 1.0);
+    strength.setTextValueSuffix(" %");
+    strength.setDoubleClickReturnValue(true, 100.0 * standardStrength);
+    strength.setWantsKeyboardFocus(true);
+    strength.onDragStart = [this]
+    {
+        gesture = model.beginGesture();
+    };
+    strength.onValueChange = [this]
+    {
+        strengthMoved();
     };
     clips.onChange = [this]
     {
@@ -130,6 +150,15 @@ void Toolbar::fillProfiles()
     }
 }
 
+void Toolbar::strengthMoved()
+{
+    const auto now = juce::Time::getMillisecondCounter();
+    if (gesture == 0 || (!strength.isMouseButtonDown(true) && now - lastMoved > pause))
+        gesture = model.beginGesture();
+    lastMoved = now;
+    actuators.setStrength(0.01 * strength.getValue(), gesture);
+}
+
 void Toolbar::showState()
 {
     playButton.setButtonText(tr(transport.isPlaying() ? "Pause" : "Play"));
@@ -140,6 +169,9 @@ void Toolbar::showState()
         if (actuators.profiles()[i].name == actuators.profileName())
             chosen = plainDrive + 1 + static_cast<int>(i);
     profile.setSelectedId(chosen, juce::dontSendNotification);
+    strength.setValue(100.0 * actuators.strength(), juce::dontSendNotification);
+    strength.setEnabled(actuators.strengthMatters());
+    strengthLabel.setEnabled(strength.isEnabled());
     const bool any = model.clip() != nullptr;
     for (juce::Component* one : std::initializer_list<juce::Component*>{&startButton, &playButton, &loopButton,
                                                                         &zoomOutButton, &zoomInButton, &fitButton})
@@ -180,13 +212,26 @@ void Toolbar::resized()
     put(zoomOutButton, 30, 4);
     put(zoomInButton, 30, 4);
     put(fitButton, 44, 2 * grid);
-    const int rest = std::max(0, area.getWidth() - 28 - 36 - 60 - 4 * grid);
-    put(clipLabel, 28, 4);
-    put(clips, rest * 36 / 100, grid);
-    put(heardLabel, 36, 4);
-    put(heard, rest * 22 / 100, grid);
-    put(profileLabel, 60, 4);
-    put(profile, area.getWidth(), 0);
+    int rest = area.getWidth() - sliderWidth - 3 * grid;
+    const int withLabels = rest - clipWidth - heardWidth - profileWidth - strengthWidth - 4 * 4;
+    const bool labelled = withLabels >= leastChoices;
+    rest = std::max(leastHeard, labelled ? withLabels : rest);
+    const int heardNow = std::max(leastHeard, rest * 22 / 100);
+    const int clipsNow = (rest - heardNow) * 2 / 5;
+    const auto putLabel = [&](juce::Label& label, int width)
+    {
+        label.setVisible(labelled);
+        if (labelled)
+            put(label, width, 4);
+    };
+    putLabel(clipLabel, clipWidth);
+    put(clips, clipsNow, grid);
+    putLabel(heardLabel, heardWidth);
+    put(heard, heardNow, grid);
+    putLabel(profileLabel, profileWidth);
+    put(profile, rest - heardNow - clipsNow, grid);
+    putLabel(strengthLabel, strengthWidth);
+    put(strength, sliderWidth, 0);
 }
 
 } // namespace pacini::editor

@@ -29,14 +29,18 @@ private:
     void fillClips();
     void fillProfiles();
     void showState();
+    void strengthMoved();
 
     EditorModel& model;
     Actuators& actuators;
     Transport& transport;
     juce::TextButton startButton, playButton, zoomOutButton, zoomInButton, fitButton;
     juce::ToggleButton loopButton;
-    juce::Label time, clipLabel, heardLabel, profileLabel;
+    juce::Label time, clipLabel, heardLabel, profileLabel, strengthLabel;
     juce::ComboBox clips, heard, profile;
+    juce::Slider strength;
+    Gesture gesture = 0;        ///< of the strength
+    juce::uint32 lastMoved = 0; ///< ms
     Subscriptions subscriptions;
 };
 

@@ -97,7 +97,7 @@ void ActuatorRow::update()
     const auto profile = actuators.profile();
     const bool wanted = clip && profile && viewState.viewOptions().actuator;
     const bool same = profile ? askedProfile && *profile == *askedProfile : !askedProfile;
-    if (clip == askedClip && same && (wanted || !clip || !profile))
+    if (clip == askedClip && same && actuators.strength() == askedStrength && (wanted || !clip || !profile))
         return;
     if (!wanted)
     {
@@ -114,7 +114,8 @@ void ActuatorRow::update()
             show(nullptr);
         return;
     }
-    // Of another clip nothing is to be seen; of an edited one the old until the new is there.
+    // Of another clip nothing is to be seen; of an edited one, or with another strength, the old until the new is
+    // there.
     if (shown && !same)
         show(nullptr);
     waiting = true;
@@ -130,10 +131,12 @@ void ActuatorRow::timerCallback()
     if (!askedClip || !profile)
         return;
     askedProfile = *profile;
+    askedStrength = actuators.strength();
     if (cancelled)
         cancelled->store(true);
     cancelled = std::make_shared<std::atomic<bool>>(false);
-    jobs.run([clip = askedClip, profile, stop = cancelled] { return traceActuator(*clip, *profile, *stop); },
+    jobs.run([clip = askedClip, profile, strength = askedStrength, stop = cancelled]
+             { return traceActuator(*clip, *profile, strength, *stop); },
              [this, stop = cancelled](Result<std::shared_ptr<const ActuatorTrace>> made)
              {
                  if (stop != cancelled || stop->load())

@@ -56,6 +56,7 @@ private:
     const ViewState& viewState;
     std::shared_ptr<const Clip> askedClip; ///< what is rendered or has been
     std::optional<Profile> askedProfile;
+    double askedStrength = standardStrength;
     std::shared_ptr<std::atomic<bool>> cancelled;
     std::shared_ptr<const ActuatorTrace> shown;
     juce::String summary, failure;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/Actuators.h"
 
+#include <pacini/foundation/Clamp.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -45,10 +47,26 @@ void Actuators::choose(const std::string& name)
 {
     ProjectProfile wanted;
     wanted.name = name;
+    wanted.strength = strength();
     for (const NamedProfile& entry : list)
         if (entry.name == name && entry.own)
             wanted.embedded = *entry.profile;
     model.change([&](Document& document) { return document.setProfile(std::move(wanted), "Choose actuator"); });
+}
+
+void Actuators::setStrength(double wanted, Gesture gesture)
+{
+    ProjectProfile chosen = model.document().project().profile;
+    wanted = clampTo(wanted, 0.0, 1.0);
+    if (std::exchange(chosen.strength, wanted) == wanted)
+        return;
+    model.change([&](Document& document) { return document.setProfile(std::move(chosen), "Strength", gesture); });
+}
+
+bool Actuators::strengthMatters() const
+{
+    const auto chosen = profile();
+    return chosen && tradesStrength(*chosen);
 }
 
 std::shared_ptr<const Profile> Actuators::profile() const

@@ -19,7 +19,7 @@ class Actuators
 public:
     Actuators(EditorModel& project, std::vector<NamedProfile> profiles);
 
-    Signal changed; ///< which one the project has, or what it is
+    Signal changed; ///< which one the project has, what it is, or its strength
     Signal listChanged;
 
     [[nodiscard]] const std::vector<NamedProfile>& profiles() const noexcept { return list; }
@@ -29,6 +29,12 @@ public:
     [[nodiscard]] const std::string& profileName() const noexcept { return model.document().project().profile.name; }
     void setProfile(const std::string& name);
     [[nodiscard]] std::shared_ptr<const Profile> profile() const;
+
+    /// Of the project, 0 to 1, see fitActuator(); clamped when it is set.
+    [[nodiscard]] double strength() const noexcept { return model.document().project().profile.strength; }
+    void setStrength(double wanted, Gesture gesture = 0);
+    /// Whether the chosen actuator is played differently with another strength.
+    [[nodiscard]] bool strengthMatters() const;
 
 private:
     void choose(const std::string& name);

@@ -15,7 +15,7 @@ Transport::Transport(const EditorModel& project, const ProjectSounds& projectSou
     subscriptions.on({&model.contentChanged, &model.versionChanged, &selection.rangeChanged}, [this] { send(); });
     subscriptions.on({&model.contentChanged, &sounds.changed},
                      [this] { player.setSound(audioOf(sounds.soundOfClip())); });
-    subscriptions.on({&actuators.changed}, [this] { player.setProfile(actuators.profile()); });
+    subscriptions.on({&actuators.changed}, [this] { player.setProfile(actuators.profile(), actuators.strength()); });
 }
 
 /// For another clip.

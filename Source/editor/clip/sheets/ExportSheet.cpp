@@ -4,6 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -15,6 +16,11 @@ namespace
 constexpr int rowHeight = 4 * grid;
 constexpr int labelWidth = 12 * grid;
 constexpr int sourceRate = 1; // of the menu; the others are Hz
+
+int itemOf(EventExport events)
+{
+    return 1 + static_cast<int>(events);
+}
 
 juce::String lossText(const FormatLoss& loss)
 {
@@ -47,6 +53,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     };
     label(formatLabel, "Format");
     label(rateLabel, "Sample rate");
+    label(eventsLabel, "Events");
     label(targetLabel, "File");
     label(lossLabel, "What is kept");
     format.setTitle("Format");
@@ -56,6 +63,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     format.setSelectedId(1, juce::dontSendNotification);
     format.onChange = [this]
     {
+        chooseUsualEvents();
         formatChanged();
     };
     rate.setTitle("Sample rate");
@@ -65,6 +73,15 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
         rate.addItem(juce::String(hertz) + " Hz", hertz);
     rate.setSelectedId(sourceRate, juce::dontSendNotification);
     rate.onChange = [this]
+    {
+        showLosses();
+    };
+    events.setTitle("Events");
+    events.setTooltip("Each event a transient of its own, or merged into the voice where that is as strong");
+    events.addItem("Transients", itemOf(EventExport::transients));
+    events.addItem("Merged into the voice", itemOf(EventExport::merged));
+    events.setTextWhenNothingSelected(tr("As the format has them"));
+    events.onChange = [this]
     {
         showLosses();
     };
@@ -91,10 +108,10 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     losses.setCaretVisible(false);
     losses.setTitle("What is kept and what is lost");
     losses.setFont(smallFont());
-    addAll(*this, {&format, &rate, &all, &target, &browseButton, &losses});
+    addAll(*this, {&format, &rate, &all, &events, &target, &browseButton, &losses});
     int order = 1;
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&target, &format, &rate, &all, &browseButton, &losses})
+         std::initializer_list<juce::Component*>{&target, &format, &rate, &all, &events, &browseButton, &losses})
         child->setExplicitFocusOrder(order++);
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
@@ -102,6 +119,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
                                            : juce::File(toText(path.parent_path().string()));
     target.setText(folder.getFullPathName(), false);
+    chooseUsualEvents();
     formatChanged();
 }
 
@@ -116,9 +134,21 @@ ExportChoice ExportSheet::choice() const
     result.format = chosenFormat().name;
     if (chosenFormat().isSamples && rate.getSelectedId() != sourceRate)
         result.params.sampleRate = rate.getSelectedId();
+    if (events.getSelectedId() > 0)
+        result.params.events = static_cast<EventExport>(events.getSelectedId() - 1);
     if (const auto profile = actuators.profile())
         result.params.profile = *profile;
+    result.params.strength = actuators.strength();
     return result;
+}
+
+/// As the command has them for each format.
+void ExportSheet::chooseUsualEvents()
+{
+    const auto own = chosenFormat().events;
+    events.setSelectedId(own ? itemOf(*own) : 0, juce::dontSendNotification);
+    events.setEnabled(own.has_value());
+    eventsLabel.setEnabled(own.has_value());
 }
 
 /// Keeps the folder; the file follows the format.
@@ -229,6 +259,7 @@ void ExportSheet::layOut(juce::Rectangle<int> area)
     rate.setBounds(line.removeFromLeft(20 * grid));
     line.removeFromLeft(2 * grid);
     all.setBounds(line.removeFromRight(28 * grid));
+    events.setBounds(row(eventsLabel).removeFromLeft(28 * grid));
     line = row(targetLabel);
     browseButton.setBounds(line.removeFromRight(11 * grid));
     line.removeFromRight(grid);

@@ -24,6 +24,7 @@ private:
     void layOut(juce::Rectangle<int> area) override;
     juce::Component* firstFocus() override { return &target; }
     void formatChanged();
+    void chooseUsualEvents();
     void showLosses();
     void browse();
     void run();
@@ -32,8 +33,8 @@ private:
 
     const EditorModel& model;
     const Actuators& actuators;
-    juce::Label formatLabel, rateLabel, targetLabel, lossLabel;
-    juce::ComboBox format, rate;
+    juce::Label formatLabel, rateLabel, eventsLabel, targetLabel, lossLabel;
+    juce::ComboBox format, rate, events;
     juce::ToggleButton all;
     juce::TextEditor target, losses;
     juce::TextButton browseButton;
