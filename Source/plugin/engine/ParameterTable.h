@@ -3,6 +3,8 @@
 
 // Table of the plugin's parameters: ids, names, units, ranges, defaults of everything that can be automated.
 
+#include <pacini/actuator/ActuatorFit.h>
+
 #include <array>
 #include <cstddef>
 #include <span>
@@ -38,6 +40,7 @@ enum class ParameterId : std::size_t
     gateRelease,
     bypass,
     audible,
+    strength,
     count
 };
 
@@ -152,6 +155,8 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      "Passes the sound through, without a haptic signal"},
     {ParameterId::audible, "audible", 2, "Audible", ParameterUnit::percent, 0, 1, 0, 0, {},
      "How far loudness drives what is heard above the range of touch: 100 % for effects, 0 % for music with a beat"},
+    {ParameterId::strength, "strength", 2, "Strength", ParameterUnit::percent, 0, 1, standardStrength, 0, {},
+     "Likeness against felt level: 0 % is as flat as can be, 100 % plays all on the actuator's resonance"},
 }};
 // clang-format on
 

@@ -19,13 +19,6 @@ namespace
 {
 using Layout = juce::AudioChannelSet;
 
-TranslatorSetup setupFor(const std::optional<Profile>& profile)
-{
-    TranslatorSetup setup;
-    setup.profile = profile;
-    return setup;
-}
-
 constexpr int mainBus = 0;
 constexpr int sidechainBus = 1;
 constexpr int hapticBus = 1;
@@ -47,7 +40,9 @@ PluginProcessor::PluginProcessor()
         addParameter(made.release());
     }
     applied = builtInProfile(0);
-    engine.setSetup(setupFor(applied));
+    appliedStrength = parameter(ParameterId::strength).value();
+    tradesNow = applied && tradesStrength(*applied);
+    engine.setSetup(setupNow());
     engine.setClips(&clips);
     worker->add(*this);
 }
@@ -145,16 +140,33 @@ std::size_t PluginProcessor::wantedSlot() const noexcept
     return static_cast<std::size_t>(parameter(ParameterId::profile).value() + 0.5);
 }
 
-/// Hands the chosen actuator to the translator. [worker], [message]
+TranslatorSetup PluginProcessor::setupNow() const
+{
+    TranslatorSetup setup;
+    setup.profile = applied;
+    setup.strength = appliedStrength;
+    return setup;
+}
+
+/// Hands the chosen actuator and the strength to the translator. [worker], [message]
 void PluginProcessor::catchUp()
 {
     const juce::ScopedLock lock(setupLock);
     const std::size_t slot = wantedSlot();
-    if (slot == appliedSlot)
+    const double strength = parameter(ParameterId::strength).value();
+    const bool sameActuator = slot == appliedSlot;
+    if (sameActuator && strength == appliedStrength)
         return;
-    appliedSlot = slot;
-    applied = slot == ownProfileSlot ? ownProfile : builtInProfile(slot);
-    engine.setSetup(setupFor(applied));
+    appliedStrength = strength;
+    if (!sameActuator)
+    {
+        appliedSlot = slot;
+        applied = slot == ownProfileSlot ? ownProfile : builtInProfile(slot);
+        tradesNow = applied && tradesStrength(*applied);
+    }
+    else if (!tradesNow)
+        return; // each new set-up fades out and in
+    engine.setSetup(setupNow());
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
@@ -259,6 +271,12 @@ juce::String PluginProcessor::actuatorName() const
 {
     const juce::ScopedLock lock(setupLock);
     return applied ? juce::String::fromUTF8(applied->name.c_str()) : juce::String("None");
+}
+
+bool PluginProcessor::strengthMatters() const
+{
+    const juce::ScopedLock lock(setupLock);
+    return tradesNow;
 }
 
 Result<void> PluginProcessor::loadActuator(const juce::File& file)

@@ -77,6 +77,8 @@ public:
     [[nodiscard]] Capture capture(double seconds) const;
     /// The name of the actuator that the signal is made for now.
     [[nodiscard]] juce::String actuatorName() const;
+    /// Whether that is played differently with another strength.
+    [[nodiscard]] bool strengthMatters() const;
     /// Takes an actuator from a profile file.
     Result<void> loadActuator(const juce::File& file);
     /// What a session brought that could not be used; empty: nothing.
@@ -92,6 +94,7 @@ private:
     void setValues(const ParameterValues& wanted);
     void say(const juce::String& text);
     [[nodiscard]] std::size_t wantedSlot() const noexcept;
+    [[nodiscard]] TranslatorSetup setupNow() const;
 
     std::array<TableParameter*, parameterCount> table{}; // the base owns them
     HostedProject clips;
@@ -102,6 +105,8 @@ private:
     mutable juce::CriticalSection setupLock;
     std::size_t appliedSlot = 0;
     std::optional<Profile> applied;
+    double appliedStrength = 0.0;
+    bool tradesNow = false; ///< see tradesStrength()
     std::optional<Profile> ownProfile;
     juce::String lastNote;
 

@@ -36,7 +36,12 @@ void readValues(const Json& named, ReadState& read)
     {
         const auto found = named.find(row.id);
         if (found == named.end())
+        {
+            // Before there was such a parameter, actuators were played as flat as can be.
+            if (row.parameter == ParameterId::strength)
+                read.state.values.set(row.parameter, 0.0);
             continue;
+        }
         if (!found->is_number() || !std::isfinite(found->get<double>()))
         {
             addNote(read.note, std::string(row.name) + " is no number and has its default");

@@ -42,9 +42,10 @@ struct ReadState
     std::string note; ///< empty: nothing
 };
 
-/// Reads a state of any version up to this one. A parameter that it does not name has its default, one that is unknown
-/// is ignored, values are limited to their ranges. Errors: invalidData for what is no state, unsupportedVersion for one
-/// from the future, tooLarge; nothing of it is to be used then.
+/// Reads a state of any version up to this one. A parameter that it does not name has its default, or the value that
+/// sounds as before there was one (strength: 0); one that is unknown is ignored, values are limited to their ranges.
+/// Errors: invalidData for what is no state, unsupportedVersion for one from the future, tooLarge; nothing of it is to
+/// be used then.
 [[nodiscard]] Result<ReadState> readState(std::string_view text);
 
 } // namespace pacini::plugin

@@ -134,6 +134,7 @@ PluginWindow::PluginWindow(Plugin& shown)
     roleLevels[2] = slider(Id::transientLevel, Shape::bar);
     roleMutes[2] = toggle(Id::transientMute, "Mute");
     intensity = slider(Id::intensity, Shape::knob);
+    strength = slider(Id::strength, Shape::knob);
     brightness = slider(Id::brightness, Shape::knob);
     audible = slider(Id::audible, Shape::knob);
     transposition = slider(Id::transposition, Shape::knob);
@@ -244,7 +245,10 @@ void PluginWindow::editClip(const Clip& clip)
     captured.clip = clip;
     editor::Session& session = processor.clips().session();
     if (session.model.isEmpty())
+    {
         session.actuators.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
+        session.actuators.setStrength(processor.values()[ParameterId::strength]);
+    }
     session.sounds.add(std::move(captured));
 }
 
@@ -280,6 +284,7 @@ void PluginWindow::showRouting()
 {
     const auto values = processor.values();
     sourceMix->setEnabled(values.index(ParameterId::source) == static_cast<std::size_t>(SourceChoice::mix));
+    strength->setEnabled(processor.strengthMatters());
     outputChannel->setEnabled(values.index(ParameterId::outputMode) ==
                               static_cast<std::size_t>(OutputMode::addToChannel));
 }
@@ -379,7 +384,7 @@ void PluginWindow::resized()
     feltMeter.setBounds(row(touch));
     placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get()});
 
-    auto roles = card(lower.removeFromLeft(lower.getWidth() / 2 - grid / 2), "What is felt");
+    auto roles = card(lower.removeFromLeft(lower.getWidth() * 2 / 5), "What is felt");
     lower.removeFromLeft(grid);
     for (std::size_t i = 0; i < roleLevels.size(); ++i)
     {
@@ -389,8 +394,8 @@ void PluginWindow::resized()
         line.removeFromRight(grid);
         roleLevels[i]->setBounds(line);
     }
-    placeKnobs(card(lower, "Character"), {intensity.get(), brightness.get(), audible.get(), transposition.get(),
-                                          direct.get(), attack.get(), release.get()});
+    placeKnobs(card(lower, "Character"), {intensity.get(), strength.get(), brightness.get(), audible.get(),
+                                          transposition.get(), direct.get(), attack.get(), release.get()});
 
     processor.setWindowSize(getWidth(), getHeight());
 }

@@ -6,6 +6,7 @@
 #include "plugin/engine/Rig.h"
 #include "support/Paths.h"
 
+#include <pacini/realtime/Translator.h>
 #include <pacini/realtime/TranslatorPresets.h>
 
 #include <filesystem>
@@ -116,6 +117,7 @@ TEST_CASE("The ids of released parameters never change")
 TEST_CASE("The defaults of the table are those of the translator")
 {
     CHECK(ParameterValues().translator() == TranslatorParams());
+    CHECK(ParameterValues()[ParameterId::strength] == TranslatorSetup().strength);
 }
 
 TEST_CASE("Every shipped profile has a slot with its content, and only those")
@@ -140,11 +142,76 @@ TEST_CASE("Every shipped profile has a slot with its content, and only those")
     CHECK(shelved == files);
 }
 
-TEST_CASE("Programs set everything but routing, actuator and bypass")
+TEST_CASE("Strength is that of the translator's set-up, also when it is turned while sound plays offline")
+{
+    const auto sound = liveSound(48000, 7);
+    const auto profile = builtInProfile(3);
+    for (const double strength : {0.0, 0.4, 0.7, 1.0})
+    {
+        CAPTURE(strength);
+        Translator translator;
+        TranslatorSetup setup;
+        setup.profile = profile;
+        setup.strength = strength;
+        translator.setSetup(setup);
+        translator.prepare({48000.0, 512});
+        std::vector<float> expected(sound.size());
+        translator.process(sound, expected);
+        Rig rig({.main = 1, .sidechain = 0});
+        rig.set(ParameterId::profile, 3.0);
+        rig.set(ParameterId::strength, strength);
+        rig.plugin.prepareToPlay(48000.0, 512);
+        CHECK(rig.run({sound}).haptic[0] == expected);
+    }
+    Rig rig({.main = 1, .sidechain = 0});
+    rig.plugin.setNonRealtime(true);
+    rig.set(ParameterId::profile, 3.0);
+    const auto driveAt = [&](double strength)
+    {
+        rig.set(ParameterId::strength, strength);
+        (void)rig.run({sound});
+        return rig.run({sound}).haptic[0];
+    };
+    const auto flat = driveAt(0.0), strong = driveAt(1.0), again = driveAt(0.0);
+    const auto apart = [](std::vector<float> a, const std::vector<float>& b)
+    {
+        const double whole = energy(a);
+        std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::minus<>());
+        return energy(a) / whole;
+    };
+    CHECK(apart(flat, strong) > 0.5);
+    CHECK(apart(flat, again) < 0.01);
+}
+
+TEST_CASE("Strength of an actuator that has nothing to trade leaves the drive as it runs")
+{
+    const auto sound = liveSound(48000, 7);
+    for (const double profile : {0.0, 5.0}) // plain signal, motor
+    {
+        CAPTURE(profile);
+        const auto drive = [&](bool turned)
+        {
+            Rig rig({.main = 1, .sidechain = 0});
+            rig.plugin.setNonRealtime(true);
+            rig.set(ParameterId::profile, profile);
+            (void)rig.run({sound});
+            CHECK_FALSE(rig.plugin.strengthMatters());
+            return rig
+                .run({sound}, {}, {512},
+                     [&](std::size_t block)
+                     { rig.set(ParameterId::strength, turned ? 0.01 * static_cast<double>(block % 90) : 0.4); })
+                .haptic[0];
+        };
+        CHECK(drive(true) == drive(false));
+    }
+}
+
+TEST_CASE("Programs set everything but routing, actuator with its strength, and bypass")
 {
     PluginProcessor plugin;
     plugin.parameter(ParameterId::source).setPlainNotifyingHost(1.0);
     plugin.parameter(ParameterId::profile).setPlainNotifyingHost(3.0);
+    plugin.parameter(ParameterId::strength).setPlainNotifyingHost(0.7);
     plugin.parameter(ParameterId::attack).setPlainNotifyingHost(77.0);
     for (int i = plugin.getNumPrograms() - 1; i >= 0; --i)
     {
@@ -154,6 +221,7 @@ TEST_CASE("Programs set everything but routing, actuator and bypass")
         const auto values = plugin.values();
         CHECK(values[ParameterId::source] == 1.0);
         CHECK(values[ParameterId::profile] == 3.0);
+        CHECK(values[ParameterId::strength] == Approx(0.7));
         CHECK(values.translator() == translatorPresets()[static_cast<std::size_t>(i)].params);
     }
     CHECK(plugin.values().translator() == TranslatorParams());

@@ -125,8 +125,37 @@ TEST_CASE("The states of version 1 load for ever")
     CHECK(values[ParameterId::gateThreshold] == Approx(-60.0));
     CHECK(values[ParameterId::gateRelease] == Approx(90.0));
     CHECK(values[ParameterId::audible] == 0.0);
+    CHECK(values[ParameterId::strength] == 0.0); // and not the default
     CHECK(plugin.actuatorName() == "Bench actuator");
     CHECK(plugin.getCurrentProgram() == 2);
+}
+
+TEST_CASE("A session from before there was a strength drives its actuator as it did, a new one as the command does")
+{
+    const auto driveOf = [](const std::function<void(PluginProcessor&)>& prepare)
+    {
+        Rig rig;
+        prepare(rig.plugin);
+        rig.plugin.prepareToPlay(48000.0, 512);
+        return rig.run(liveSounds(2, 24000, 3)).haptic;
+    };
+    const auto withStrength = [&](double strength)
+    {
+        return driveOf(
+            [strength](PluginProcessor& plugin)
+            {
+                plugin.parameter(ParameterId::profile).setPlainNotifyingHost(3.0);
+                plugin.parameter(ParameterId::strength).setPlainNotifyingHost(strength);
+            });
+    };
+    const auto before =
+        driveOf([](PluginProcessor& plugin)
+                { load(plugin, R"({"format": "pacini.plugin", "version": 1, "parameters": {"profile": 3}})"); });
+    CHECK(before == withStrength(0.0));
+    const auto fresh =
+        driveOf([](PluginProcessor& plugin) { plugin.parameter(ParameterId::profile).setPlainNotifyingHost(3.0); });
+    CHECK(fresh == withStrength(standardStrength));
+    CHECK(fresh != before);
 }
 
 TEST_CASE("What is no state changes nothing and is noted")
