@@ -66,9 +66,9 @@ TEST_CASE("Before an event that does not stand out the level falls, and is back 
     const double unfelt = 0.8 * std::pow(10.0, -1.5);
     const double low = valueAt(gapped, 0.998);
     CHECK((0.8 + unfelt) / (2.0 * low + unfelt) == Approx(std::pow(10.0, 22.0 / 20.0)));
-    CHECK(valueAt(gapped, 0.9971) == Approx(low));
-    CHECK(valueAt(gapped, 0.9949) == 0.2);
-    CHECK(valueAt(gapped, 0.996) == Approx(0.5 * (0.2 + low)));
+    CHECK(valueAt(gapped, 0.9966) == Approx(low));
+    CHECK(valueAt(gapped, 0.9944) == 0.2);
+    CHECK(valueAt(gapped, 0.9955) == Approx(0.5 * (0.2 + low)));
     CHECK(valueAt(gapped, 1.001) == 0.2);
     CHECK(valueAt(gapped, 1.0005) == Approx(0.5 * (0.2 + low)));
     CHECK(valueAt(gapped, 0.5) == 0.2);
@@ -117,15 +117,36 @@ TEST_CASE("Between pulses that carry a train it is silent for almost half of the
     // Not where the level itself is what is felt, nor from 45 ms on, where events are single ones.
     for (Transient& event : train)
         event.amplitude = 0.8;
-    CHECK(valueAt(withEventGaps(steady, train), 0.5949) == 0.2);
+    CHECK(valueAt(withEventGaps(steady, train), 0.5944) == 0.2);
     CHECK(valueAt(withEventGaps(steady, train), 0.598) > 0.0);
     // Nor before what hardly rises above it.
     for (Transient& event : train)
-        event.amplitude = 0.6;
+        event.amplitude = 0.55;
     CHECK(withEventGaps(steady, train) == steady);
     CHECK(
         withEventGaps({{0.0, 0.05}, {2.0, 0.05}}, std::vector<Transient>{{1.0, 1.0, 0.5}, {1.046, 1.0, 0.5}}).size() ==
         2);
+}
+
+TEST_CASE("A strong event needs less of a rise by itself to get a gap, and gets a longer one", "[synthesis]")
+{
+    const double unfelt = std::pow(10.0, -1.5);
+    const auto amplitudeOf = [&](double level, double rise) // of an event that rises so many dB above a steady level
+    {
+        return (2.0 * level + unfelt) * std::pow(10.0, rise / 20.0) - unfelt;
+    };
+    const auto gapsIn = [&](double level, double rise)
+    {
+        const Curve envelope{{0.0, 1.0}, {0.1, level}, {3.0, level}}; // the strongest is 1
+        return withEventGaps(envelope, std::vector<Transient>{{2.0, amplitudeOf(level, rise), 0.5}});
+    };
+    REQUIRE(amplitudeOf(0.22, 3.2) > 0.6);
+    CHECK(valueAt(gapsIn(0.22, 3.2), 1.9966) < 0.05);
+    CHECK(valueAt(gapsIn(0.22, 2.8), 1.9966) == Approx(0.22));
+    REQUIRE(amplitudeOf(0.15, 4.2) < 0.6);
+    CHECK(valueAt(gapsIn(0.15, 3.8), 1.998) == Approx(0.15));
+    CHECK(valueAt(gapsIn(0.15, 4.2), 1.998) < 0.05);
+    CHECK(valueAt(gapsIn(0.15, 4.2), 1.9966) > 0.025); // open for 3 ms only
 }
 
 TEST_CASE("Gaps keep the order of time and never raise a level, wherever events stand", "[synthesis]")

@@ -26,7 +26,7 @@ class CurveFitter
 public:
     /// Amplitudes, sample i at i * step seconds. Errors are relative, in dB^2 per sample, and fade out below `floor`
     /// (linear): what nobody feels is not worth a point. Values that stay a quarter below the floor become 0. An
-    /// all-zero track gives an empty curve. Errors count up to five times where `heardShare` (0-1 of each sample, or
+    /// all-zero track gives an empty curve. Errors count up to 5.5 times where `heardShare` (0-1 of each sample, or
     /// none) is large: loudness moves by less than levels of bands do, and its small steps are heard.
     [[nodiscard]] Curve fitAmplitude(std::span<const float> track, double step, double gain, double floor, double price,
                                      std::span<const float> heardShare = {})
@@ -102,7 +102,7 @@ private:
         [[nodiscard]] double weight(std::size_t i) const noexcept
         {
             const double a = level(i);
-            const double worth = heardShare.empty() ? 1.0 : 1.0 + 4.0 * static_cast<double>(heardShare[i]);
+            const double worth = heardShare.empty() ? 1.0 : 1.0 + 4.5 * static_cast<double>(heardShare[i]);
             return worth * decibelsPerNeper * decibelsPerNeper / (a * a + floor * floor);
         }
         [[nodiscard]] bool evenlySpaced() const noexcept { return true; }

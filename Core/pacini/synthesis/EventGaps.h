@@ -26,8 +26,11 @@ struct EventGapParams
     double fade = 0.002;  ///< s in which it opens before
     double least = 4.0;   ///< dB by which an event rises by itself at least: softer ones are texture, such as rain, and
                           ///< gaps before each would be felt instead of it
-    double reach = 0.012; ///< s
-    double attack = 0.001; ///< s in which the level is back after the event's time
+    double strongShare = 0.6;   ///< of the clip's strongest moment: events of that amplitude are not taken for texture
+    double strongLeast = 3.0;   ///< instead of `least`, for them
+    double strongHold = 0.0035; ///< instead of `hold`, for them
+    double reach = 0.012;       ///< s
+    double attack = 0.001;      ///< s in which the level is back after the event's time
     /// Between events nearer to each other than this, s, which rise by at least that, dB, pulses carry what is felt:
     /// the gap is silent and as long as their ringing leaves it.
     double train = 0.045, trainRise = 10.0;
@@ -94,9 +97,13 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
         const double lowest = peakOfMean * detail::smallestWithin(envelope, event.time - params.reach, event.time);
         const double rise = 20.0 * std::log10((full + unfelt) / (lowest + unfelt));
         const bool inTrain = since < params.train && rise >= params.trainRise;
-        if (!(full > 0.0) || (!inTrain && (rise < params.least || rise >= params.enough)))
+        const bool strong = event.amplitude >= params.strongShare * top;
+        const double least = strong ? params.strongLeast : params.least;
+        if (!(full > 0.0) || (!inTrain && (rise < least || rise >= params.enough)))
             continue;
-        const double open = event.time - (inTrain ? params.trainHold * since : params.hold);
+        const double open = event.time - (inTrain  ? params.trainHold * since
+                                          : strong ? params.strongHold
+                                                   : params.hold);
         const double start = open - (inTrain ? params.trainFade * since : params.fade);
         if (start <= free || event.time <= 0.0)
             continue;
