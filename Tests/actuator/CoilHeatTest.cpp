@@ -217,12 +217,13 @@ TEST_CASE("A coil goes ahead freely exactly as far as its bounds tell", "[actuat
         {
             (void)after.measure(wanted[n]);
             after.advance(played[n]);
-            if (n % 4 == 3)
+            if (n % groupFrames == groupFrames - 1)
                 highest = std::max(highest, after.twice);
         }
         const double aim = 0.95 * 0.25;
         const double allowed = hottest < aim ? 5.0 * aim - 4.0 * hottest : aim;
-        CHECK(high == Approx(highest / ((1.0 - 4.0 * hand.share(0.05)) * allowed * (1.0 - 1e-6))).epsilon(1e-7));
+        const double fall = 1.0 - static_cast<double>(groupFrames) * hand.share(0.05);
+        CHECK(high == Approx(highest / (fall * allowed * (1.0 - 1e-6))).epsilon(1e-7));
 
         // Having gone it is where single frames lead.
         CoilHeat heat = start;
@@ -234,6 +235,19 @@ TEST_CASE("A coil goes ahead freely exactly as far as its bounds tell", "[actuat
         REQUIRE_FALSE(heat.advanceFreely(wanted, played, playedPeak, 0.999 * high));
         CHECK(heat.admit(100.0) == start.admit(100.0));
         CHECK(heat.measure(0.6) == CoilHeat(start).measure(0.6));
+
+        // Each half goes as it does with the other, the first whatever is played.
+        heat = start;
+        const double warmed = hand.temperature + 32.0 * hand.share(0.05) * 2.0;
+        const double whateverIsPlayed = std::min(warmed, std::max(hand.temperature, 2.0));
+        const double allowedThen = whateverIsPlayed < aim ? 5.0 * aim - 4.0 * whateverIsPlayed : aim;
+        const double least = highest / (fall * allowedThen * (1.0 - 1e-6));
+        CHECK_FALSE(heat.measureFreely(wanted, 0.999 * least));
+        CHECK(heat.measure(0.6) == CoilHeat(start).measure(0.6));
+        heat = start;
+        REQUIRE(heat.measureFreely(wanted, 1.001 * least));
+        REQUIRE(heat.advanceFreely(played, playedPeak));
+        CHECK(heat.admit(100.0) == Approx(after.most()).epsilon(1e-6));
 
         // Of the peak, too, it takes as much as keeps the coil within its limit.
         const auto goesWithPeak = [&](double peak)

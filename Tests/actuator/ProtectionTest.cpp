@@ -15,6 +15,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -793,7 +794,7 @@ TEST_CASE("The excursion limiter admits all that it could, and its room between 
         const double turn = 2.0 * std::numbers::pi * frequency / fs;
         CHECK((turn <= 0.05 * points || points == 64.0));
         CHECK((points == 1.0 || turn > 0.05 * (points - 1.0)));
-        CHECK(c.groupReach == Approx(4.0 * turn * params.excursion));
+        CHECK(c.groupReach == Approx(static_cast<double>(groupFrames) * turn * params.excursion));
         const double d = turn / points;
         const double radius = std::sqrt(c.energyLimit);
         const double rest = c.driveLimit * params.excursion;
@@ -891,6 +892,138 @@ TEST_CASE("Where the excursion limiter goes ahead freely it would have admitted 
             CHECK(freely > 10);
             CHECK((freely < 400 || excursion < 1e-6));
         }
+}
+
+TEST_CASE("A guard follows what is wanted and what is played apart as it does frame by frame", "[actuator][protection]")
+{
+    for (const bool wears : {false, true})
+        for (const double fs : {8000.0, 48000.0})
+        {
+            CAPTURE(wears, fs);
+            ExcursionParams params{Hertz(67.0), 3.97, 1e-3, 1.5e-3, {}};
+            if (wears)
+            {
+                params.worn = makeBodyChain(BodyParams{1.342, 0.012, 0.040, 4.0e4, 5.0, 0.010, 800.0, 2.5},
+                                            Resonance{67.0, 3.97});
+                params.worn->force = 1e-3 * params.worn->suspensionStiffness;
+            }
+            ExcursionGuard guard;
+            guard.design(params, fs);
+            Random random(3);
+            int measured = 0, freely = 0;
+            for (int block = 0; block < 300; ++block)
+            {
+                std::vector<double> wanted(32), played(32), levels(32, 0.125);
+                const double level = std::pow(10.0, random.uniform(-2.0, 0.3));
+                double wantedPeak = 0.0, playedPeak = 0.0;
+                for (std::size_t n = 0; n < wanted.size(); ++n)
+                {
+                    wanted[n] = level * std::sin(2.0 * std::numbers::pi * 67.0 / fs * (32.0 * block + double(n)));
+                    played[n] = 0.7 * wanted[n];
+                    wantedPeak = std::max(wantedPeak, std::abs(wanted[n]));
+                    playedPeak = std::max(playedPeak, std::abs(played[n]));
+                }
+                ExcursionGuard single = guard;
+                double highest = 0.0;
+                bool admitted = true;
+                std::vector<double> expected;
+                for (std::size_t n = 0; n < wanted.size(); ++n)
+                {
+                    expected.push_back(single.measure(wanted[n]));
+                    highest = std::max(highest, expected.back());
+                }
+                const double largest = guard.measure(wanted, wantedPeak, 0.8, levels);
+                if (largest > 0.0)
+                {
+                    ++measured;
+                    REQUIRE(largest <= highest);
+                    REQUIRE((highest <= 0.8 || largest == highest));
+                    for (std::size_t n = 0; n < wanted.size(); ++n)
+                        REQUIRE((levels[n] == std::max(expected[n], 0.125) ||
+                                 (expected[n] <= 0.8 && levels[n] <= std::max(expected[n], 0.125))));
+                }
+                else
+                {
+                    REQUIRE(highest <= 0.8);
+                    REQUIRE(levels == std::vector<double>(32, 0.125));
+                }
+                REQUIRE(ExcursionGuard(guard).measure(0.0) == ExcursionGuard(single).measure(0.0));
+
+                const ExcursionGuard before = guard;
+                for (const double drive : played)
+                {
+                    const double most = single.admit(drive);
+                    admitted = admitted && most == drive;
+                    single.advance(most);
+                }
+                if (guard.advanceFreely(played, playedPeak))
+                {
+                    ++freely;
+                    REQUIRE(admitted);
+                }
+                else
+                {
+                    REQUIRE(guard.admit(1.0) == before.admit(1.0));
+                    guard = single;
+                }
+                REQUIRE(guard.admit(1.0) == single.admit(1.0));
+                REQUIRE(guard.admit(-1.0) == single.admit(-1.0));
+            }
+            CHECK(measured > 10);
+            CHECK(measured < 300);
+            CHECK(freely > 10);
+            CHECK(freely < 300);
+        }
+}
+
+TEST_CASE("What a protection leaves out for whole groups of frames changes no sample", "[actuator][protection]")
+{
+    ExcursionParams travel{Hertz(67.0), 3.97, 1e-3, 1.5e-3, {}};
+    ExcursionParams worn = travel;
+    worn.worn = makeBodyChain(BodyParams{1.342, 0.012, 0.040, 4.0e4, 5.0, 0.010, 800.0, 2.5}, Resonance{67.0, 3.97});
+    worn.worn->force = 1e-3 * worn.worn->suspensionStiffness;
+    const CoilHeatParams slow{0.3, 0.1, Seconds(20.0)}, fast{1.0, 0.1, Seconds(0.05)};
+    const std::vector<ProtectionParams> all = {
+        {{}, {}, Hertz(20.0), Seconds(0.001), false},       {travel, {}, Hertz(40.0), Seconds(0.0), false},
+        {worn, {}, Hertz(20.0), Seconds(0.0007), false},    {worn, slow, Hertz(60.0), Seconds(0.001), false},
+        {travel, fast, Hertz(60.0), Seconds(0.001), false}, {worn, fast, Hertz(20.0), Seconds(0.0), true}};
+    Random random(17);
+    std::vector<float> x(48000);
+    double level = 0.0;
+    for (std::size_t n = 0; n < x.size(); ++n)
+    {
+        if (n % 1500 == 0) // from far below all limits to far beyond
+            level = std::pow(10.0, random.uniform(-2.5, 0.5));
+        const double t = 2.0 * std::numbers::pi * static_cast<double>(n) / 48000.0;
+        x[n] = static_cast<float>(level * (std::sin(67.0 * t) + 0.4 * std::sin(211.0 * t)));
+    }
+    for (const ProtectionParams& params : all)
+    {
+        const auto played = [&](std::size_t block)
+        {
+            Protection protection;
+            protection.setParams(params);
+            protection.prepare({48000.0, 1024});
+            std::vector<float> y = x;
+            double reduction = 0.0;
+            std::size_t guarded = 0;
+            for (std::size_t i = 0; i < y.size(); i += block)
+            {
+                const auto part = std::span(y).subspan(i, std::min(block, y.size() - i));
+                protection.process(part, part);
+                reduction = std::max(reduction, protection.meter().gainReduction);
+                guarded += protection.meter().guardedFrames;
+            }
+            return std::tuple(y, reduction, guarded);
+        };
+        const auto single = played(1); // no whole group: nothing is left out
+        CHECK((params.boundsAlone || std::get<1>(single) > 1.0));
+        for (const std::size_t block : {8u, 24u, 1000u, 1024u})
+        {
+            CAPTURE(&params - all.data(), block);
+            CHECK(played(block) == single);
+        }
+    }
 }
 
 TEST_CASE("The lowest tone of a protection is 1 Hz to 20 kHz", "[actuator][protection]")

@@ -3,6 +3,7 @@
 #include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Random.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -41,6 +42,34 @@ TEST_CASE("A running mean follows by groups to the very numbers of single steps"
                 single.follow(x[i + k]);
                 REQUIRE(single.value() == means[k]);
             }
+        }
+    }
+}
+
+TEST_CASE("Two running means side by side have the very numbers of each alone", "[actuator][protection]")
+{
+    const auto x = powers(2000), y = powers(4000);
+    for (const double leak : {0.3, 1e-3, 0.0})
+    {
+        CAPTURE(leak);
+        RunningMean first, second, together, beside;
+        for (RunningMean* mean : {&first, &second, &together, &beside})
+            mean->design(leak);
+        for (std::size_t i = 0; i < x.size(); i += groupFrames)
+        {
+            std::array<Pair, groupFrames> pairs;
+            for (std::size_t k = 0; k < groupFrames; ++k)
+                pairs[k] = Pair(x[i + k], -y[2000 + i + k]);
+            const auto means = RunningMean::followGroups(together, beside, pairs);
+            for (std::size_t k = 0; k < groupFrames; ++k)
+            {
+                first.follow(x[i + k]);
+                second.follow(-y[2000 + i + k]);
+                REQUIRE(means[k].first() == first.value());
+                REQUIRE(means[k].second() == second.value());
+            }
+            REQUIRE(together.value() == first.value());
+            REQUIRE(beside.value() == second.value());
         }
     }
 }

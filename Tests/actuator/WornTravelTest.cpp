@@ -307,7 +307,7 @@ TEST_CASE("The worn mass has room between the points for what a chord and its cu
                 const auto points = static_cast<double>(guard.steps.size());
                 CHECK((w <= 0.05 * fs * points || points == 32.0));
                 CHECK((points == 1.0 || w > 0.05 * fs * (points - 1.0)));
-                CHECK(guard.groupReach == Approx(4.0 * push / fs));
+                CHECK(guard.groupReach == Approx(static_cast<double>(groupFrames) * push / fs));
 
                 const double h = 1.0 / (fs * points);
                 const double room = std::max(0.0, travel - unfollowed);

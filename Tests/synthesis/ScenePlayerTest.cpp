@@ -309,6 +309,61 @@ TEST_CASE("The output of an actuator has what its plan asks for", "[scene]")
     }
 }
 
+TEST_CASE("One play is filtered in its decoder as its output would", "[scene]")
+{
+    Profile profile = playerProfile(Technology::lra);
+    profile.resonance = {120.0, 6.0};
+    for (const double fs : {8000.0, 48000.0, 44100.0})
+        for (const double start : {0.0, 0.0371})
+            for (const double duration : {0.0, 0.17, 0.5}) // to the clip's end, before it and after it
+                for (const double delay : {0.0, 0.011})
+                {
+                    CAPTURE(fs, start, duration, delay);
+                    Scene scene = playerScene(1, 0.25, 0.4);
+                    scene.clips[0].transients = {{0.0, 0.6, 0.5}, {0.1, 0.5, 1.0}, {0.24, 0.7, 0.0}};
+                    scene.plays[0].start = start;
+                    scene.duration = duration;
+                    RenderPlan plan = planOf(scene, &profile, fs);
+                    REQUIRE(plan.flattening);
+                    plan.plays[0].decoder.delay = delay;
+                    ScenePlayerParams params;
+                    params.sampleRate = fs;
+                    params.protect = false;
+                    const auto frames = static_cast<std::size_t>(0.7 * fs);
+                    std::vector<float> expected(frames, 0.0f);
+                    {
+                        DecoderParams decoding = plan.plays[0].decoder;
+                        decoding.sampleRate = fs;
+                        Decoder decoder(plan.plays[0].clip, decoding);
+                        CHECK(decoder.report().pulses > 0);
+                        const auto from = static_cast<std::size_t>(std::floor(start * fs + 0.5));
+                        const auto until =
+                            static_cast<std::size_t>(std::max(0.0, std::floor(plan.duration * fs + 0.5)));
+                        decoder.process(std::span(expected).first(until).subspan(from));
+                        OutputFilter filter;
+                        filter.prepare({fs, frames});
+                        filter.setParams({plan.profile->equalizer, plan.flattening});
+                        filter.process(expected, expected);
+                    }
+                    for (const std::size_t block : {frames, std::size_t{77}})
+                    {
+                        ScenePlayer player(plan, params);
+                        std::vector<float> found(frames);
+                        for (std::size_t i = 0; i < frames; i += block)
+                        {
+                            std::span<float> part = std::span(found).subspan(i, std::min(block, frames - i));
+                            player.process(std::span(&part, 1));
+                        }
+                        for (std::size_t n = 0; n < frames; ++n)
+                        {
+                            CAPTURE(block, n);
+                            REQUIRE(static_cast<double>(found[n]) ==
+                                    Approx(0.5 * static_cast<double>(expected[n])).margin(1e-6));
+                        }
+                    }
+                }
+}
+
 TEST_CASE("Scenes on actuators of all kinds are played as they were", "[scene]")
 {
     Scene scene = playerScene(2, 0.3, 0.9);

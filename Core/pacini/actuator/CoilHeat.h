@@ -3,6 +3,8 @@
 // Thermal limiter: keeps the heat in an actuator's coil below what it bears.
 
 #include <pacini/actuator/FrameGroup.h>
+#include <pacini/actuator/HeldStep.h>
+#include <pacini/actuator/MovingMass.h>
 #include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/Units.h>
@@ -43,22 +45,22 @@ public:
         heating = -std::expm1(-1.0 / (clampTo(params.thermalTime.value, 0.01, 1e4) * fs));
         temperature.design(heating);
         averaging = -std::expm1(-1.0 / (averagingTime * fs));
-        average1.design(averaging);
-        average2.design(averaging);
+        // As a held step: the displacement is the second average, the velocity the first.
+        step = {-averaging, averaging * (1.0 - averaging), 0.0, -averaging, averaging * averaging, averaging};
+        group = designGroupStep(step);
+        averages.beginGroup();
     }
     void reset() noexcept
     {
         temperature.reset();
-        average1.reset();
-        average2.reset();
+        averages = {};
     }
 
     /// Follows the power as it is wanted and returns it over what is allowed now: what the square of a gain must undo.
     double measure(double wanted) noexcept
     {
-        average1.follow(full * wanted * wanted);
-        average2.follow(average1.value());
-        return average2.value() / allowed(temperature.value());
+        averages.follow(full * wanted * wanted, step, group);
+        return averages.state().displacement / allowed(temperature.value());
     }
 
     /// The drive nearest to `wanted` that keeps the temperature within the limit: a drive of sqrt(maxPower /
@@ -80,36 +82,33 @@ public:
     bool advanceFreely(std::span<const double> wanted, std::span<const double> played, double playedPeak,
                        double maxMeasure) noexcept
     {
-        const double peakPower = full * playedPeak * playedPeak;
-        const double warmed = temperature.value() + static_cast<double>(played.size()) * heating * peakPower;
-        const double hottest = std::min(warmed, std::max(temperature.value(), peakPower));
-        if (!(hottest <= safely * limit))
+        const double hottest = hottestAfter(played.size(), playedPeak);
+        return hottest <= safely * limit && followFreely(wanted, maxMeasure, hottest) &&
+               advanceFreely(played, playedPeak);
+    }
+
+    /// Does measure() for whole groups of frames, from the start of a group, if it is certain that none exceeds
+    /// `maxMeasure`, whatever drive within +-1 is played. Otherwise nothing changes and it returns false.
+    bool measureFreely(std::span<const double> wanted, double maxMeasure) noexcept
+    {
+        return followFreely(wanted, maxMeasure, hottestAfter(wanted.size(), 1.0));
+    }
+
+    /// Does advance() for whole groups of frames, from the start of a group, if it is certain that all of `played`
+    /// would be admitted. Otherwise nothing changes and it returns false. `peak` is that of `played`.
+    bool advanceFreely(std::span<const double> played, double peak) noexcept
+    {
+        if (!(hottestAfter(played.size(), peak) <= safely * limit))
             return false;
-        RunningMean once = average1;
-        RunningMean twice = average2;
-        RunningMean heated = temperature;
-        double highest = 0.0;
-        for (std::size_t i = 0; i < wanted.size(); i += groupFrames)
-        {
-            const FrameGroup averages = twice.followGroup(once.followGroup(powers(wanted, i)));
-            heated.followGroup(powers(played, i));
-            highest = std::max(highest, averages.back());
-        }
-        // Powers are not negative: within a group an average was at most so much higher than at its end.
-        const double fall = 1.0 - static_cast<double>(groupFrames) * averaging;
-        if (!(highest <= safely * fall * maxMeasure * allowed(hottest)))
-            return false;
-        average1 = once;
-        average2 = twice;
-        temperature = heated;
+        for (std::size_t i = 0; i < played.size(); i += groupFrames)
+            temperature.followGroup(powers(played, i));
         return true;
     }
 
     void flush() noexcept
     {
         temperature.flush();
-        average1.flush();
-        average2.flush();
+        averages.flush();
     }
 
 private:
@@ -121,12 +120,38 @@ private:
         return aim + 4.0 * std::max(0.0, aim - at);
     }
 
+    /// A bound on the temperature within the next `frames` under drives up to `peak`.
+    [[nodiscard]] double hottestAfter(std::size_t frames, double peak) const noexcept
+    {
+        const double power = full * peak * peak;
+        const double warmed = temperature.value() + static_cast<double>(frames) * heating * power;
+        return std::min(warmed, std::max(temperature.value(), power));
+    }
+
+    /// Lets the averages follow whole groups if they are certain to stay within what is allowed at `hottest`.
+    bool followFreely(std::span<const double> wanted, double maxMeasure, double hottest) noexcept
+    {
+        MovingMass after = averages;
+        double highest = 0.0;
+        for (std::size_t i = 0; i < wanted.size(); i += groupFrames)
+        {
+            after.followGroup(powers(wanted, i), group);
+            highest = std::max(highest, after.state().displacement);
+        }
+        // Powers are not negative: within a group an average was at most so much higher than at its end.
+        const double fall = 1.0 - static_cast<double>(groupFrames) * averaging;
+        if (!(highest <= safely * fall * maxMeasure * allowed(hottest)))
+            return false;
+        averages = after;
+        return true;
+    }
+
     [[nodiscard]] FrameGroup powers(std::span<const double> drive, std::size_t begin) const noexcept
     {
-        FrameGroup group = groupAt(drive, begin);
-        for (double& x : group)
+        FrameGroup squares = groupAt(drive, begin);
+        for (double& x : squares)
             x = full * x * x;
-        return group;
+        return squares;
     }
 
     double full = 1.0;
@@ -134,8 +159,9 @@ private:
     double heating = 1.0;
     double averaging = 0.0;
     RunningMean temperature;
-    RunningMean average1;
-    RunningMean average2;
+    HeldStep step;
+    GroupStep group;
+    MovingMass averages; ///< of the wanted power
 };
 
 } // namespace pacini

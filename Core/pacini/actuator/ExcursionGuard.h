@@ -174,18 +174,13 @@ public:
         MovingMass playedMass = moved;
         double wantedMost = wantedMass.state().energy();
         double playedMost = playedMass.state().energy();
-        for (std::size_t i = 0; i < wanted.size(); i += groupFrames)
+        for (std::size_t i = 0; i < wanted.size(); i += groupFrames) // side by side: each waits for its own last state
         {
             wantedMass.followGroup(groupAt(wanted, i), guard.group);
             playedMass.followGroup(groupAt(played, i), guard.group);
             wantedMost = std::max(wantedMost, wantedMass.state().energy());
             playedMost = std::max(playedMost, playedMass.state().energy());
         }
-        const auto stays = [this](double most, double peak, double limit)
-        {
-            constexpr double safely = 1.0 - 1e-6; // far more than rounding
-            return std::sqrt(most) + guard.groupReach * peak <= safely * std::sqrt(limit);
-        };
         if (!stays(wantedMost, wantedPeak, maxMeasure * wantedLimit) ||
             !stays(playedMost, playedPeak, guard.energyLimit))
             return false;
@@ -194,6 +189,36 @@ public:
         asWanted = wantedMass;
         moved = playedMass;
         return true;
+    }
+
+    /// Follows whole groups of frames as they are wanted, from the start of a group. Raises each of `levels` to what
+    /// measure() would return there, but leaves them alone if it is certain that none of that exceeds `maxMeasure`.
+    /// `peak` is that of `wanted`. Returns the largest, 0 for those that were left alone.
+    double measure(std::span<const double> wanted, double peak, double maxMeasure, std::span<double> levels) noexcept
+    {
+        double largest = 0.0;
+        if (!followFreely(asWanted, wanted, peak, maxMeasure * wantedLimit))
+            for (std::size_t i = 0; i < wanted.size(); ++i)
+            {
+                asWanted.follow(wanted[i], guard.steps.back(), guard.group);
+                const double level = asWanted.state().energy() / wantedLimit;
+                levels[i] = std::max(levels[i], level);
+                largest = std::max(largest, level);
+            }
+        return isWorn ? std::max(largest, worn.measure(wanted, peak, maxMeasure, levels)) : largest;
+    }
+
+    /// Does advance() for whole groups of frames, from the start of a group, if it is certain that all of `played`
+    /// would be admitted. Otherwise nothing changes and it returns false. `peak` is that of `played`.
+    bool advanceFreely(std::span<const double> played, double peak) noexcept
+    {
+        const MovingMass before = moved;
+        if (!(peak <= guard.driveLimit) || !followFreely(moved, played, peak, guard.energyLimit))
+            return false;
+        if (!isWorn || worn.advanceFreely(played, peak))
+            return true;
+        moved = before;
+        return false;
     }
 
     void flush() noexcept
@@ -207,6 +232,29 @@ public:
     [[nodiscard]] const ExcursionCoefficients& coefficients() const noexcept { return guard; }
 
 private:
+    /// Lets a mass follow whole groups if its energy is then certain to stay within `limit`.
+    bool followFreely(MovingMass& mass, std::span<const double> drive, double peak, double limit) const noexcept
+    {
+        MovingMass after = mass;
+        double most = after.state().energy();
+        for (std::size_t i = 0; i < drive.size(); i += groupFrames)
+        {
+            after.followGroup(groupAt(drive, i), guard.group);
+            most = std::max(most, after.state().energy());
+        }
+        if (!stays(most, peak, limit))
+            return false;
+        mass = after;
+        return true;
+    }
+
+    /// Whether an energy of at most `most` at all ends of groups stays within `limit` in between, too.
+    [[nodiscard]] bool stays(double most, double peak, double limit) const noexcept
+    {
+        constexpr double safely = 1.0 - 1e-6; // far more than rounding
+        return std::sqrt(most) + guard.groupReach * peak <= safely * std::sqrt(limit);
+    }
+
     ExcursionCoefficients guard = designExcursionGuard({}, ProcessSpec{}.sampleRate);
     double wantedLimit = 0.99 * guard.energyLimit; // m^2
     MovingMass moved;

@@ -14,7 +14,7 @@ namespace pacini
 /// whole group waits once: what the group's frames add does not depend on the state. Such a step rounds otherwise than
 /// single steps do, so the groups lie on a fixed grid from the last reset() or design() on, and single steps that reach
 /// the end of a group arrive at the same number as the step over it: the result does not depend on who takes which.
-inline constexpr std::size_t groupFrames = 4;
+inline constexpr std::size_t groupFrames = 8;
 
 /// One number for each frame of a group.
 using FrameGroup = std::array<double, groupFrames>;

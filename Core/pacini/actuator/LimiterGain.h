@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace pacini
@@ -99,14 +100,21 @@ struct SoftKnee
     /// The gain for a level whose square is `ratioSquared` times that of the limit.
     [[nodiscard]] static double gain(double ratioSquared) noexcept
     {
-        if (ratioSquared >= endSquared)
-            return 1.0 / std::sqrt(ratioSquared);
-        const double over = 10.0 * std::log10(ratioSquared) + width / 2.0;
-        const double reduction = over < 0.0 ? 0.0 : over * over / (2.0 * width);
-        return std::pow(10.0, -reduction / 20.0);
+        return ratioSquared < endSquared ? gainAt(into(ratioSquared)) : 1.0 / std::sqrt(ratioSquared);
     }
-    static constexpr double startSquared = 0.7943282347242815; ///< -1 dB: up to it the gain is 1
-    static constexpr double endSquared = 1.2589254117941673;   ///< +1 dB
+
+    /// How far into the knee that is, in nepers: exp and log take a third of the time of powers of 10.
+    [[nodiscard]] static double into(double ratioSquared) noexcept { return 0.5 * std::log(ratioSquared) + half; }
+
+    /// The gain so far into it, up to its end.
+    [[nodiscard]] static double gainAt(double into) noexcept
+    {
+        return into > 0.0 ? std::exp(-into * into / (4.0 * half)) : 1.0;
+    }
+
+    static constexpr double half = 0.25 * width * (std::numbers::ln10 / 10.0); ///< nepers up to the limit
+    static constexpr double startSquared = 0.7943282347242815;                 ///< -1 dB: up to it the gain is 1
+    static constexpr double endSquared = 1.2589254117941673;                   ///< +1 dB
 };
 
 /// No knee: unity up to the limit, so that what keeps it by itself is not touched, exactly the limit above it.
@@ -145,9 +153,11 @@ public:
     {
         newest.setLength(std::max(holdFrames, lookAheadFrames + 1) + 1);
         decay = std::pow(10.0, -releaseRate / (10.0 * fs));
+        fall = -0.05 * std::numbers::ln10 * releaseRate / fs;
         if (lookAheadFrames + 1 != length)
         {
             length = std::min(lookAheadFrames + 1, window.size());
+            perLength = 1.0 / static_cast<double>(length);
             reset();
         }
     }
@@ -158,6 +168,7 @@ public:
         newest.reset();
         held = Knee::startSquared;
         target = 1.0;
+        inKnee = false;
         position = 0;
         sum = static_cast<double>(length);
         lap = 0.0;
@@ -186,7 +197,7 @@ public:
         const double before = held;
         held = std::max(held * decay, newest.empty() ? Knee::startSquared : newest.largest());
         if (held != before)
-            target = held > Knee::startSquared ? Knee::gain(held) : 1.0;
+            target = gainOf(held == before * decay);
         unity = target == 1.0 ? unity + 1 : 0;
 
         sum += target - window[position];
@@ -198,16 +209,37 @@ public:
             lap = 0.0;
             position = 0;
         }
-        return sum / static_cast<double>(length);
+        return idle() ? 1.0 : std::min(sum * perLength, 1.0);
     }
 
 private:
+    /// The gain for what is held; `released`: it has fallen by one frame's release. Within a knee that is a step there,
+    /// which needs no logarithm: a limiter that lets go spends most of its time so.
+    double gainOf(bool released) noexcept
+    {
+        if constexpr (requires { Knee::gainAt(0.0); })
+        {
+            const bool wasInKnee = inKnee;
+            inKnee = held > Knee::startSquared && held < Knee::endSquared;
+            if (inKnee)
+            {
+                into = released && wasInKnee ? into + fall : Knee::into(held);
+                return Knee::gainAt(into);
+            }
+        }
+        return held > Knee::startSquared ? Knee::gain(held) : 1.0;
+    }
+
     SlidingMaximum newest; ///< of the levels that matter
     double decay = 1.0;
+    double fall = 0.0; ///< the same in nepers
     double held = Knee::startSquared;
+    bool inKnee = false;
+    double into = 0.0; ///< nepers
     double target = 1.0;
     std::size_t unity = 1; // how often the target has been 1 of late
     std::size_t length = 1;
+    double perLength = 1.0;
     std::size_t position = 0;
     double sum = 1.0;
     double lap = 0.0;

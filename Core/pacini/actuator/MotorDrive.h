@@ -38,6 +38,8 @@ public:
     {
         rise = follow(times.rise, fs);
         fall = follow(times.fall, fs);
+        perRise = 1.0 / rise;
+        perFall = 1.0 / fall;
     }
     void reset() noexcept { state = 0.0; }
 
@@ -45,7 +47,8 @@ public:
     double tick(double wanted, double lowest, double highest) noexcept
     {
         const double rate = wanted > state ? rise : fall;
-        const double drive = clampTo(rate < 1.0 ? state + (wanted - state) / rate : wanted, lowest, highest);
+        const double perRate = wanted > state ? perRise : perFall;
+        const double drive = clampTo(rate < 1.0 ? state + (wanted - state) * perRate : wanted, lowest, highest);
         state += rate * (drive - state);
         return drive;
     }
@@ -65,6 +68,8 @@ private:
 
     double rise = 1.0;
     double fall = 1.0;
+    double perRise = 1.0; ///< waiting for a division at every frame takes longer than all the rest
+    double perFall = 1.0;
     double state = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/HeldStep.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Pair.h>
 
 #include <array>
 #include <cstddef>
@@ -12,24 +13,21 @@
 namespace pacini
 {
 
-/// A held step for every frame of a group at once.
+/// A held step for every frame of a group at once. Displacement and velocity go side by side.
 struct GroupStep
 {
-    HeldStep all;
-    FrameGroup drivesToX{};
-    FrameGroup drivesToV{};
+    Pair fromX; ///< what a displacement adds to both
+    Pair fromV;
+    std::array<Pair, groupFrames> fromDrives{};
 
     [[nodiscard]] ResonatorState next(const ResonatorState& z, const FrameGroup& drives) const noexcept
     {
-        double x = 0.0;
-        double v = 0.0;
+        Pair driven(0.0);
         for (std::size_t k = 0; k < groupFrames; ++k)
-        {
-            x += drivesToX[k] * drives[k];
-            v += drivesToV[k] * drives[k];
-        }
-        return {(z.displacement + x) + (all.xx * z.displacement + all.xv * z.velocity),
-                (z.velocity + v) + (all.vx * z.displacement + all.vv * z.velocity)};
+            driven = driven + fromDrives[k] * Pair(drives[k]);
+        const Pair after =
+            (Pair(z.displacement, z.velocity) + driven) + (fromX * Pair(z.displacement) + fromV * Pair(z.velocity));
+        return {after.first(), after.second()};
     }
 };
 
@@ -38,14 +36,15 @@ struct GroupStep
 {
     GroupStep group;
     ResonatorState pushed{step.driveToX, step.driveToV};
-    group.all = step;
+    HeldStep all = step;
     for (std::size_t k = groupFrames; k-- > 0; pushed = step.free(pushed))
     {
-        group.drivesToX[k] = pushed.displacement;
-        group.drivesToV[k] = pushed.velocity;
+        group.fromDrives[k] = {pushed.displacement, pushed.velocity};
         if (k > 0)
-            group.all = group.all.then(step);
+            all = all.then(step);
     }
+    group.fromX = {all.xx, all.vx};
+    group.fromV = {all.xv, all.vv};
     return group;
 }
 

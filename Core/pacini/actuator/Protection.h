@@ -10,6 +10,7 @@
 #include <pacini/actuator/RunningMean.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Pair.h>
 
 #include <algorithm>
 #include <array>
@@ -139,7 +140,7 @@ public:
             const std::size_t frames = stretch(in.size() - begin);
             const std::span<float> to = out.subspan(begin, frames);
             const double peak = take(in.subspan(begin, frames));
-            if (!(wholeGroups(frames) && gain.idle() && passFreely(to, peak)))
+            if (!(wholeGroups(frames) && (passFreely(to, peak) || passGuarded(to, peak))))
                 for (std::size_t i = 0; i < frames; ++i)
                     to[i] = tick(line[position + i], line[position + i - latency]);
             position += frames;
@@ -175,7 +176,8 @@ private:
         return framesIntoGroup == 0 && frames % groupFrames == 0;
     }
 
-    /// Writes the input without its mean to the end of the delay line and returns its peak.
+    /// Writes the input without its mean to the end of the delay line and returns its peak. Of whole groups also finds
+    /// the free drive, which is played if nothing has to act: the second high-pass runs beside the first.
     double take(std::span<const float> in) noexcept
     {
         if (position + in.size() > line.size())
@@ -188,7 +190,7 @@ private:
         for (std::size_t i = 0; i < in.size(); ++i)
             to[i] = static_cast<double>(bearable(in[i]));
         if (wholeGroups(in.size()))
-            return highPass(to, to, inputMean);
+            return highPasses(to, std::span<const double>(line).subspan(position - latency, in.size()));
         double peak = 0.0;
         for (double& x : to)
         {
@@ -207,43 +209,65 @@ private:
         return std::abs(sample) <= std::numeric_limits<float>::max() ? clampTo(sample, -largest, largest) : 0.0f;
     }
 
-    /// Takes out of whole groups what `mean` follows; returns the peak of what remains.
-    static double highPass(std::span<const double> in, std::span<double> out, RunningMean& mean) noexcept
+    /// Takes the mean out of whole groups of the input, and the second one out of those that are `delayed`, which may
+    /// overlap: into `freeDrive`. Returns the peak of the first; that of the second is kept.
+    double highPasses(std::span<double> input, std::span<const double> delayed) noexcept
     {
-        RunningMean follower = mean;
-        double before = follower.value();
+        RunningMean mean = inputMean;
+        freeMean = outputMean;
+        Pair before(mean.value(), freeMean.value());
         double peak = 0.0;
-        for (std::size_t i = 0; i < in.size(); i += groupFrames)
+        freePeak = 0.0;
+        for (std::size_t i = 0; i < input.size(); i += groupFrames)
         {
-            const FrameGroup x = groupAt(in, i);
-            const FrameGroup means = follower.followGroup(x);
-            double groupPeak = 0.0;
+            std::array<Pair, groupFrames> x;
+            if (latency < groupFrames) // then the second waits for the first, and both for their sums
+            {
+                const FrameGroup in = groupAt(input, i);
+                const FrameGroup means = mean.followGroup(in);
+                for (std::size_t k = 0; k < groupFrames; ++k)
+                    input[i + k] = in[k] - (k == 0 ? before.first() : means[k - 1]);
+                const FrameGroup late = groupAt(delayed, i);
+                const FrameGroup lateMeans = freeMean.followGroup(late);
+                for (std::size_t k = 0; k < groupFrames; ++k)
+                    freeDrive[i + k] = late[k] - (k == 0 ? before.second() : lateMeans[k - 1]);
+                before = Pair(means.back(), lateMeans.back());
+            }
+            else
+            {
+                for (std::size_t k = 0; k < groupFrames; ++k)
+                    x[k] = Pair(input[i + k], delayed[i + k]);
+                const auto means = RunningMean::followGroups(mean, freeMean, x);
+                for (std::size_t k = 0; k < groupFrames; ++k)
+                {
+                    const Pair rest = x[k] - (k == 0 ? before : means[k - 1]);
+                    input[i + k] = rest.first();
+                    freeDrive[i + k] = rest.second();
+                }
+                before = means.back();
+            }
+            double groupPeak = 0.0, freeGroupPeak = 0.0;
             for (std::size_t k = 0; k < groupFrames; ++k)
             {
-                out[i + k] = x[k] - (k == 0 ? before : means[k - 1]);
-                groupPeak = std::max(groupPeak, std::abs(out[i + k]));
+                groupPeak = std::max(groupPeak, std::abs(input[i + k]));
+                freeGroupPeak = std::max(freeGroupPeak, std::abs(freeDrive[i + k]));
             }
             peak = std::max(peak, groupPeak);
-            before = means.back();
+            freePeak = std::max(freePeak, freeGroupPeak);
         }
-        mean = follower;
+        inputMean = mean;
         return peak;
     }
 
-    /// Does what tick() would do, for whole groups of frames in which no limit comes near; the gain is idle. Returns
-    /// false and changes nothing where that is not certain.
+    /// Does what tick() would do, for whole groups of frames in which no limit comes near. Returns false and changes
+    /// nothing where that is not certain.
     bool passFreely(std::span<float> out, double wantedPeak) noexcept
     {
-        if (wantedPeak * wantedPeak > SoftKnee::startSquared)
+        if (!gain.idle() || wantedPeak * wantedPeak > SoftKnee::startSquared || freePeak > 1.0)
             return false;
         const auto wanted = std::span<const double>(line).subspan(position, out.size());
-        std::array<double, longestStretch> room;
-        const auto played = std::span(room).first(out.size());
-        RunningMean mean = outputMean;
-        const double peak =
-            highPass(std::span<const double>(line).subspan(position - latency, out.size()), played, mean);
-        if (peak > 1.0)
-            return false;
+        const auto played = std::span(freeDrive).first(out.size());
+        const double peak = freePeak;
         for (double& drive : played)
             drive = inward(drive);
 
@@ -255,10 +279,88 @@ private:
             heat = heatBefore;
             return false;
         }
-        outputMean = mean;
+        outputMean = freeMean;
         for (std::size_t i = 0; i < out.size(); ++i)
             out[i] = static_cast<float>(played[i]);
         return true;
+    }
+
+    /// Does what tick() would do, for whole groups of frames in which something may come near its limit, in turn: which
+    /// gains the levels need, the drives, and only where these may be beyond a bound the bounds. Returns false and
+    /// changes nothing where a level depends on the drives, as that of heat does.
+    bool passGuarded(std::span<float> out, double wantedPeak) noexcept
+    {
+        std::array<double, longestStretch> gainRoom, driveRoom;
+        const auto gains = std::span(gainRoom).first(out.size());
+        const auto played = std::span(driveRoom).first(out.size());
+        const auto delayed = std::span<const double>(line).subspan(position - latency, out.size());
+        if (current.boundsAlone)
+            std::fill(gains.begin(), gains.end(), 1.0);
+        else if (!findGains(wantedPeak, gains))
+            return false;
+
+        RunningMean mean = outputMean;
+        double peak = 0.0;
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+            const double free = delayed[i] - mean.value();
+            const double drive = gains[i] * free;
+            peak = std::max(peak, std::abs(drive));
+            mean.follow(delayed[i], leakOfGain(gains[i]) * free);
+            played[i] = inward(drive);
+        }
+        if (peak <= 1.0 && advanceFreely(played, peak))
+        {
+            outputMean = mean;
+            for (std::size_t i = 0; i < out.size(); ++i)
+                out[i] = static_cast<float>(played[i]);
+        }
+        else
+            for (std::size_t i = 0; i < out.size(); ++i)
+                out[i] = play(delayed[i], gains[i]);
+        return true;
+    }
+
+    /// The gains for whole groups of frames of the input; false, without a change, where the heat may matter.
+    bool findGains(double wantedPeak, std::span<double> gains) noexcept
+    {
+        const auto wanted = std::span<const double>(line).subspan(position, gains.size());
+        if (current.heat && !heat.measureFreely(wanted, SoftKnee::startSquared))
+            return false;
+        for (std::size_t i = 0; i < gains.size(); ++i)
+            gains[i] = wanted[i] * wanted[i];
+        bool matters = wantedPeak * wantedPeak > SoftKnee::startSquared;
+        lastCall.level |= matters;
+        if (current.excursion)
+        {
+            const bool near =
+                excursion.measure(wanted, wantedPeak, SoftKnee::startSquared, gains) > SoftKnee::startSquared;
+            lastCall.excursion |= near;
+            matters = matters || near;
+        }
+        if (!matters && gain.idle())
+        {
+            std::fill(gains.begin(), gains.end(), 1.0);
+            return true;
+        }
+        for (double& g : gains)
+        {
+            g = gain.tick(g);
+            smallestGain = std::min(smallestGain, g);
+        }
+        return true;
+    }
+
+    /// Lets coil and mass follow drives by whole groups of frames if all are certain to be within the bounds.
+    bool advanceFreely(std::span<const double> played, double peak) noexcept
+    {
+        const CoilHeat before = heat;
+        if (current.heat && !heat.advanceFreely(played, peak))
+            return false;
+        if (!current.excursion || excursion.advanceFreely(played, peak))
+            return true;
+        heat = before;
+        return false;
     }
 
     /// One frame: from the input and the delayed input to the drive.
@@ -266,9 +368,19 @@ private:
     {
         const double g = current.boundsAlone ? 1.0 : gain.tick(measure(input));
         smallestGain = std::min(smallestGain, g);
+        return play(delayed, g);
+    }
+
+    /// What the mean of the output loses by a gain, in parts of the free drive.
+    [[nodiscard]] double leakOfGain(double g) const noexcept { return outputMean.leakPerFrame() * (g - 1.0); }
+
+    /// One frame: from the delayed input and its gain to the drive.
+    float play(double delayed, double g) noexcept
+    {
         const double free = delayed - outputMean.value();
-        const double drive = bounded(g * free);
-        outputMean.follow(delayed + (drive - free));
+        const double wanted = g * free;
+        const double drive = bounded(wanted);
+        outputMean.follow(delayed, drive == wanted ? leakOfGain(g) * free : outputMean.leakPerFrame() * (drive - free));
         const double played = inward(drive);
         if (current.heat)
             heat.advance(played);
@@ -335,7 +447,10 @@ private:
     std::size_t position = 0; ///< of the next input in the line
     std::size_t framesIntoGroup = 0;
     RunningMean inputMean;
-    RunningMean outputMean; ///< leak times the sum of the output
+    RunningMean outputMean;                         ///< leak times the sum of the output
+    std::array<double, longestStretch> freeDrive{}; ///< of the stretch at hand, its peak and the mean after it
+    double freePeak = 0.0;
+    RunningMean freeMean;
     double smallestGain = 1.0;
     ProtectionMeter lastCall;
 };

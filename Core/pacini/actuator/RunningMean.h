@@ -4,8 +4,10 @@
 
 #include <pacini/actuator/FrameGroup.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Pair.h>
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 
 namespace pacini
@@ -17,15 +19,15 @@ class RunningMean
 {
 public:
     /// `leak` between 0 and 1. The mean goes on; a group begins.
-    void design(double leakPerFrame) noexcept
+    void design(double leakOfFrame) noexcept
     {
         start = value();
         added = 0.0;
         position = 0;
-        leak = leakPerFrame;
+        leak = leakOfFrame;
         keep = 1.0 - leak;
         // keep^k - 1: the 1 would swallow the digits of small leaks
-        for (std::size_t k = 0; k < groupFrames; ++k)
+        for (std::size_t k = 0; k < partFrames; ++k)
             lost[k + 1] = lost[k] - leak * (1.0 + lost[k]);
     }
 
@@ -37,28 +39,59 @@ public:
 
     [[nodiscard]] double value() const noexcept { return after(position, added); }
 
-    void follow(double x) noexcept
+    void follow(double x) noexcept { follow(x, 0.0); }
+
+    /// Follows x + rest, where `leakOfRest` is leakPerFrame() times the rest: if the rest comes late because it depends
+    /// on the mean, only this waits for it.
+    void follow(double x, double leakOfRest) noexcept
     {
-        added = keep * added + leak * x;
-        if (++position < groupFrames)
+        added = (keep * added + leak * x) + leakOfRest;
+        if (++position < partFrames)
             return;
         start = value();
         added = 0.0;
         position = 0;
     }
+    [[nodiscard]] double leakPerFrame() const noexcept { return leak; }
 
     /// Follows the `groupFrames` numbers of a whole group and returns the mean after each of them. Only at the start of
     /// a group.
     FrameGroup followGroup(const FrameGroup& x) noexcept
     {
         FrameGroup means;
-        double part = 0.0;
-        for (std::size_t k = 0; k < groupFrames; ++k)
+        for (std::size_t i = 0; i < groupFrames; i += partFrames)
         {
-            part = keep * part + leak * x[k];
-            means[k] = after(k + 1, part);
+            double part = 0.0;
+            for (std::size_t k = 0; k < partFrames; ++k)
+            {
+                part = keep * part + leak * x[i + k];
+                means[i + k] = after(k + 1, part);
+            }
+            start = means[i + partFrames - 1];
         }
-        start = means.back();
+        return means;
+    }
+
+    /// followGroup() of two means with the same leak, side by side: their numbers are those of the first and the
+    /// second.
+    [[nodiscard]] static std::array<Pair, groupFrames> followGroups(RunningMean& first, RunningMean& second,
+                                                                    const std::array<Pair, groupFrames>& x) noexcept
+    {
+        assert(first.leak == second.leak);
+        std::array<Pair, groupFrames> means;
+        Pair starts(first.start, second.start);
+        for (std::size_t i = 0; i < groupFrames; i += partFrames)
+        {
+            Pair part(0.0);
+            for (std::size_t k = 0; k < partFrames; ++k)
+            {
+                part = Pair(first.keep) * part + Pair(first.leak) * x[i + k];
+                means[i + k] = starts + (Pair(first.lost[k + 1]) * starts + part);
+            }
+            starts = means[i + partFrames - 1];
+        }
+        first.start = means.back().first();
+        second.start = means.back().second();
         return means;
     }
 
@@ -69,6 +102,9 @@ public:
     }
 
 private:
+    /// Within a group the mean is kept anew so often: parts of it do not wait for each other.
+    static constexpr std::size_t partFrames = groupFrames / 2;
+
     [[nodiscard]] double after(std::size_t frames, double part) const noexcept
     {
         return start + (lost[frames] * start + part);
@@ -76,7 +112,7 @@ private:
 
     double leak = 0.0;
     double keep = 1.0;
-    std::array<double, groupFrames + 1> lost{};
+    std::array<double, partFrames + 1> lost{};
     double start = 0.0;
     double added = 0.0;
     std::size_t position = 0;

@@ -145,36 +145,38 @@ public:
     bool advanceFreely(std::span<const double> wanted, double wantedPeak, std::span<const double> played,
                        double playedPeak, double maxMeasure) noexcept
     {
-        if (!(playedPeak <= guard.driveLimit))
-            return false;
-        const auto go = [this](Modes& modes, std::span<const double> drive)
+        Following inWanted(asWanted, guard);
+        Following inPlayed(moved, guard);
+        for (std::size_t n = 0; n < wanted.size(); n += groupFrames)
         {
-            double sum = 0.0;
-            for (std::size_t i = 0; i < guard.groups.size(); ++i)
-            {
-                ResonatorState state = modes.now[i];
-                double most = state.energy();
-                for (std::size_t n = 0; n < drive.size(); n += groupFrames)
-                {
-                    state = guard.groups[i].next(state, groupAt(drive, n));
-                    most = std::max(most, state.energy());
-                }
-                modes.now[i] = modes.start[i] = state;
-                sum += std::sqrt(most);
-            }
-            return sum;
-        };
-        Modes wantedModes = asWanted;
-        Modes playedModes = moved;
-        constexpr double safely = 1.0 - 1e-6; // far more than rounding
-        if (!(go(wantedModes, wanted) + guard.groupReach * wantedPeak <=
-              safely * std::sqrt(maxMeasure / perWantedLimit)))
+            inWanted.follow(groupAt(wanted, n), guard);
+            inPlayed.follow(groupAt(played, n), guard);
+        }
+        if (!stays(inWanted, wantedPeak, std::sqrt(maxMeasure / perWantedLimit)) ||
+            !stays(inPlayed, playedPeak, guard.limit))
             return false;
-        if (!(go(playedModes, played) + guard.groupReach * playedPeak <= safely * guard.limit))
-            return false;
-        asWanted = wantedModes;
-        moved = playedModes;
+        inWanted.moveTo(asWanted, guard);
+        inPlayed.moveTo(moved, guard);
         return true;
+    }
+
+    double measure(std::span<const double> wanted, double peak, double maxMeasure, std::span<double> levels) noexcept
+    {
+        if (followFreely(asWanted, wanted, peak, std::sqrt(maxMeasure / perWantedLimit)))
+            return 0.0;
+        double largest = 0.0;
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+        {
+            const double level = measure(wanted[i]);
+            levels[i] = std::max(levels[i], level);
+            largest = std::max(largest, level);
+        }
+        return largest;
+    }
+
+    bool advanceFreely(std::span<const double> played, double peak) noexcept
+    {
+        return peak <= guard.driveLimit && followFreely(moved, played, peak, guard.limit);
     }
 
     void flush() noexcept
@@ -223,6 +225,55 @@ private:
                 }
         }
     };
+
+    /// Modes that follow whole groups, and their highest energies so far. All go side by side: each of them waits for
+    /// its own last state.
+    struct Following
+    {
+        std::array<ResonatorState, WornCoefficients::maxModes> states;
+        std::array<double, WornCoefficients::maxModes> most{};
+
+        Following(const Modes& modes, const WornCoefficients& coefficients) noexcept : states(modes.now)
+        {
+            for (std::size_t i = 0; i < coefficients.groups.size(); ++i)
+                most[i] = states[i].energy();
+        }
+        void follow(const FrameGroup& drives, const WornCoefficients& coefficients) noexcept
+        {
+            for (std::size_t i = 0; i < coefficients.groups.size(); ++i)
+            {
+                states[i] = coefficients.groups[i].next(states[i], drives);
+                most[i] = std::max(most[i], states[i].energy());
+            }
+        }
+        void moveTo(Modes& modes, const WornCoefficients& coefficients) const noexcept
+        {
+            for (std::size_t i = 0; i < coefficients.groups.size(); ++i)
+                modes.now[i] = modes.start[i] = states[i];
+        }
+    };
+
+    /// Whether the sum of the amplitudes has certainly been within `limit`, between the groups' ends, too.
+    [[nodiscard]] bool stays(const Following& modes, double peak, double limit) const noexcept
+    {
+        constexpr double safely = 1.0 - 1e-6; // far more than rounding
+        double sum = 0.0;
+        for (std::size_t i = 0; i < guard.groups.size(); ++i)
+            sum += std::sqrt(modes.most[i]);
+        return sum + guard.groupReach * peak <= safely * limit;
+    }
+
+    /// Lets modes follow whole groups if the sum of their amplitudes is then certain to stay within `limit`.
+    bool followFreely(Modes& modes, std::span<const double> drive, double peak, double limit) const noexcept
+    {
+        Following following(modes, guard);
+        for (std::size_t n = 0; n < drive.size(); n += groupFrames)
+            following.follow(groupAt(drive, n), guard);
+        if (!stays(following, peak, limit))
+            return false;
+        following.moveTo(modes, guard);
+        return true;
+    }
 
     /// The largest part of `drive` after which the sum of amplitudes is within its limit.
     ///

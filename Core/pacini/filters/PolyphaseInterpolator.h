@@ -14,6 +14,94 @@
 namespace pacini
 {
 
+/// The rows of a polyphase filter: for each of some numbers its weights in the output frames of all phases. What is
+/// computed at once are neighbouring frames, not neighbouring products: no sum has to be taken apart.
+class PolyphaseRows
+{
+public:
+    PolyphaseRows() = default;
+    PolyphaseRows(std::size_t phases, std::size_t rows)
+        : ratio(phases), stride((phases + width - 1) / width * width), weights(rows * stride, 0.0f)
+    {
+    }
+
+    [[nodiscard]] float& at(std::size_t row, std::size_t phase) noexcept { return weights[row * stride + phase]; }
+    [[nodiscard]] float at(std::size_t row, std::size_t phase) const noexcept { return weights[row * stride + phase]; }
+
+    /// One output frame for each phase: what the first rows make of `first`, and those after them of `second`.
+    void process(std::span<const float> first, std::span<const float> second, float* target) const noexcept
+    {
+        for (std::size_t p = 0; p < ratio;)
+            p += outputs(first, second, p, target + p);
+    }
+
+private:
+    static constexpr std::size_t width = 4; ///< outputs in one vector register
+
+    /// Computes the outputs from phase `p` on, as many as there are registers for, and returns their number. A sum
+    /// waits for its last addition at every row: several registers side by side wait at the same time.
+    std::size_t outputs(std::span<const float> first, std::span<const float> second, std::size_t p,
+                        float* target) const noexcept
+    {
+        const std::size_t left = ratio - p;
+        if (left > 3 * width)
+            return outputs<4>(first, second, p, target);
+        if (left > 2 * width)
+            return outputs<3>(first, second, p, target);
+        return left > width ? outputs<2>(first, second, p, target) : outputs<1>(first, second, p, target);
+    }
+
+    template <std::size_t registers>
+    std::size_t outputs(std::span<const float> first, std::span<const float> second, std::size_t p,
+                        float* target) const noexcept
+    {
+        float sums[registers * width] = {};
+        const float* row = weights.data() + p;
+        for (std::size_t i = 0; i < first.size(); ++i, row += stride)
+            for (std::size_t k = 0; k < registers * width; ++k)
+                sums[k] += first[i] * row[k];
+        for (std::size_t i = 0; i < second.size(); ++i, row += stride)
+            for (std::size_t k = 0; k < registers * width; ++k)
+                sums[k] += second[i] * row[k];
+        const std::size_t count = std::min(registers * width, ratio - p);
+        std::copy_n(sums, count, target);
+        return count;
+    }
+
+    std::size_t ratio = 1;
+    std::size_t stride = width; // ratio rounded up to whole vector registers
+    std::vector<float> weights; // [row][stride]
+};
+
+/// The newest numbers of a signal, newest first and always in one piece.
+class NewestFirst
+{
+public:
+    explicit NewestFirst(std::size_t count = 1) : length(count), kept(2 * count, 0.0f) {}
+
+    void reset() noexcept { std::fill(kept.begin(), kept.end(), 0.0f); } // then it does not matter where the newest is
+
+    /// Takes the next number and returns the newest ones.
+    std::span<const float> push(float x) noexcept
+    {
+        // Each is kept twice.
+        newest = newest == 0 ? length - 1 : newest - 1;
+        kept[newest] = x;
+        kept[newest + length] = x;
+        return std::span(kept).subspan(newest, length);
+    }
+
+    [[nodiscard]] bool silent() const noexcept
+    {
+        return std::all_of(kept.begin(), kept.end(), [](float x) { return x == 0.0f; });
+    }
+
+private:
+    std::size_t length;
+    std::vector<float> kept;
+    std::size_t newest = 0;
+};
+
 /// Interpolation by a whole factor with a windowed-sinc filter in polyphase form (Crochiere and Rabiner, "Multirate
 /// Digital Signal Processing", 1983, ch. 2): every output frame costs `taps` products. Linear phase; the delay is
 /// latencyFrames() output frames. Frequencies up to `pass` (cycles per input frame) keep their level within 0.01 dB,
@@ -23,27 +111,27 @@ class PolyphaseInterpolator
 {
 public:
     /// `pass` in (0, 0.45).
-    PolyphaseInterpolator(std::size_t factor, double pass) : ratio(factor), stride((factor + width - 1) / width * width)
+    PolyphaseInterpolator(std::size_t factor, double pass) : ratio(factor)
     {
         assert(factor >= 1 && pass > 0.0 && pass < 0.45);
         if (ratio == 1)
         {
-            tapsPerPhase = 1;
-            coefficients.assign(width, 1.0f);
+            coefficients = PolyphaseRows(1, 1);
+            coefficients.at(0, 0) = 1.0f;
         }
         else
             design(pass);
-        history.assign(2 * tapsPerPhase, 0.0f);
+        history = NewestFirst(tapsPerPhase);
     }
 
     [[nodiscard]] std::size_t factor() const noexcept { return ratio; }
     [[nodiscard]] std::size_t latencyFrames() const noexcept { return (tapsPerPhase / 2) * ratio; }
 
-    void reset() noexcept
-    {
-        for (float& v : history) // of zeros it does not matter where the newest one is
-            v = 0.0f;
-    }
+    /// A row for each input frame that an output frame depends on, the newest first.
+    [[nodiscard]] const PolyphaseRows& rows() const noexcept { return coefficients; }
+    [[nodiscard]] std::size_t taps() const noexcept { return tapsPerPhase; }
+
+    void reset() noexcept { history.reset(); }
 
     /// `out` has factor() times as many frames as `in`.
     void process(std::span<const float> in, std::span<float> out) noexcept
@@ -52,45 +140,12 @@ public:
         float* target = out.data();
         for (const float x : in)
         {
-            // Each sample is kept twice, so that the newest `taps` always lie in one piece.
-            write = write == 0 ? tapsPerPhase - 1 : write - 1;
-            history[write] = x;
-            history[write + tapsPerPhase] = x;
-            const float* newest = history.data() + write;
-            for (std::size_t p = 0; p < ratio;)
-                p += outputs(newest, p, target + p);
+            coefficients.process(history.push(x), {}, target);
             target += ratio;
         }
     }
 
 private:
-    static constexpr std::size_t width = 4; ///< outputs in one vector register
-
-    /// Computes the outputs from phase `p` on, as many as there are registers for, and returns their number. A sum
-    /// waits for its last addition at every tap: several registers side by side wait at the same time.
-    std::size_t outputs(const float* newest, std::size_t p, float* target) const noexcept
-    {
-        const std::size_t left = ratio - p;
-        if (left > 3 * width)
-            return outputs<4>(newest, p, target);
-        if (left > 2 * width)
-            return outputs<3>(newest, p, target);
-        return left > width ? outputs<2>(newest, p, target) : outputs<1>(newest, p, target);
-    }
-
-    template <std::size_t registers>
-    std::size_t outputs(const float* newest, std::size_t p, float* target) const noexcept
-    {
-        float sums[registers * width] = {};
-        const float* row = coefficients.data() + p;
-        for (std::size_t i = 0; i < tapsPerPhase; ++i, row += stride)
-            for (std::size_t k = 0; k < registers * width; ++k)
-                sums[k] += newest[i] * row[k];
-        const std::size_t count = std::min(registers * width, ratio - p);
-        std::copy_n(sums, count, target);
-        return count;
-    }
-
     void design(double pass)
     {
         constexpr double attenuation = 80.0;
@@ -100,23 +155,21 @@ private:
         tapsPerPhase += tapsPerPhase % 2;
         const KaiserWindow window(kaiserBeta(attenuation));
         const double half = 0.5 * static_cast<double>(tapsPerPhase);
-        coefficients.assign(tapsPerPhase * stride, 0.0f);
+        coefficients = PolyphaseRows(ratio, tapsPerPhase);
         for (std::size_t p = 0; p < ratio; ++p)
         {
             // Input i steps back from the newest, seen from an output p / factor steps after the middle one.
             const auto row = windowedSinc(tapsPerPhase, 0.5, static_cast<double>(p) / static_cast<double>(ratio), half,
                                           window, half);
             for (std::size_t i = 0; i < tapsPerPhase; ++i)
-                coefficients[i * stride + p] = static_cast<float>(row[i]);
+                coefficients.at(i, p) = static_cast<float>(row[i]);
         }
     }
 
     std::size_t ratio;
-    std::size_t stride; // ratio rounded up to whole vector registers
     std::size_t tapsPerPhase = 1;
-    std::vector<float> coefficients; // [tap][stride]
-    std::vector<float> history;
-    std::size_t write = 0;
+    PolyphaseRows coefficients;
+    NewestFirst history;
 };
 
 } // namespace pacini

@@ -23,8 +23,10 @@ namespace pacini
 class ActuatorOutput
 {
 public:
-    /// `protect`: keep within full drive and the limits of the profile; looks ahead by `lookAhead`. Allocates.
-    ActuatorOutput(const RenderPlan& plan, const ProcessSpec& spec, bool protect, Seconds lookAhead)
+    /// `protect`: keep within full drive and the limits of the profile; looks ahead by `lookAhead`. `filtered`: what
+    /// comes has passed the output filter already. Allocates.
+    ActuatorOutput(const RenderPlan& plan, const ProcessSpec& spec, bool protect, Seconds lookAhead,
+                   bool filtered = false)
     {
         if (!plan.profile)
             addLimiter(spec, lookAhead);
@@ -34,7 +36,7 @@ public:
             scale = 1.0 / plan.profile->drive.overdrive;
             if (plan.motor)
                 addMotor(*plan.profile, spec, protect);
-            else
+            else if (!filtered)
                 addFilter(plan, spec);
             if (!plan.motor && protect)
                 addProtection(*plan.profile, spec, lookAhead);

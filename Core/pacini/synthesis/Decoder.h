@@ -3,6 +3,8 @@
 // Clip decoder: Clip -> samples.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/filters/BiquadCascade.h>
+#include <pacini/filters/FilteringInterpolator.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
@@ -73,6 +75,20 @@ public:
         reset();
     }
 
+    /// From now on puts out what `filter` makes of the clip, which ends at frame `until` at the latest and then rings
+    /// on. For the price of a few more taps of the interpolator, where a filter at the output rate costs as much as all
+    /// the rest. An event's start is then decided up to a hop ahead. Allocates; before the first frame. [worker]
+    void filterBy(const BiquadCascadeCoefficients& filter, std::int64_t until)
+    {
+        filtering = std::make_unique<FilteringInterpolator>(*interpolator, filter);
+        cutFrame = until;
+        added.assign(plan.pulses > 0 ? ready.size() : 0, 0.0f);
+        reset();
+    }
+
+    /// Whether a filter may ring on. [audio]
+    [[nodiscard]] bool rings() const noexcept { return filtering && !filtering->silent(); }
+
     /// Length of the clip with its delay and stretch, as far as changes are known.
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
 
@@ -113,9 +129,11 @@ public:
         for (std::size_t pass = 0; pass < envelopes.size(); ++pass)
             envelopeReaders[pass] = CurveReader(envelopes[pass]);
         interpolator->reset();
+        if (filtering)
+            filtering->reset();
         innerFrame = 0;
         readyFrom = ready.size();
-        skip = interpolator->latencyFrames() + (leveller ? leveller->latencyFrames() * ratio : 0);
+        skip = allSkipped();
         position = 0;
         pulses.reset();
     }
@@ -123,6 +141,11 @@ public:
     /// Writes the next frames of the drive signal; silence after the end. [audio]
     void process(std::span<float> out) noexcept
     {
+        if (filtering)
+        {
+            processFiltered(out);
+            return;
+        }
         std::size_t done = 0;
         if (position < delayFrames)
         {
@@ -142,7 +165,7 @@ public:
             done += n;
         }
         std::fill(out.begin() + static_cast<std::ptrdiff_t>(done), out.end(), 0.0f);
-        addEvents(out.first(done));
+        addEvents(out.first(done), position);
         position += static_cast<std::int64_t>(out.size());
     }
 
@@ -350,6 +373,35 @@ private:
         }
     }
 
+    void processFiltered(std::span<float> out) noexcept
+    {
+        std::size_t done = 0;
+        while (done < out.size() && (position + static_cast<std::int64_t>(done) < lastFrame() || !filtering->silent()))
+        {
+            const std::int64_t waiting = delayFrames - position - static_cast<std::int64_t>(done);
+            if (waiting > 0)
+            {
+                const auto n =
+                    static_cast<std::size_t>(std::min(waiting, static_cast<std::int64_t>(out.size() - done)));
+                std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(done), n, 0.0f);
+                done += n;
+                continue;
+            }
+            if (readyFrom == ready.size())
+                makeHop();
+            const std::size_t n = std::min(out.size() - done, ready.size() - readyFrom);
+            std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(readyFrom), n,
+                        out.begin() + static_cast<std::ptrdiff_t>(done));
+            readyFrom += n;
+            done += n;
+        }
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(done), out.end(), 0.0f);
+        position += static_cast<std::int64_t>(out.size());
+    }
+
+    /// Where a filtered clip ends.
+    [[nodiscard]] std::int64_t lastFrame() const noexcept { return std::min(endFrame, cutFrame); }
+
     void makeHop() noexcept
     {
         do
@@ -365,12 +417,46 @@ private:
             }
             for (std::size_t n = 0; n < hopFrames; ++n)
                 inner[n] = toSample(parts[0].im[n]); // sines, as in Eq. 4.13
-            interpolator->process(inner, ready);
+            if (filtering)
+                raiseFiltered();
+            else
+                interpolator->process(inner, ready);
             innerFrame += static_cast<std::int64_t>(hopFrames);
             const std::size_t skipped = std::min(skip, ready.size());
             skip -= skipped;
             readyFrom = skipped;
         } while (readyFrom == ready.size());
+    }
+
+    /// The hop at the output rate, with its events, cut where the clip begins and ends, behind the filter.
+    void raiseFiltered() noexcept
+    {
+        // The output frame at which `ready` begins: less is skipped now only if it has already been.
+        const std::int64_t skipped =
+            innerFrame * static_cast<std::int64_t>(ratio) - static_cast<std::int64_t>(allSkipped());
+        const std::int64_t first = delayFrames + skipped;
+        const auto clipped = [&](std::int64_t frame)
+        {
+            return static_cast<std::size_t>(
+                std::clamp<std::int64_t>(frame - first, 0, static_cast<std::int64_t>(ready.size())));
+        };
+        const FilteringInterpolator::Counted counted{clipped(delayFrames), clipped(lastFrame())};
+        if (counted.from == counted.to)
+            std::fill(inner.begin(), inner.end(), 0.0f); // only what was before the end still counts, and is cut
+        if (!added.empty())
+        {
+            std::fill(added.begin(), added.end(), 0.0f);
+            if (counted.from < counted.to)
+                addEvents(std::span(added).subspan(counted.from, counted.to - counted.from),
+                          first + static_cast<std::int64_t>(counted.from));
+        }
+        filtering->process(inner, added, counted, ready);
+    }
+
+    /// The frames of the interpolator in front of the clip's first one.
+    [[nodiscard]] std::size_t allSkipped() const noexcept
+    {
+        return interpolator->latencyFrames() + (leveller ? leveller->latencyFrames() * ratio : 0);
     }
 
     /// One hop of the sinusoids and noise of each part.
@@ -447,9 +533,10 @@ private:
         return from;
     }
 
-    void addEvents(std::span<float> out) noexcept
+    /// Adds the events to `out`, whose first frame is `from`.
+    void addEvents(std::span<float> out, std::int64_t from) noexcept
     {
-        pulses.process(out, position,
+        pulses.process(out, from,
                        [this](const PulseEvent& event)
                        {
                            const double frame = outputFrameOf(event.clipFrame);
@@ -472,13 +559,15 @@ private:
     std::vector<Part> parts;
     std::unique_ptr<EnvelopeLeveller> leveller;
     std::unique_ptr<PolyphaseInterpolator> interpolator;
+    std::unique_ptr<FilteringInterpolator> filtering; ///< in its place, with a filter
+    std::int64_t cutFrame = std::numeric_limits<std::int64_t>::max();
     std::vector<Curve> envelopes; // of each pass, time in inner frames
     std::vector<CurveReader> envelopeReaders;
     PulseTrain pulses;
     DecoderReport plan;
 
     std::vector<double> wantedEnvelope;
-    std::vector<float> inner, ready;
+    std::vector<float> inner, ready, added;
     std::int64_t innerFrame = 0;
     std::size_t readyFrom = 0;
     std::size_t skip = 0;

@@ -167,12 +167,15 @@ public:
     [[nodiscard]] bool ended() const noexcept { return over; }
     [[nodiscard]] const Decoder* decoding() const noexcept { return decoder.get(); }
 
-    /// Makes the decoder and the delay line. [worker]
-    void prepare(const PlannedPlay& play)
+    /// Makes the decoder, with `filter` behind it if there is one, and the delay line; the scene ends at frame `until`.
+    /// [worker]
+    void prepare(const PlannedPlay& play, const BiquadCascadeCoefficients* filter = nullptr, std::int64_t until = 0)
     {
         DecoderParams params = play.decoder;
         params.sampleRate = fs;
         decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes);
+        if (filter != nullptr)
+            decoder->filterBy(*filter, until - start);
         if (play.timeline.delays.empty())
             return;
         double longest = 0.0;
@@ -211,7 +214,7 @@ public:
             decoder->process(target.out.front().subspan(target.at + from, n));
         else
             addTo(play, target.out, target.at + from, now, std::span(buffers.mono).first(n), buffers);
-        over = now + static_cast<std::int64_t>(n) >= start + decoder->totalFrames() + tail;
+        over = now + static_cast<std::int64_t>(n) >= start + decoder->totalFrames() + tail && !decoder->rings();
     }
 
 private:

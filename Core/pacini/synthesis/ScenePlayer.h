@@ -2,7 +2,9 @@
 
 // Scene player: RenderPlan -> drive signals.
 
+#include <pacini/actuator/OutputFilter.h>
 #include <pacini/actuator/Protection.h>
+#include <pacini/filters/BiquadCascade.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Units.h>
@@ -17,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,9 +59,14 @@ public:
     {
         for (const PlannedPlay& planned : plan.plays)
             voices.emplace_back(planned, plan.actuators, fs);
+        if (isOnePlay(plan))
+            voiceFilter = designOutputFilter({plan.profile->equalizer, plan.flattening}, fs);
+        if (voiceFilter && voiceFilter->sections.empty())
+            voiceFilter.reset();
+        const bool filtered = voiceFilter.has_value();
         if (plan.profile || params.protect)
             for (std::size_t a = 0; a < plan.actuators; ++a)
-                outputs.emplace_back(plan, ProcessSpec{fs, blockFrames}, params.protect, params.lookAhead);
+                outputs.emplace_back(plan, ProcessSpec{fs, blockFrames}, params.protect, params.lookAhead, filtered);
         if (!outputs.empty())
             preRoll = outputs.front().latencyFrames();
         discarded.resize(plan.actuators * blockFrames);
@@ -146,9 +154,20 @@ private:
     static constexpr std::size_t blockFrames = MixBuffers::frames;
     static constexpr double maxGain = 1000.0; // 60 dB, as in scenes
 
+    /// Whether all that the output filter gets is one play as it is: then its decoder filters it, which costs less. The
+    /// play's live gain acts behind the filter then.
+    [[nodiscard]] static bool isOnePlay(const RenderPlan& plan) noexcept
+    {
+        if (!plan.profile || plan.motor || plan.actuators != 1 || plan.plays.size() != 1)
+            return false;
+        const PlayTimeline& timeline = plan.plays.front().timeline;
+        return timeline.delays.empty() && timeline.gains.size() == 1 && timeline.gains[0].size() == 1 &&
+               timeline.gains[0][0].value == 1.0;
+    }
+
     void prepare(PlayVoice& voice, const PlannedPlay& planned)
     {
-        voice.prepare(planned);
+        voice.prepare(planned, voiceFilter ? &*voiceFilter : nullptr, endFrame);
         const Decoder& decoder = *voice.decoding();
         decoded.push_back(
             {planned.play, planned.start, static_cast<double>(decoder.totalFrames()) / fs, decoder.report()});
@@ -171,7 +190,9 @@ private:
     void mixVoices(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
     {
         const std::int64_t left = endFrame - position;
-        const auto sounding = static_cast<std::size_t>(std::clamp<std::int64_t>(left, 0, static_cast<std::int64_t>(n)));
+        // A filter rings on behind the end.
+        const std::size_t sounding =
+            voiceFilter ? n : static_cast<std::size_t>(std::clamp<std::int64_t>(left, 0, static_cast<std::int64_t>(n)));
         const std::int64_t end = position + static_cast<std::int64_t>(sounding);
         while (first < voices.size() && voices[first].ended())
             ++first;
@@ -194,6 +215,7 @@ private:
     std::int64_t endFrame;
     std::vector<PlayVoice> voices; // as plan.plays
     std::vector<DecodedPlay> decoded;
+    std::optional<BiquadCascadeCoefficients> voiceFilter; // where the one voice is filtered, not the output
     std::vector<ActuatorOutput> outputs;
     std::size_t preRoll = 0;
     MixBuffers buffers;

@@ -143,6 +143,10 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
     Scene scene;
     scene.clips = {clip};
     scene.plays.resize(1);
+    const auto flatPlan = compilePlan(scene);
+    if (!flatPlan)
+        return;
+    const double flat = timed(settings.repeats, [&] { return drive(*flatPlan); }).seconds;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder()))
     {
         const auto profile = readProfile(shipped.path);
@@ -155,6 +159,7 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
                 continue;
             const auto run =
                 timed(settings.repeats, [&] { return drive(compilePlan(scene, &*profile, way.params).value()); });
+            const double rendering = timed(settings.repeats, [&] { return drive(*plan); }).seconds;
             const auto acceleration = felt(run.result, *profile);
             const std::span<const float> skin(acceleration);
             const auto features = htsCandidateFeatures(analyzer, skin, 48000);
@@ -162,8 +167,8 @@ void measureActuators(const BenchSound& sound, const BenchSettings& settings, Be
             if (!features || !track)
                 continue;
             const HtsScore score = compare(*source, *features, HtsMode::translation);
-            rows.add({sound.name, shipped.name, way.name, clip.duration, run.seconds, score.score, 100.0 * score.wide,
-                      100.0 * score.band, 100.0 * score.spectrum, 100.0 * score.event,
+            rows.add({sound.name, shipped.name, way.name, clip.duration, run.seconds, rendering, flat, score.score,
+                      100.0 * score.wide, 100.0 * score.band, 100.0 * score.spectrum, 100.0 * score.event,
                       predictedMatch(matchParts(*heard, *track)), shareOnResonance(*plan, *profile),
                       levelOf(acceleration)});
         }
@@ -183,10 +188,14 @@ Bench actuatorsBench()
         "compare the sound with the acceleration at the skin that the profile's body model predicts (with the drive "
         "where there is none). On resonance is the part of the energy of the clip's bands that is played where the "
         "actuator needs least drive, in the half-power band of its resonance. Level is the felt acceleration in dB "
-        "below or above 1 m/s^2 RMS: strength trades likeness for it. --sweep also takes small steps of strength and "
+        "below or above 1 m/s^2 RMS: strength trades likeness for it. Times real time is planning and rendering; "
+        "rendering is that without the plan, and of flat how fast it is beside the same clip without a profile (1 = as "
+        "fast). --sweep also takes small steps of strength and "
         "other boosts.",
         columnsOf({"profile", "played"}, {summed("duration", "s"),
                                           summed("seconds", "s"),
+                                          summed("renderSeconds", "s"),
+                                          summed("flatSeconds", "s"),
                                           {"HTS", ""},
                                           {"wide", "%"},
                                           {"band", "%"},
@@ -195,7 +204,9 @@ Bench actuatorsBench()
                                           {"match", ""},
                                           {"onResonance", "%"},
                                           {"level", "dB"},
-                                          {"timesRealTime", "", Reduction::ratio, "duration", "seconds"}}),
+                                          {"timesRealTime", "", Reduction::ratio, "duration", "seconds"},
+                                          {"rendering", "", Reduction::ratio, "duration", "renderSeconds"},
+                                          {"ofFlat", "", Reduction::ratio, "flatSeconds", "renderSeconds"}}),
         {{"", "Likeness against felt level", "profile", "level", "HTS", "played"},
          {"match", "Predicted match against felt level", "profile", "level", "match", "played"}},
         {},
