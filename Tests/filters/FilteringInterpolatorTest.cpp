@@ -100,6 +100,35 @@ TEST_CASE("An interpolator that filters puts out what an interpolator and a filt
         }
 }
 
+TEST_CASE("An interpolator that filters stays with the filter at stiff resonances and at the highest rate", "[filters]")
+{
+    // f0/fs down to 6.5e-7 and Q up to 1e4: a pole within 1e-10 of the unit circle.
+    for (const double q : {10.0, 1e3, 1e4})
+        for (const double frequency : {0.5, 65.9, 999.0})
+        {
+            CAPTURE(q, frequency);
+            const std::size_t factor = 192;
+            BiquadCascadeCoefficients cascade;
+            cascade.sections.pushBack(
+                designStateVariable({BiquadType::peak, Hertz(frequency), q, Decibels(24.0)}, 768000.0));
+            cascade.sections.pushBack(
+                designStateVariable({BiquadType::peak, Hertz(frequency), q, Decibels(-18.0)}, 768000.0));
+            const auto x = noise(6000, 3);
+            const FilteringInterpolator::Counted all{0, x.size() * factor};
+            FilteringInterpolator interpolator(PolyphaseInterpolator(factor, 0.3), cascade);
+            const auto found = filtered(interpolator, x, {}, all, 64);
+            const auto expected = oneAfterTheOther(factor, 0.3, cascade, x, {}, all);
+            double most = 0.0, worst = 0.0;
+            for (std::size_t n = 0; n < found.size(); ++n)
+            {
+                REQUIRE(std::isfinite(found[n]));
+                most = std::max(most, std::abs(expected[n]));
+                worst = std::max(worst, std::abs(static_cast<double>(found[n]) - expected[n]));
+            }
+            CHECK(worst < 1.5e-6 * std::max(1.0, most));
+        }
+}
+
 TEST_CASE("An interpolator that filters is cut and added to in any frame in front of the filter", "[filters]")
 {
     for (const std::size_t factor : {1u, 3u, 12u})
