@@ -217,7 +217,12 @@ void PreviewEngine::take() noexcept
 {
     // Only when no fade is under way: the old piece may go only when it is silent.
     if (next != nullptr)
-        return;
+    {
+        // What waits in silence has not been heard, and may be of a start before: a newer one takes its place.
+        if (level > 0.0 || !hand.waiting())
+            return;
+        hand.giveBack(next);
+    }
     next = hand.receive();
     faded = 0;
     ready = false;
@@ -291,9 +296,13 @@ void PreviewEngine::processBlock(std::span<float> haptic, std::span<const std::s
 {
     const std::uint64_t wantedStart = playing.load(std::memory_order_acquire);
     HandOver<Piece>::Node* const rising = fadingIn();
-    // What has stopped does not go on while the piece of a new start is being built.
-    const bool mayRise =
-        rising != nullptr || level > 0.0 || (current != nullptr && current->content.start == wantedStart);
+    // What has stopped does not go on while the piece of a new start is being built, nor what was built for the start
+    // before and never heard.
+    const auto isWanted = [wantedStart](const HandOver<Piece>::Node* node)
+    {
+        return node != nullptr && node->content.start == wantedStart;
+    };
+    const bool mayRise = level > 0.0 || isWanted(rising) || isWanted(current);
     const double target = wantedStart != 0 && mayRise ? 1.0 : 0.0;
     if (target <= 0.0 && level <= 0.0)
         return;

@@ -263,6 +263,29 @@ TEST_CASE("A clip plays to its end and stops; a stop is silent after 5 ms; a new
     CHECK(roughness(tail) < 0.01f);
 }
 
+TEST_CASE("What was built for a start before is not heard at the next one")
+{
+    PreviewEngine engine(fs);
+    engine.set(playbackOf(tone(4.0, 0.5)));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    run(engine, 9600);
+    // An edit is built while it plays, and handed over after the stop has been heard.
+    engine.set(playbackOf(tone(4.0, 0.8)));
+    REQUIRE(engine.service());
+    engine.stop();
+    run(engine, 256);
+    run(engine, 9600);
+    Clip later = *tone(4.0, 0.3);
+    later.bands[0].amplitude = {{0.0, 0.0}, {2.0, 0.0}, {2.1, 0.3}, {4.0, 0.3}};
+    engine.set(playbackOf(std::make_shared<const Clip>(later)));
+    engine.play(1.0);
+    CHECK(largest(run(engine, 4800)) == 0.0f); // nothing is built yet
+    REQUIRE(engine.service());
+    CHECK(largest(run(engine, 24000)) < 1e-3f); // silent there
+    CHECK(largest(run(engine, 48000)) == Approx(0.3).epsilon(0.05));
+}
+
 TEST_CASE("A loop goes round and round, clip and sound together")
 {
     Clip clip = *tone(2.0, 0.0);
