@@ -181,7 +181,10 @@ Result<PreviewEngine::Piece> PreviewEngine::build(const Wanted& now, std::int64_
     else
     {
         if (at > 0.0)
-            clip = trimClip(std::move(clip), {at, clip.duration});
+        {
+            const TimeRange rest{at, clip.duration};
+            clip = trimClip(std::move(clip), rest);
+        }
         piece.builtTo = std::numeric_limits<std::int64_t>::max();
     }
 
