@@ -219,7 +219,7 @@ void addStrengthLosses(LossList& losses, const Clip& clip, const SingleVoice& vo
 
 void addEmptyParts(LossList& losses, const SingleVoice& voice)
 {
-    constexpr double shortest = 0.25; // s: less is the end of a decay
+    constexpr double shortestGap = 0.25; // s: less is the end of a decay
     const Curve& curve = voice.amplitude;
     double strongest = 0.0;
     for (const Transient& event : voice.events)
@@ -238,7 +238,7 @@ void addEmptyParts(LossList& losses, const SingleVoice& voice)
         while (event < voice.events.size() && voice.events[event].time < from)
             ++event;
         const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
-        if (peak > 0.0 && to - from >= shortest && !hasEvent)
+        if (peak > 0.0 && to - from >= shortestGap && !hasEvent)
             losses.add(LossKind::empty, from, to - from, peak, "nothing here is strong enough to be felt");
     }
 }

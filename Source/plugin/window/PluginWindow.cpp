@@ -291,7 +291,7 @@ void PluginWindow::showRouting()
 
 juce::String PluginWindow::statusText() const
 {
-    const juce::String note = processor.note();
+    juce::String note = processor.note();
     if (note.isNotEmpty())
         return note;
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
