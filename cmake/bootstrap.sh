@@ -21,7 +21,8 @@ host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
-portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy libc++-dev libc++abi-dev)
+portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
+    libclang-rt-dev libc++-dev libc++abi-dev)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}")
