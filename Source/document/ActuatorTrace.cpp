@@ -63,7 +63,7 @@ public:
 
 private:
     static constexpr double lowest = 4.0, perOctave = 24.0;
-    std::array<double, 240> gains{}; // ten octaves, to 4 kHz
+    std::array<double, static_cast<std::size_t>(10.0 * perOctave)> gains{}; // to 4 kHz
 };
 
 /// The range of frequencies that an adapted clip may have.
