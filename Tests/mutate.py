@@ -33,7 +33,7 @@ ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build/mutate"
 FOLDERS = ["Core/pacini", "Source/io"]
 REASONS = ROOT / "Tests/mutation/reasons.json"
-TESTED = "foundation filters clip clip/edits simplify analysis analysis/methods actuator linearize synthesis realtime hearing evaluate io io/formats document".split()
+TESTED = "foundation filters clip clip/edits simplify analysis analysis/methods actuator linearize synthesis realtime runtime hearing evaluate io io/formats document".split()
 MEMORY = 6_000_000_000  # bytes; a change may make a loop that takes all there is
 
 

@@ -64,6 +64,8 @@ std::string playText(const TimedPlay& timed, const Scene& scene)
         text += fmt::format(", {:+g} dB", play.gain);
     if (scene.actuators > 1)
         text += fmt::format(", pan {:g}", play.pan);
+    if (play.delay != 0.0)
+        text += fmt::format(", {:g} ms late", 1e3 * play.delay);
     if (play.transposition != 0.0)
         text += fmt::format(", {:+g} semitones", play.transposition);
     if (play.stretch != 1.0)
@@ -112,6 +114,7 @@ nlohmann::ordered_json sceneReport(const Scene& scene)
                          {"passes", play.passes},
                          {"gain", play.gain},
                          {"pan", play.pan},
+                         {"delay", play.delay},
                          {"transposition", play.transposition},
                          {"stretch", play.stretch},
                          {"priority", play.priority},

@@ -55,8 +55,9 @@ struct Draft : Scene
 
 inline constexpr std::array<Choice<PanLaw>, 3> panLaws{
     {{"constantPower", PanLaw::constantPower}, {"delay", PanLaw::delay}, {"both", PanLaw::both}}};
-inline constexpr std::array<Choice<SceneParameter>, 4> parameters{{{"gain", SceneParameter::gain},
+inline constexpr std::array<Choice<SceneParameter>, 5> parameters{{{"gain", SceneParameter::gain},
                                                                    {"pan", SceneParameter::pan},
+                                                                   {"delay", SceneParameter::delay},
                                                                    {"transposition", SceneParameter::transposition},
                                                                    {"stretch", SceneParameter::stretch}}};
 inline constexpr std::array<Choice<VariationScope>, 2> variationScopes{
@@ -163,6 +164,7 @@ inline constexpr auto playFields = [](auto& play, auto& visitor)
     visitor.integer("passes", play.passes, passes);
     visitor.number("gain", play.gain, Need::usual);
     visitor.number("pan", play.pan, Need::usual);
+    visitor.number("delay", play.delay, Need::usual);
     visitor.number("transposition", play.transposition, Need::usual);
     visitor.number("stretch", play.stretch, Need::usual);
     visitor.integer("priority", play.priority, priority);

@@ -23,6 +23,7 @@ CORE = {
     "evaluate": {"foundation", "filters", "hearing"},
 }
 CORE["realtime"] = set(CORE)
+CORE["runtime"] = set(CORE) - {"realtime"}
 ALL = set(CORE)
 
 # room of Source, a folder or one in it -> (rooms of Source that it may include, modules of JUCE that it may not).

@@ -46,6 +46,15 @@ inline double playLength(const ScenePlay& play, const PlayTimeline& timeline, do
     return makeClock(play.stretch, timeline).frameOf(duration);
 }
 
+/// The longest that a play is late, s.
+inline double longestDelay(const PlayTimeline& timeline)
+{
+    double longest = 0.0;
+    for (const Breakpoint& point : timeline.delay)
+        longest = std::max(longest, point.value);
+    return longest;
+}
+
 /// Takes the voices that an actuator does not have from the plays that need them least, and says so.
 inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& profile, std::vector<PlayEnergy>& energies,
                         const BiquadCascadeCoefficients& outputFilter)
@@ -68,6 +77,7 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
         PlannedPlay& planned = plan.plays[i];
         for (Curve& gain : planned.timeline.gains)
             gain = withoutVoice(gain, losses[i]);
+        planned.timeline.level = withoutVoice(planned.timeline.level, losses[i]);
         energies[i] =
             playEnergy(planned.clip, planned.decoder, planned.timeline, planned.start, plan.duration, outputFilter);
         double lost = 0.0;
@@ -151,7 +161,8 @@ inline std::vector<PlayTimeline> planTimelines(RenderPlan& plan, const Scene& sc
         {
             const double content =
                 play.loop > 0.0 ? play.loop * static_cast<double>(play.passes) : scene.clips[play.clip].duration;
-            plan.duration = std::max(plan.duration, play.start + playLength(play, timelines[i], content));
+            plan.duration = std::max(plan.duration,
+                                     play.start + playLength(play, timelines[i], content) + longestDelay(timelines[i]));
         }
     }
     return timelines;
@@ -266,6 +277,7 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
 
     RenderPlan plan;
     plan.actuators = static_cast<std::size_t>(scene.actuators);
+    plan.row = wholeRow(plan.actuators, scene.panLaw, Seconds(scene.panDelay));
     if (profile != nullptr)
         plan.profile = *profile;
     const bool adapts = profile != nullptr && params.adapt && profile->technology != Technology::pcm;

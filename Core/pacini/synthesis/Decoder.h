@@ -8,6 +8,7 @@
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/CarrierBank.h>
 #include <pacini/synthesis/DecoderParams.h>
 #include <pacini/synthesis/EnvelopeLeveller.h>
@@ -91,6 +92,21 @@ public:
 
     /// Length of the clip with its delay and stretch, as far as changes are known.
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
+
+    [[nodiscard]] std::int64_t framesLeft() const noexcept { return std::max<std::int64_t>(endFrame - position, 0); }
+
+    /// The frame of the output at which second `time` of the clip is played, as far as changes are known.
+    [[nodiscard]] double frameAt(Seconds time) const noexcept
+    {
+        return static_cast<double>(delayFrames) + outputFrameOf(time.value * params.stretch * params.sampleRate);
+    }
+
+    /// The second of the clip that is played next. [audio]
+    [[nodiscard]] double clipTime() const noexcept
+    {
+        const double frame = static_cast<double>(std::max<std::int64_t>(position - delayFrames, 0));
+        return clock.clipAt(frame / static_cast<double>(ratio)) / (params.stretch * innerRate);
+    }
 
     /// From the next frame on the clip plays at another pitch and speed. What has been computed ahead stays, at most
     /// one hop (64 inner frames, up to 16 ms) and the delay of the leveller; scheduled changes come on their sample.

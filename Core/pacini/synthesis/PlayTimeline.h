@@ -22,7 +22,9 @@ namespace pacini
 struct PlayTimeline
 {
     std::vector<Curve> gains;           ///< one for each actuator, linear, with the scene's gain
-    std::vector<Curve> delays;          ///< one for each actuator, s; empty without delay panning
+    std::vector<Curve> delays;          ///< one for each actuator, s; empty where nothing is ever late
+    Curve level;                        ///< as gains, without the pan
+    Curve delay;                        ///< as delays, without the pan; empty where it is 0
     std::vector<DecoderChange> changes; ///< times from the play's start; in order
     bool operator==(const PlayTimeline&) const = default;
 };
@@ -114,7 +116,8 @@ void appendSides(Curve& result, double time, Value&& at)
 {
     const ScenePlay& play = scene.plays[index];
     PlayTimeline timeline;
-    detail::GlideCurve level(sceneGain(play.gain)), pan(play.pan);
+    detail::GlideCurve level(sceneGain(play.gain)), pan(play.pan), delay(play.delay);
+    bool late = play.delay > 0.0;
     double transposition = play.transposition, stretch = play.stretch;
     for (const SceneChange& change : changes)
     {
@@ -125,6 +128,10 @@ void appendSides(Curve& result, double time, Value&& at)
             continue;
         case SceneParameter::pan:
             pan.glideTo(change.value, change.time, change.glide);
+            continue;
+        case SceneParameter::delay:
+            delay.glideTo(change.value, change.time, change.glide);
+            late = late || change.value > 0.0;
             continue;
         case SceneParameter::transposition:
             transposition = change.value;
@@ -140,22 +147,32 @@ void appendSides(Curve& result, double time, Value&& at)
     const auto times = detail::bends(level.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1));
     const auto actuators = static_cast<std::size_t>(scene.actuators);
     const double whole = sceneGain(scene.gain);
+    for (const Breakpoint& point : level.curve())
+        timeline.level.push_back({point.time, whole * point.value});
+    const bool panDelays = scene.panLaw != PanLaw::constantPower && actuators > 1;
+    if (late)
+        timeline.delay = delay.curve();
+    const auto delayTimes =
+        late ? detail::bends(delay.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1)) : times;
     for (std::size_t a = 0; a < actuators; ++a)
     {
         Curve gains, delays;
         for (double time : times)
-        {
             detail::appendSides(gains, time,
                                 [&](double t) {
                                     return whole * valueAt(level.curve(), t) *
                                            panGain(scene.panLaw, valueAt(pan.curve(), t), a, actuators);
                                 });
-            if (scene.panLaw != PanLaw::constantPower)
-                delays.push_back({time, panDelay(valueAt(pan.curve(), time), a, actuators, scene.panDelay)});
-        }
         timeline.gains.push_back(std::move(gains));
-        if (scene.panLaw != PanLaw::constantPower && actuators > 1)
-            timeline.delays.push_back(std::move(delays));
+        if (!late && !panDelays)
+            continue;
+        for (double time : delayTimes)
+        {
+            const double position =
+                panDelays ? panDelay(valueAt(pan.curve(), time), a, actuators, scene.panDelay) : 0.0;
+            delays.push_back({time, valueAt(delay.curve(), time) + position});
+        }
+        timeline.delays.push_back(std::move(delays));
     }
     return timeline;
 }

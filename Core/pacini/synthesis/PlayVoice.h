@@ -1,10 +1,15 @@
 #pragma once
 
-// One play of a scene while it sounds: its decoder, its live gain, and its level and delay towards every actuator.
+// One play while it sounds: its decoder, its live controls, and its level and delay towards every actuator.
 
 #include <pacini/clip/Curve.h>
+#include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Glide.h>
+#include <pacini/foundation/Units.h>
 #include <pacini/synthesis/Decoder.h>
+#include <pacini/synthesis/DelayTap.h>
+#include <pacini/synthesis/PanSends.h>
 #include <pacini/synthesis/RenderPlan.h>
 
 #include <algorithm>
@@ -13,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,87 +67,12 @@ void forCurvePieces(const Curve& curve, std::size_t& next, std::int64_t now, std
     }
 }
 
-/// Fractional delay line. Remembers a signal and reads it back with delays that may change from sample to sample:
-/// between samples by the cubic through four of them (Lagrange), flat within 0.1 dB up to an eighth of the rate. Haptic
-/// signals end far below.
-class DelayTap
-{
-public:
-    DelayTap() = default;
-
-    /// For delays up to `longest` frames and blocks up to `block` frames. Allocates.
-    DelayTap(double longest, std::size_t block)
-        : history(static_cast<std::size_t>(std::ceil(longest)) + 4), buffer(history + block, 0.0f)
-    {
-    }
-
-    void reset() noexcept { std::fill(buffer.begin(), buffer.end(), 0.0f); }
-
-    /// The next samples of the signal. [audio]
-    void write(std::span<const float> samples) noexcept
-    {
-        const std::size_t n = samples.size();
-        if (last > 0)
-            std::copy(buffer.begin() + static_cast<std::ptrdiff_t>(last),
-                      buffer.begin() + static_cast<std::ptrdiff_t>(last + history), buffer.begin());
-        std::copy(samples.begin(), samples.end(), buffer.begin() + static_cast<std::ptrdiff_t>(history));
-        last = n;
-    }
-
-    /// Sample `n` of the last block, `delay` frames late, 1 frame at least for the cubic: it adds 1 to every delay.
-    [[nodiscard]] float read(std::size_t n, double delay) const noexcept
-    {
-        const double whole = std::floor(delay);
-        const double u = delay - whole; // towards the older sample
-        const std::size_t at = history + n - 1 - static_cast<std::size_t>(whole);
-        const double newer = static_cast<double>(buffer[at + 1]), a = static_cast<double>(buffer[at]),
-                     b = static_cast<double>(buffer[at - 1]), older = static_cast<double>(buffer[at - 2]);
-        const double value = -u * (u - 1.0) * (u - 2.0) / 6.0 * newer + (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0 * a -
-                             (u + 1.0) * u * (u - 2.0) / 2.0 * b + (u + 1.0) * u * (u - 1.0) / 6.0 * older;
-        return static_cast<float>(value);
-    }
-
-private:
-    std::size_t history = 4;
-    std::vector<float> buffer;
-    std::size_t last = 0;
-};
-
-/// Linear gain ramp.
-class LiveGain
-{
-public:
-    /// Glides to `gain` within 5 ms.
-    void set(double gain, double fs) noexcept
-    {
-        step = (gain - value) / (0.005 * fs);
-        target = gain;
-    }
-
-    [[nodiscard]] bool isUnity() const noexcept { return value == 1.0 && target == 1.0; }
-
-    void apply(std::span<float> block) noexcept
-    {
-        if (isUnity())
-            return;
-        for (float& sample : block)
-        {
-            sample = toSample(value * static_cast<double>(sample));
-            const double next = value + step;
-            value = step > 0.0 ? std::min(next, target) : std::max(next, target);
-        }
-    }
-
-private:
-    double value = 1.0, target = 1.0, step = 0.0;
-};
-
 /// Memory for mixing one block, shared by all voices.
 struct MixBuffers
 {
     static constexpr std::size_t frames = 1024;
     std::array<float, frames> mono{}, delayed{};
-    std::array<double, frames> delays{};
+    std::array<double, frames> delays{}, lateness{}, gains{};
 };
 
 /// Where a block is mixed to: frames [at, at + frames) of `out`, one span for each actuator; the first is frame `now`
@@ -151,6 +82,24 @@ struct MixTarget
     std::span<const std::span<float>> out;
     std::size_t at = 0, frames = 0;
     std::int64_t now = 0;
+};
+
+/// The live faders of a play, which multiply.
+enum class Fader
+{
+    play,
+    intensity,
+    group,
+    fade ///< in and out
+};
+
+/// What the decoder of a voice is made for.
+struct VoiceParams
+{
+    const BiquadCascadeCoefficients* filter = nullptr; ///< behind the decoder; null = none
+    std::int64_t until = 0;                            ///< frame at which the scene ends, for that filter
+    const ActuatorRow* row = nullptr;                  ///< of live pans; null = none
+    Seconds liveDelay{0.0};                            ///< the longest live delay
 };
 
 /// Voice of one play. Made without a decoder: prepare() and release() bound the memory of long scenes. Every call gets
@@ -167,33 +116,101 @@ public:
     [[nodiscard]] bool ended() const noexcept { return over; }
     [[nodiscard]] const Decoder* decoding() const noexcept { return decoder.get(); }
 
-    /// Makes the decoder, with `filter` behind it if there is one, and the delay line; the scene ends at frame `until`.
-    /// [worker]
-    void prepare(const PlannedPlay& play, const BiquadCascadeCoefficients* filter = nullptr, std::int64_t until = 0)
+    /// Makes the decoder and the delay line. [worker]
+    void prepare(const PlannedPlay& play, const VoiceParams& voice = {})
     {
         DecoderParams params = play.decoder;
         params.sampleRate = fs;
         decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes);
-        if (filter != nullptr)
-            decoder->filterBy(*filter, until - start);
-        if (play.timeline.delays.empty())
-            return;
+        if (voice.filter != nullptr)
+            decoder->filterBy(*voice.filter, voice.until - start);
+        if (voice.row != nullptr)
+            sends.emplace(*voice.row);
+        longestLive = voice.liveDelay.value;
         double longest = 0.0;
         for (const Curve& curve : play.timeline.delays)
             for (const Breakpoint& point : curve)
                 longest = std::max(longest, point.value);
-        delay = DelayTap(longest * fs, MixBuffers::frames);
-        tail = static_cast<std::int64_t>(std::ceil(longest * fs)) + 4;
+        if (sends)
+            longest = std::max(longest, sends->longestDelay());
+        if (longest + longestLive == 0.0)
+            return;
+        delay = DelayTap((longest + longestLive) * fs, MixBuffers::frames);
+        tail = longest > 0.0 ? framesOfDelay(longest) : 0;
     }
 
     /// Frees their memory. [worker]
     void release()
     {
         decoder.reset();
-        delay = {};
+        delay.reset();
+        sends.reset();
     }
 
-    void setGain(double wanted) noexcept { gain.set(wanted, fs); }
+    /// Glides a fader to a linear gain. [audio]
+    void setFader(Fader fader, double wanted, std::size_t frames) noexcept
+    {
+        faders[static_cast<std::size_t>(fader)].glideTo(wanted, frames);
+    }
+
+    [[nodiscard]] const Glide& fader(Fader which) const noexcept { return faders[static_cast<std::size_t>(which)]; }
+
+    /// Begins (again) at frame `frame`: as it was prepared; live controls stay. [audio]
+    void startAt(std::int64_t frame) noexcept
+    {
+        moveTo(frame);
+        if (decoder)
+            decoder->reset();
+        if (delay)
+            delay->reset();
+    }
+
+    /// The same, but its decoder, which has played `played` frames already, goes on. [audio]
+    void goOnAt(std::int64_t frame, std::int64_t played) noexcept { moveTo(frame - played); }
+
+    /// It was not played for `frames`. [audio]
+    void shift(std::int64_t frames) noexcept { start += frames; }
+
+    /// Plays the next `frames` frames unheard, for goOnAt(). [worker]
+    void skip(std::int64_t frames, MixBuffers& buffers) noexcept
+    {
+        while (decoder && frames > 0)
+        {
+            const auto n = static_cast<std::size_t>(std::min<std::int64_t>(frames, MixBuffers::frames));
+            decoder->process(std::span(buffers.mono).first(n));
+            frames -= static_cast<std::int64_t>(n);
+        }
+    }
+
+    /// From now on stands at a pan (0-1), or glides there, wherever the scene has it. [audio]
+    void setPan(double wanted, std::size_t frames) noexcept
+    {
+        if (!sends)
+            return;
+        if (!panned)
+            sends->place(wanted); // where the scene's curves have it is not known here
+        else
+            sends->glideTo(wanted, frames);
+        panned = true;
+    }
+
+    /// Glides to a delay (s) on top of the scene's, as far as there is room. [audio]
+    void setDelay(double wanted, std::size_t frames) noexcept
+    {
+        lateness.glideTo(clampTo(wanted, 0.0, longestLive), frames);
+        latest = std::max(latest, framesOfDelay(lateness.goal()));
+    }
+
+    /// All live controls but the fade stand and glide as those of another voice. [audio]
+    void follow(const PlayVoice& other) noexcept
+    {
+        std::copy_n(other.faders.begin(), static_cast<std::size_t>(Fader::fade), faders.begin());
+        lateness = other.lateness;
+        latest = other.latest;
+        panned = other.panned;
+        if (sends && other.sends)
+            sends->follow(*other.sends);
+    }
 
     /// As Decoder::change does.
     void change(double transposition, double stretch) noexcept
@@ -214,78 +231,171 @@ public:
             decoder->process(target.out.front().subspan(target.at + from, n));
         else
             addTo(play, target.out, target.at + from, now, std::span(buffers.mono).first(n), buffers);
-        over = now + static_cast<std::int64_t>(n) >= start + decoder->totalFrames() + tail && !decoder->rings();
+        over =
+            now + static_cast<std::int64_t>(n) >= start + decoder->totalFrames() + tail + latest && !decoder->rings();
     }
 
 private:
+    /// With those that the delay's cubic looks back.
+    [[nodiscard]] std::int64_t framesOfDelay(double seconds) const noexcept
+    {
+        return seconds > 0.0 ? static_cast<std::int64_t>(std::ceil(seconds * fs)) + 3 : 0;
+    }
+
+    void moveTo(std::int64_t frame) noexcept
+    {
+        start = frame;
+        over = false;
+        std::fill(levels.begin(), levels.end(), Level{});
+    }
+
     /// How far the curves towards one actuator have been read.
     struct Level
     {
         std::size_t gain = 0;
         std::size_t delay = 0;
+        std::size_t level = 0; ///< of the play's level without pan
+        std::size_t late = 0;  ///< of its delay without pan
     };
 
     /// Whether the play goes to one actuator as it is.
     [[nodiscard]] bool isPlain(const PlannedPlay& play, std::size_t channels) const noexcept
     {
         const auto& gains = play.timeline.gains;
-        return channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && gain.isUnity();
+        return channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && !panned &&
+               !delay &&
+               std::all_of(faders.begin(), faders.end(), [](const Glide& fader) { return fader.restsAt(1.0); });
+    }
+
+    /// The product of the faders in the next frames: one value where all rest.
+    [[nodiscard]] std::span<const double> gainsOf(std::size_t frames, MixBuffers& buffers) noexcept
+    {
+        const bool rest = std::all_of(faders.begin(), faders.end(), [](const Glide& fader) { return fader.resting(); });
+        const auto gains = std::span(buffers.gains).first(rest ? 1 : frames);
+        std::fill(gains.begin(), gains.end(), 1.0);
+        for (Glide& fader : faders)
+            for (double& gain : gains)
+                gain *= fader.next();
+        return gains;
     }
 
     void addTo(const PlannedPlay& play, std::span<const std::span<float>> out, std::size_t at, std::int64_t now,
                std::span<float> block, MixBuffers& buffers) noexcept
     {
         decoder->process(block);
-        gain.apply(block);
-        const bool delayed = !play.timeline.delays.empty();
-        if (delayed)
-            delay.write(block);
-        for (std::size_t a = 0; a < std::min(out.size(), levels.size()); ++a)
+        const std::span<const double> gains = gainsOf(block.size(), buffers);
+        if (delay)
+            delay->write(block);
+        const std::size_t channels = std::min(out.size(), levels.size());
+        const auto late = std::span(buffers.lateness).first(block.size());
+        const bool isLate = delay && !lateness.restsAt(0.0);
+        if (isLate)
+            for (double& seconds : late)
+                seconds = lateness.next();
+        for (std::size_t i = 0; i < block.size();)
         {
-            std::span<const float> in = block;
-            if (delayed)
-                in = readDelayed(play.timeline.delays[a], levels[a].delay, now, block.size(), buffers);
-            addScaled(play.timeline.gains[a], levels[a].gain, now, in, out[a].subspan(at, block.size()));
+            const std::size_t n = panned ? sends->straightFrames(block.size() - i) : block.size() - i;
+            for (std::size_t a = 0; a < channels; ++a)
+            {
+                const SendPiece* send = panned ? &sends->send(a) : nullptr;
+                std::span<const float> in = std::span<const float>(block).subspan(i, n);
+                const bool moves = !play.timeline.delays.empty() || (send != nullptr && sends->hasDelays());
+                if (isLate || moves)
+                {
+                    const auto delays = std::span(buffers.delays).first(n);
+                    std::fill(delays.begin(), delays.end(), 0.0);
+                    const std::int64_t first = now + static_cast<std::int64_t>(i);
+                    if (send == nullptr && moves)
+                        readDelays(play.timeline.delays[a], levels[a].delay, first, delays);
+                    if (send != nullptr && !play.timeline.delay.empty())
+                        readDelays(play.timeline.delay, levels[a].late, first, delays);
+                    if (send != nullptr)
+                        for (std::size_t k = 0; k < n; ++k)
+                            delays[k] += send->delayAt(sends->framesIntoChord() + k);
+                    for (std::size_t k = 0; k < n; ++k)
+                        buffers.delayed[k] = delay->read(i + k, fs * (delays[k] + (isLate ? late[i + k] : 0.0)));
+                    in = std::span(buffers.delayed).first(n);
+                }
+                const std::span<float> to = out[a].subspan(at + i, n);
+                const std::span<const double> live = gains.size() == 1 ? gains : gains.subspan(i, n);
+                if (send == nullptr)
+                    addScaled(play.timeline.gains[a], levels[a].gain, now + static_cast<std::int64_t>(i), in, to, live);
+                else
+                    addSent(play.timeline.level, levels[a].level, now + static_cast<std::int64_t>(i), in, to, live,
+                            *send);
+            }
+            if (panned)
+                sends->advance(n);
+            i += n;
         }
     }
 
-    std::span<const float> readDelayed(const Curve& curve, std::size_t& next, std::int64_t now, std::size_t n,
-                                       MixBuffers& buffers) const noexcept
+    void readDelays(const Curve& curve, std::size_t& next, std::int64_t now, std::span<double> delays) const noexcept
     {
-        forCurvePieces(curve, next, now, n, fs,
+        forCurvePieces(curve, next, now, delays.size(), fs,
                        [&](std::size_t i, std::size_t end, const CurvePiece& piece)
                        {
                            for (; i < end; ++i)
-                               buffers.delays[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
+                               delays[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
                        });
-        for (std::size_t i = 0; i < n; ++i)
-            buffers.delayed[i] = delay.read(i, fs * buffers.delays[i]);
-        return std::span(buffers.delayed).first(n);
     }
 
+    /// Adds `in` by a curve of gains and the live ones.
     void addScaled(const Curve& gains, std::size_t& next, std::int64_t now, std::span<const float> in,
-                   std::span<float> out) const noexcept
+                   std::span<float> out, std::span<const double> live) const noexcept
     {
         forCurvePieces(gains, next, now, in.size(), fs,
                        [&](std::size_t i, std::size_t end, const CurvePiece& piece)
                        {
-                           if (piece.slope != 0.0)
+                           if (piece.slope != 0.0 || live.size() > 1)
                                for (; i < end; ++i)
-                                   out[i] += static_cast<float>(piece.at(now + static_cast<std::int64_t>(i)) *
-                                                                static_cast<double>(in[i]));
-                           else if (piece.value != 0.0)
+                                   add(out[i],
+                                       live[live.size() > 1 ? i : 0] * piece.at(now + static_cast<std::int64_t>(i)),
+                                       in[i]);
+                           else if (const double whole = live[0] * piece.value; whole != 0.0)
                                for (; i < end; ++i)
-                                   out[i] += static_cast<float>(piece.value * static_cast<double>(in[i]));
+                                   add(out[i], whole, in[i]);
                        });
+    }
+
+    /// As addScaled(), along a chord of a live pan instead of the scene's.
+    void addSent(const Curve& level, std::size_t& next, std::int64_t now, std::span<const float> in,
+                 std::span<float> out, std::span<const double> live, const SendPiece& send) const noexcept
+    {
+        if (send.level == 0.0 && send.levelStep == 0.0)
+            return;
+        const std::size_t into = sends->framesIntoChord();
+        forCurvePieces(level, next, now, in.size(), fs,
+                       [&](std::size_t i, std::size_t end, const CurvePiece& piece)
+                       {
+                           if (piece.slope != 0.0 || send.levelStep != 0.0 || live.size() > 1)
+                               for (; i < end; ++i)
+                                   add(out[i],
+                                       live[live.size() > 1 ? i : 0] * piece.at(now + static_cast<std::int64_t>(i)) *
+                                           send.levelAt(into + i),
+                                       in[i]);
+                           else if (const double whole = live[0] * piece.value * send.level; whole != 0.0)
+                               for (; i < end; ++i)
+                                   add(out[i], whole, in[i]);
+                       });
+    }
+
+    static void add(float& out, double gain, float in) noexcept
+    {
+        out += static_cast<float>(gain * static_cast<double>(in));
     }
 
     double fs;
     std::int64_t start;
     std::unique_ptr<Decoder> decoder;
-    DelayTap delay;
-    std::int64_t tail = 0; // frames that sound longer because of delays
+    std::optional<DelayTap> delay;
+    std::int64_t tail = 0, latest = 0; // frames that sound longer because of the scene's delays and live ones
     std::vector<Level> levels;
-    LiveGain gain;
+    std::optional<PanSends> sends;
+    bool panned = false; // live: the sends count, not the scene's curves
+    double longestLive = 0.0;
+    std::array<Glide, 4> faders{Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0)};
+    Glide lateness{0.0};
     bool over = false;
 };
 

@@ -6,6 +6,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/DecoderParams.h>
+#include <pacini/synthesis/PanSends.h>
 #include <pacini/synthesis/PlayTimeline.h>
 
 #include <cstddef>
@@ -48,6 +49,7 @@ struct RenderPlan
 {
     double duration = 0.0; ///< s
     std::size_t actuators = 1;
+    ActuatorRow row;                ///< where they stand, for live panning
     std::optional<Profile> profile; ///< with the sections of its equaliser that matter
     std::optional<Flattening> flattening;
     bool motor = false;             ///< plays are strengths, which become the voltage of a motor

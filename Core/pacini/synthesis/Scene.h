@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct ScenePlay
     double stretch = 1.0;       ///< 2 = twice as long
     int priority = 0;           ///< 0 is kept longest when voices run out
     VariationParams variation;  ///< every pass of a loop varies anew
+    double delay = 0.0;         ///< s, 0 to 1, by which it comes later than its start
     bool operator==(const ScenePlay&) const = default;
 };
 
@@ -45,11 +47,12 @@ enum class SceneParameter
 {
     gain,          ///< dB
     pan,           ///< 0-1
+    delay,         ///< s, 0 to 1; while it glides, pitches bend as they do when a source moves
     transposition, ///< semitones
     stretch
 };
 
-/// Automation event: a parameter of a play that changes while it plays. Gain and pan glide in a straight line of level;
+/// Automation event: a parameter of a play that changes while it plays. Gain, pan and delay glide in a straight line;
 /// transposition and stretch step.
 struct SceneChange
 {
@@ -57,7 +60,7 @@ struct SceneChange
     std::size_t play = 0; ///< index into the scene's plays
     SceneParameter parameter = SceneParameter::gain;
     double value = 0.0;
-    double glide = 0.005; ///< s until a gain or pan is reached
+    double glide = 0.005; ///< s until a gain, pan or delay is reached
     bool operator==(const SceneChange&) const = default;
 };
 
@@ -83,6 +86,7 @@ inline constexpr std::size_t sceneChanges = 1'000'000;
 inline constexpr double shortestLoop = 0.005; ///< s
 inline constexpr int actuators = 16;
 inline constexpr double silentGain = -120.0; ///< dB
+inline constexpr double playDelay = 1.0;     ///< s
 } // namespace limits
 
 /// The linear gain of a scene's gain in dB.
@@ -91,8 +95,8 @@ inline constexpr double silentGain = -120.0; ///< dB
     return dB <= limits::silentGain ? 0.0 : std::pow(10.0, dB / 20.0);
 }
 
-/// Whether a value is one that a parameter takes: gains -1000 to 60 dB, pan 0-1, transposition -96 to 96, stretch 0.01
-/// to 100.
+/// Whether a value is one that a parameter takes: gains -1000 to 60 dB, pan 0-1, delay 0 to 1 s, transposition -96 to
+/// 96, stretch 0.01 to 100.
 [[nodiscard]] inline bool inRange(SceneParameter parameter, double value) noexcept
 {
     switch (parameter)
@@ -101,6 +105,8 @@ inline constexpr double silentGain = -120.0; ///< dB
         return value >= -1000.0 && value <= 60.0;
     case SceneParameter::pan:
         return value >= 0.0 && value <= 1.0;
+    case SceneParameter::delay:
+        return value >= 0.0 && value <= limits::playDelay;
     case SceneParameter::transposition:
         return value >= -96.0 && value <= 96.0;
     case SceneParameter::stretch:
@@ -113,9 +119,9 @@ inline constexpr double silentGain = -120.0; ///< dB
 [[nodiscard]] inline Result<void> validate(const Scene& scene)
 {
     using namespace detail;
-    constexpr const char* ranges[] = {"must be -1000 to 60 dB", "must be 0 to 1", "must be -96 to 96 semitones",
-                                      "must be 0.01 to 100"};
-    constexpr const char* names[] = {".gain", ".pan", ".transposition", ".stretch"};
+    constexpr const char* ranges[] = {"must be -1000 to 60 dB", "must be 0 to 1", "must be 0 to 1 s",
+                                      "must be -96 to 96 semitones", "must be 0.01 to 100"};
+    constexpr const char* names[] = {".gain", ".pan", ".delay", ".transposition", ".stretch"};
     const auto outside = [&](SceneParameter parameter, const std::string& where)
     {
         return brokenRule(where, ranges[static_cast<std::size_t>(parameter)]);
@@ -148,8 +154,8 @@ inline constexpr double silentGain = -120.0; ///< dB
             return brokenRule(where + ".loop", "is longer than the clip");
         if (play.loop > 0.0 && play.passes == 0 && scene.duration == 0.0)
             return brokenRule(where + ".passes", "is needed, or a duration of the scene: the loop would never end");
-        const double values[] = {play.gain, play.pan, play.transposition, play.stretch};
-        for (std::size_t k = 0; k < 4; ++k)
+        const double values[] = {play.gain, play.pan, play.delay, play.transposition, play.stretch};
+        for (std::size_t k = 0; k < std::size(values); ++k)
             if (!inRange(static_cast<SceneParameter>(k), values[k]))
                 return outside(static_cast<SceneParameter>(k), where + names[k]);
         if (auto r = checkNumber(play.variation.amount, 0.0, 1.0, where + ".variation"); !r)

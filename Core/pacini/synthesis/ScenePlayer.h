@@ -19,8 +19,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,8 +34,16 @@ struct ScenePlayerParams
 {
     double sampleRate = 48000.0; ///< Hz, 2000 to 768000; a scene at any other rate has no frames
     Seconds builtUntil{std::numeric_limits<double>::infinity()}; ///< makes the decoders of plays that start before
-    bool protect = true;      ///< keep within full drive and the limits of the profile
-    Seconds lookAhead{0.001}; ///< of that, 0 to 1 ms; taken out of the output
+    bool protect = true;        ///< keep within full drive and the limits of the profile
+    Seconds lookAhead{0.001};   ///< of that, 0 to 1 ms; taken out of the output
+    Seconds liveDelay{0.0};     ///< the longest of setDelay(); memory for it costs a little time
+    bool takeLatencyOut = true; ///< false: what is mixed comes out latencyFrames() later
+};
+
+/// What plays beside a scene: nothing.
+struct NoLivePlays
+{
+    void mix(std::span<const std::span<float>>, std::size_t, std::size_t, std::int64_t) noexcept {}
 };
 
 /// Report of a play: what the decoder of a play was made to play.
@@ -54,6 +64,7 @@ public:
     explicit ScenePlayer(RenderPlan planToPlay, const ScenePlayerParams& params = {})
         : plan(std::move(planToPlay)),
           fs(clampTo(params.sampleRate, limits::lowestRate, limits::highestRate)),
+          liveDelay(params.liveDelay),
           endFrame(isPlayableRate(params.sampleRate) ? static_cast<std::int64_t>(std::floor(plan.duration * fs + 0.5))
                                                      : 0)
     {
@@ -63,18 +74,31 @@ public:
             voiceFilter = designOutputFilter({plan.profile->equalizer, plan.flattening}, fs);
         if (voiceFilter && voiceFilter->sections.empty())
             voiceFilter.reset();
+        if (voiceFilter)
+        {
+            liveFilter = std::make_unique<OutputFilter>();
+            liveFilter->prepare({fs, blockFrames});
+            liveFilter->setParams({plan.profile->equalizer, plan.flattening});
+            besides.resize(blockFrames);
+        }
         const bool filtered = voiceFilter.has_value();
         if (plan.profile || params.protect)
             for (std::size_t a = 0; a < plan.actuators; ++a)
                 outputs.emplace_back(plan, ProcessSpec{fs, blockFrames}, params.protect, params.lookAhead, filtered);
-        if (!outputs.empty())
-            preRoll = outputs.front().latencyFrames();
+        if (params.takeLatencyOut)
+            preRoll = latencyFrames();
         discarded.resize(plan.actuators * blockFrames);
         build(params.builtUntil);
     }
 
     [[nodiscard]] std::int64_t totalFrames() const noexcept { return endFrame; }
     [[nodiscard]] std::size_t actuators() const noexcept { return plan.actuators; }
+
+    /// Frames by which the protection looks ahead.
+    [[nodiscard]] std::size_t latencyFrames() const noexcept
+    {
+        return outputs.empty() ? 0 : outputs.front().latencyFrames();
+    }
 
     /// Makes the decoders of plays that start before `until` (of the scene) and frees those that have ended. Not
     /// while process() runs. [worker]
@@ -103,6 +127,15 @@ public:
     /// Writes the next frames: one span for each actuator, all of the same length; silence after the end. [audio]
     void process(std::span<const std::span<float>> out) noexcept
     {
+        NoLivePlays nothing;
+        process(out, nothing);
+    }
+
+    /// The same, with what plays beside the scene: live.mix(out, at, n, now) adds frames [at, at + n) to `out`, the
+    /// first of which is frame `now` of the scene. [audio]
+    template <typename Live>
+    void process(std::span<const std::span<float>> out, Live& live) noexcept
+    {
         const std::size_t frames = out.empty() ? 0 : out.front().size();
         while (preRoll > 0)
         {
@@ -112,13 +145,13 @@ public:
             const std::size_t channels = std::min(out.size(), plan.actuators);
             for (std::size_t a = 0; a < channels; ++a)
                 unheard[a] = std::span(discarded).subspan(a * blockFrames, n);
-            processBlock(std::span(unheard).first(channels), 0, n);
+            processBlock(std::span(unheard).first(channels), 0, n, live);
             preRoll -= n;
         }
         for (std::size_t done = 0; done < frames;)
         {
             const std::size_t n = std::min(frames - done, blockFrames);
-            processBlock(out, done, n);
+            processBlock(out, done, n, live);
             done += n;
         }
     }
@@ -131,28 +164,48 @@ public:
     }
 
     /// From the next frame on, glides play `play` of the scene (its index there) to `gain` (linear, -1000 to 1000, on
-    /// top of the scene's own) within 5 ms. Gains beyond are clamped, those that are not finite ignored. Plays that the
-    /// plan leaves out stay out. [audio]
-    void setGain(std::size_t play, double gain) noexcept
+    /// top of the scene's own) within `glide`. Gains beyond are clamped, those that are not finite ignored. Plays that
+    /// the plan leaves out stay out. [audio]
+    void setGain(std::size_t play, double gain, Seconds glide = Seconds(0.005)) noexcept
     {
-        if (!std::isfinite(gain))
-            return;
-        for (std::size_t i = 0; i < voices.size(); ++i)
-            if (plan.plays[i].play == play)
-                voices[i].setGain(clampTo(gain, -maxGain, maxGain));
+        if (std::isfinite(gain))
+            forVoices(play, [&](PlayVoice& voice)
+                      { voice.setFader(Fader::play, clampTo(gain, -maxGain, maxGain), frames(glide)); });
+    }
+
+    /// The same for its position over the actuators (0-1), from now on instead of the scene's. [audio]
+    void setPan(std::size_t play, double pan, Seconds glide = Seconds(0.005)) noexcept
+    {
+        if (std::isfinite(pan))
+            forVoices(play, [&](PlayVoice& voice) { voice.setPan(clampTo(pan, 0.0, 1.0), frames(glide)); });
+    }
+
+    /// The same for its delay, on top of the scene's; up to ScenePlayerParams::liveDelay. [audio]
+    void setDelay(std::size_t play, Seconds delay, Seconds glide = Seconds(0.05)) noexcept
+    {
+        if (std::isfinite(delay.value))
+            forVoices(play, [&](PlayVoice& voice) { voice.setDelay(delay.value, frames(glide)); });
     }
 
     /// Changes pitch (semitones) and speed of a play, as Decoder::change does: what is not finite is ignored. [audio]
     void setPitchAndSpeed(std::size_t play, double transposition, double stretch) noexcept
     {
-        for (std::size_t i = 0; i < voices.size(); ++i)
-            if (plan.plays[i].play == play)
-                voices[i].change(transposition, stretch);
+        forVoices(play, [&](PlayVoice& voice) { voice.change(transposition, stretch); });
     }
 
 private:
     static constexpr std::size_t blockFrames = MixBuffers::frames;
     static constexpr double maxGain = 1000.0; // 60 dB, as in scenes
+
+    template <typename Use>
+    void forVoices(std::size_t play, Use&& use) noexcept
+    {
+        for (std::size_t i = 0; i < voices.size(); ++i)
+            if (plan.plays[i].play == play)
+                use(voices[i]);
+    }
+
+    [[nodiscard]] std::size_t frames(Seconds glide) const noexcept { return framesOfGlide(glide, fs); }
 
     /// Whether all that the output filter gets is one play as it is: then its decoder filters it, which costs less. The
     /// play's live gain acts behind the filter then.
@@ -167,17 +220,22 @@ private:
 
     void prepare(PlayVoice& voice, const PlannedPlay& planned)
     {
-        voice.prepare(planned, voiceFilter ? &*voiceFilter : nullptr, endFrame);
+        voice.prepare(planned, {voiceFilter ? &*voiceFilter : nullptr, endFrame, &plan.row, liveDelay});
         const Decoder& decoder = *voice.decoding();
         decoded.push_back(
             {planned.play, planned.start, static_cast<double>(decoder.totalFrames()) / fs, decoder.report()});
     }
 
-    void processBlock(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
+    template <typename Live>
+    void processBlock(std::span<const std::span<float>> out, std::size_t at, std::size_t n, Live& live) noexcept
     {
         for (const auto& channel : out)
             std::fill_n(channel.begin() + static_cast<std::ptrdiff_t>(at), n, 0.0f);
         mixVoices(out, at, n);
+        if (!voiceFilter)
+            live.mix(out, at, n, position);
+        else if (!std::is_same_v<Live, NoLivePlays>)
+            addFiltered(out, at, n, live);
         for (std::size_t a = 0; a < outputs.size() && a < out.size(); ++a)
         {
             outputs[a].process(out[a].subspan(at, n));
@@ -185,6 +243,18 @@ private:
                 reduction = std::max(reduction, meter->gainReduction);
         }
         position += static_cast<std::int64_t>(n);
+    }
+
+    /// What plays beside the one voice that is filtered itself has a filter of its own.
+    template <typename Live>
+    void addFiltered(std::span<const std::span<float>> out, std::size_t at, std::size_t n, Live& live) noexcept
+    {
+        const std::span<float> beside = std::span(besides).first(n);
+        std::fill(beside.begin(), beside.end(), 0.0f);
+        live.mix(std::span(&beside, 1), 0, n, position);
+        liveFilter->process(beside, beside);
+        for (std::size_t i = 0; i < n; ++i)
+            out.front()[at + i] += beside[i];
     }
 
     void mixVoices(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
@@ -212,14 +282,16 @@ private:
 
     RenderPlan plan;
     double fs;
+    Seconds liveDelay;
     std::int64_t endFrame;
     std::vector<PlayVoice> voices; // as plan.plays
     std::vector<DecodedPlay> decoded;
     std::optional<BiquadCascadeCoefficients> voiceFilter; // where the one voice is filtered, not the output
+    std::unique_ptr<OutputFilter> liveFilter;             // of what plays beside it
     std::vector<ActuatorOutput> outputs;
     std::size_t preRoll = 0;
     MixBuffers buffers;
-    std::vector<float> discarded;
+    std::vector<float> discarded, besides;
     std::int64_t position = 0;
     std::size_t first = 0;     // voices before it have ended
     std::size_t firstKept = 0; // voices before it have ended and are freed

@@ -1,0 +1,915 @@
+#pragma once
+
+// Engine: clips that play at once on several actuators, started and changed while they play.
+
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/Glide.h>
+#include <pacini/foundation/Ring.h>
+#include <pacini/runtime/ActuatorKind.h>
+#include <pacini/runtime/EngineParams.h>
+#include <pacini/runtime/LiveCommand.h>
+#include <pacini/runtime/LoadedClip.h>
+#include <pacini/runtime/PlayContent.h>
+#include <pacini/runtime/PlayMaker.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// A play of an engine: a slot and how often it has been used. A play that has ended is not found any more.
+struct PlayId
+{
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0; ///< 0 = no play
+    bool operator==(const PlayId&) const = default;
+};
+
+enum class PlayState
+{
+    ended,   ///< or never there
+    waiting, ///< for its frame
+    playing,
+    paused,
+    leftOut ///< there is no time or voice for it
+};
+
+struct PlayStatus
+{
+    PlayState state = PlayState::ended;
+    double position = 0.0; ///< s of the clip
+};
+
+/// What an engine did, for reports.
+struct EngineMeters
+{
+    std::size_t playing = 0;     ///< plays that sound
+    std::size_t leftOut = 0;     ///< plays for which there was no time or voice in the last block
+    double cost = 0.0;           ///< predicted, ns per frame
+    double leftOutError = -1000; ///< predicted, energy left out since the start, dB below all that was to play
+    double gainReduction = 0.0;  ///< dB that the protection of any actuator took in the last block
+};
+
+/// Engine. Plays clips on up to 16 actuators, each with its profile. Plays are made by a thread that may allocate and
+/// wait ([message], one at a time), and handed to the audio thread, which mixes them ([audio]). A command names the
+/// frame of the output at which it counts; one that comes too late counts at once. The output depends on the commands
+/// and their frames alone, not on how it is cut into blocks, as long as they come latencyFrames() ahead.
+class Engine
+{
+public:
+    /// With a scene, that plays from frame 0 on as `pacini render` renders it. Errors: those of validate() and
+    /// compilePlan(), and a scene made for another number of actuators (`scene.actuators`). [worker]
+    [[nodiscard]] static Result<std::unique_ptr<Engine>> make(const EngineParams& params, const Scene* scene = nullptr)
+    {
+        if (auto valid = validate(params); !valid)
+            return valid.error();
+        if (scene != nullptr && static_cast<std::size_t>(scene->actuators) != params.actuators.size())
+            return Error{ErrorCode::invalidArgument, "scene.actuators",
+                         "is " + std::to_string(scene->actuators) + ", but the engine has " +
+                             std::to_string(params.actuators.size())};
+        auto kinds = makeActuatorKinds(params, scene);
+        if (!kinds)
+            return kinds.error();
+        return std::unique_ptr<Engine>(new Engine(params, std::move(kinds).value()));
+    }
+
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    /// Neither thread may be at work.
+    ~Engine()
+    {
+        LiveCommand command;
+        while (commands.pop(command))
+            freeCommand(command);
+        while (!schedule.empty())
+        {
+            freeCommand(schedule.next());
+            schedule.pop();
+        }
+        for (LivePlay* play : active)
+            freePlay(play);
+        collect();
+    }
+
+    // What may allocate and wait. [message]
+
+    /// A play that begins at frame `frame` of the output. Errors: as PlayMaker::make(); tooLarge (`plays`, `commands`)
+    /// when there are too many.
+    [[nodiscard]] Result<PlayId> play(const std::shared_ptr<const LoadedClip>& clip, const PlaySettings& settings = {},
+                                      std::int64_t frame = 0)
+    {
+        collect();
+        if (free.empty())
+            return Error{ErrorCode::tooLarge, "plays", "as many play as the engine was made for"};
+        if (auto room = checkRoom(); !room)
+            return room.error();
+        PlaySettings limited = settings;
+        for (const auto& [control, value] : values(settings.controls))
+            if (auto valid = checkValue(control, value); !valid)
+                return valid.error();
+        auto content = maker.make(clip, limited);
+        if (!content)
+            return content.error();
+        auto play = std::make_unique<LivePlay>();
+        const std::uint32_t slot = free.back();
+        Slot& entry = slots[slot];
+        play->slot = slot;
+        play->generation = entry.generation.load(std::memory_order_relaxed) + 1;
+        play->group = settings.group;
+        play->priority = settings.priority;
+        play->power = clip->power();
+        play->carriers = (*content)->carriers();
+        play->controls = settings.controls;
+        play->content = std::move(content).value();
+        play->fadeIn = framesOfGlide(settings.fadeIn, fs);
+        free.pop_back();
+        entry.clip = clip;
+        entry.settings = settings;
+        entry.position.store(settings.from, std::memory_order_relaxed);
+        entry.state.store(PlayState::waiting, std::memory_order_relaxed);
+        entry.generation.store(play->generation, std::memory_order_release);
+        entry.used = true;
+        const PlayId id{slot, play->generation};
+        LiveCommand command;
+        command.kind = LiveCommand::Kind::start;
+        command.slot = slot;
+        command.generation = id.generation;
+        command.play = play.release();
+        push(command, frame);
+        return id;
+    }
+
+    /// Sets a control of a play from frame `frame` on, in a glide (pitch, speed and priority step). Errors:
+    /// invalidArgument for a play that has ended (`play`), for values out of range (`value`).
+    Result<void> set(PlayId play, LiveControl control, double value, Seconds glide = Seconds(0.005),
+                     std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        if (auto valid = checkValue(control, value); !valid)
+            return valid;
+        remember(slots[play.slot], control, value);
+        return send(LiveCommand::Kind::set, play, control, value, glide, frame);
+    }
+
+    /// As set(), for all plays of a group. Its gain is a fader of its own, which plays to come are under too.
+    Result<void> setGroup(std::uint32_t group, LiveControl control, double value, Seconds glide = Seconds(0.005),
+                          std::int64_t frame = 0)
+    {
+        if (group >= limits::groups)
+            return Error{ErrorCode::invalidArgument, "group", "must be 0 to 31"};
+        if (auto valid = checkValue(control, value); !valid)
+            return valid;
+        return send(LiveCommand::Kind::setGroup, {group, 0}, control, value, glide, frame);
+    }
+
+    Result<void> stop(PlayId play, Seconds fade = Seconds(0.005), std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        return send(LiveCommand::Kind::stop, play, {}, 0.0, fade, frame);
+    }
+
+    Result<void> stopGroup(std::uint32_t group, Seconds fade = Seconds(0.005), std::int64_t frame = 0)
+    {
+        if (group >= limits::groups)
+            return Error{ErrorCode::invalidArgument, "group", "must be 0 to 31"};
+        return send(LiveCommand::Kind::stopGroup, {group, 0}, {}, 0.0, fade, frame);
+    }
+
+    /// Waits where it is.
+    Result<void> pause(PlayId play, Seconds fade = Seconds(0.005), std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        return send(LiveCommand::Kind::pause, play, {}, 0.0, fade, frame);
+    }
+
+    Result<void> resume(PlayId play, Seconds fade = Seconds(0.005), std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        return send(LiveCommand::Kind::resume, play, {}, 0.0, fade, frame);
+    }
+
+    /// Goes on at second `position` of the clip: what played fades into it.
+    Result<void> seek(PlayId play, double position, std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        return exchange(play, slots[play.slot].clip, position, frame);
+    }
+
+    /// Goes on with another clip, from where the play is or its end: hot reload.
+    Result<void> replace(PlayId play, const std::shared_ptr<const LoadedClip>& clip, std::int64_t frame = 0)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        Slot& slot = slots[play.slot];
+        if (slot.settings.loop > clip->duration())
+            slot.settings.loop = clip->duration();
+        const double position = slot.position.load(std::memory_order_relaxed);
+        if (auto done = exchange(play, clip, std::min(position, clip->duration()), frame); !done)
+            return done;
+        slot.clip = clip;
+        return {};
+    }
+
+    /// Gain of an actuator behind its protection, 0 to 1.
+    Result<void> setActuatorGain(std::size_t actuator, double gain, Seconds glide = Seconds(0.005),
+                                 std::int64_t frame = 0)
+    {
+        if (actuator >= gains.size())
+            return Error{ErrorCode::invalidArgument, "actuator", "is not one of the engine's"};
+        if (!(gain >= 0.0 && gain <= 1.0))
+            return Error{ErrorCode::invalidArgument, "value", "must be 0 to 1"};
+        return send(LiveCommand::Kind::setActuator, {static_cast<std::uint32_t>(actuator), 0}, {}, gain, glide, frame);
+    }
+
+    /// From the next block on.
+    Result<void> setBudget(const EngineBudget& wanted)
+    {
+        if (!(wanted.nanosecondsPerFrame >= 0.0 && wanted.nanosecondsPerFrame <= 1e9))
+            return Error{ErrorCode::invalidArgument, "budget", "must be 0 to 1e9 ns for a frame"};
+        LiveCommand command;
+        command.kind = LiveCommand::Kind::setBudget;
+        command.value = wanted.nanosecondsPerFrame;
+        command.glide = wanted.voices;
+        return pushChecked(command, 0);
+    }
+
+    /// Forgets what was made of a clip.
+    void forget(const LoadedClip* clip) { maker.forget(clip); }
+
+    /// Frees what has ended. Every call that makes something does so.
+    void collect() noexcept
+    {
+        Retired old;
+        while (retired.pop(old))
+        {
+            if (old.play != nullptr)
+                freePlay(old.play);
+            delete old.content;
+        }
+    }
+
+    // What any thread may ask. [any]
+
+    [[nodiscard]] PlayStatus status(PlayId play) const noexcept
+    {
+        if (play.generation == 0 || play.slot >= slots.size())
+            return {};
+        const Slot& slot = slots[play.slot];
+        if (slot.generation.load(std::memory_order_acquire) != play.generation)
+            return {};
+        return {slot.state.load(std::memory_order_relaxed), slot.position.load(std::memory_order_relaxed)};
+    }
+
+    [[nodiscard]] EngineMeters meters() const noexcept
+    {
+        EngineMeters read;
+        read.playing = playingNow.load(std::memory_order_relaxed);
+        read.leftOut = leftOutNow.load(std::memory_order_relaxed);
+        read.cost = costNow.load(std::memory_order_relaxed);
+        const double all = energyAll.load(std::memory_order_relaxed), out = energyOut.load(std::memory_order_relaxed);
+        read.leftOutError = out > 0.0 ? 10.0 * std::log10(out / all) : -1000.0;
+        read.gainReduction = reductionNow.load(std::memory_order_relaxed);
+        return read;
+    }
+
+    /// Frames that have been rendered.
+    [[nodiscard]] std::int64_t framesRendered() const noexcept { return rendered.load(std::memory_order_relaxed); }
+
+    /// How far ahead of its frame a command must come at least.
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
+
+    [[nodiscard]] std::size_t actuators() const noexcept { return gains.size(); }
+    [[nodiscard]] double sampleRate() const noexcept { return fs; }
+
+    // The audio thread. [audio]
+
+    /// Writes the next frames: one span for each actuator, all of the same length.
+    void render(std::span<const std::span<float>> out) noexcept
+    {
+        take();
+        if (out.empty())
+            return;
+        const std::size_t frames = out.front().size();
+        while (preRoll > 0)
+        {
+            const std::size_t n = std::min(preRoll, blockFrames);
+            std::array<std::span<float>, limits::actuators> unheard;
+            for (std::size_t a = 0; a < gains.size(); ++a)
+                unheard[a] = std::span(discarded).subspan(a * blockFrames, n);
+            renderPart(std::span(unheard).first(gains.size()), 0, n);
+            preRoll -= n;
+        }
+        for (std::size_t done = 0; done < frames;)
+        {
+            const std::size_t n = std::min(frames - done, blockFrames);
+            renderPart(out, done, n);
+            done += n;
+        }
+        rendered.store(now - static_cast<std::int64_t>(latency), std::memory_order_relaxed);
+        publish();
+    }
+
+private:
+    static constexpr std::size_t blockFrames = MixBuffers::frames;
+    static constexpr std::size_t decisionFrames = 256; // between two decisions what is left out
+    static constexpr double fadeSeconds = 0.005, swapSeconds = 0.01;
+
+    struct Slot
+    {
+        // [message]
+        bool used = false;
+        std::shared_ptr<const LoadedClip> clip;
+        PlaySettings settings;
+        // [any]
+        std::atomic<std::uint32_t> generation{0};
+        std::atomic<PlayState> state{PlayState::ended};
+        std::atomic<double> position{0.0};
+    };
+
+    struct Retired
+    {
+        LivePlay* play = nullptr;
+        PlayContent* content = nullptr;
+    };
+
+    Engine(const EngineParams& wanted, std::vector<ActuatorKind> madeKinds)
+        : fs(wanted.sampleRate),
+          longestDelay(wanted.longestDelay.value),
+          kinds(std::move(madeKinds)),
+          maker(kinds, fs, wanted.longestDelay),
+          slots(wanted.maxPlays),
+          commands(wanted.maxCommands),
+          schedule(wanted.maxCommands + 1),
+          retired(4 * wanted.maxPlays + wanted.maxCommands),
+          budget(wanted.budget)
+    {
+        for (std::size_t i = wanted.maxPlays; i-- > 0;)
+            free.push_back(static_cast<std::uint32_t>(i));
+        active.reserve(wanted.maxPlays);
+        order.reserve(wanted.maxPlays);
+        bySlot.assign(wanted.maxPlays, nullptr);
+        groupGains.assign(limits::groups, Glide(1.0));
+        for (const ActuatorKind& kind : kinds)
+            latency = std::max(latency, kind.player->latencyFrames());
+        preRoll = latency;
+        const std::size_t count = wanted.actuators.size();
+        taps.resize(count);
+        for (const EngineActuator& actuator : wanted.actuators)
+            gains.emplace_back(actuator.gain);
+        for (const ActuatorKind& kind : kinds)
+            for (const std::size_t a : kind.actuators)
+            {
+                const double frames =
+                    wanted.actuators[a].delay.value * fs + static_cast<double>(latency - kind.player->latencyFrames());
+                if (frames > 0.0)
+                    taps[a].emplace(Tap{DelayTap(frames, blockFrames), frames});
+            }
+        discarded.resize(count * blockFrames);
+    }
+
+    // [message]
+
+    [[nodiscard]] Result<void> check(PlayId play) noexcept
+    {
+        collect();
+        if (play.generation == 0 || play.slot >= slots.size() || !slots[play.slot].used ||
+            slots[play.slot].generation.load(std::memory_order_relaxed) != play.generation)
+            return Error{ErrorCode::invalidArgument, "play", "has ended"};
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkRoom() const
+    {
+        if (commands.room() == 0)
+            return Error{ErrorCode::tooLarge, "commands", "too many wait: is the engine rendered?"};
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkValue(LiveControl control, double value) const
+    {
+        struct Range
+        {
+            const char* where;
+            double low, high;
+            const char* message;
+        };
+        const std::array<Range, 7> ranges{{{"gain", 0.0, 1000.0, "must be 0 to 1000"},
+                                           {"intensity", 0.0, 1.0, "must be 0 to 1"},
+                                           {"pan", 0.0, 1.0, "must be 0 to 1"},
+                                           {"delay", 0.0, longestDelay, "must be 0 to the engine's longest delay"},
+                                           {"transposition", -96.0, 96.0, "must be -96 to 96 semitones"},
+                                           {"speed", 0.01, 100.0, "must be 0.01 to 100"},
+                                           {"priority", -1e9, 1e9, "must be -1e9 to 1e9"}}};
+        const Range& range = ranges[static_cast<std::size_t>(control)];
+        if (!(value >= range.low && value <= range.high))
+            return Error{ErrorCode::invalidArgument, range.where, range.message};
+        return {};
+    }
+
+    [[nodiscard]] static std::array<std::pair<LiveControl, double>, 6> values(const PlayControls& c)
+    {
+        return {{{LiveControl::gain, c.gain},
+                 {LiveControl::intensity, c.intensity},
+                 {LiveControl::pan, c.pan},
+                 {LiveControl::delay, c.delay},
+                 {LiveControl::transposition, c.transposition},
+                 {LiveControl::speed, c.speed}}};
+    }
+
+    /// What a new content of the play would begin with.
+    static void remember(Slot& slot, LiveControl control, double value) noexcept
+    {
+        apply(slot.settings.controls, control, value);
+    }
+
+    static void apply(PlayControls& controls, LiveControl control, double value) noexcept
+    {
+        switch (control)
+        {
+        case LiveControl::gain:
+            controls.gain = value;
+            break;
+        case LiveControl::intensity:
+            controls.intensity = value;
+            break;
+        case LiveControl::pan:
+            controls.pan = value;
+            break;
+        case LiveControl::delay:
+            controls.delay = value;
+            break;
+        case LiveControl::transposition:
+            controls.transposition = value;
+            break;
+        case LiveControl::speed:
+            controls.speed = value;
+            break;
+        case LiveControl::priority:
+            break;
+        }
+    }
+
+    Result<void> exchange(PlayId play, const std::shared_ptr<const LoadedClip>& clip, double position,
+                          std::int64_t frame)
+    {
+        if (auto room = checkRoom(); !room)
+            return room;
+        PlaySettings settings = slots[play.slot].settings;
+        settings.from = position;
+        auto content = maker.make(clip, settings);
+        if (!content)
+            return content.error();
+        LiveCommand command;
+        command.kind = LiveCommand::Kind::replace;
+        command.slot = play.slot;
+        command.generation = play.generation;
+        command.glide = framesOfGlide(Seconds(swapSeconds), fs);
+        command.content = content->release();
+        push(command, frame);
+        return {};
+    }
+
+    Result<void> send(LiveCommand::Kind kind, PlayId play, LiveControl control, double value, Seconds glide,
+                      std::int64_t frame)
+    {
+        LiveCommand command;
+        command.kind = kind;
+        command.control = control;
+        command.slot = play.slot;
+        command.generation = play.generation;
+        command.value = value;
+        command.glide = framesOfGlide(glide, fs);
+        return pushChecked(command, frame);
+    }
+
+    Result<void> pushChecked(const LiveCommand& command, std::int64_t frame)
+    {
+        if (auto room = checkRoom(); !room)
+            return room;
+        push(command, frame);
+        return {};
+    }
+
+    /// There is room.
+    void push(LiveCommand command, std::int64_t frame) noexcept
+    {
+        command.frame = frame;
+        command.sequence = ++sent;
+        static_cast<void>(commands.push(command));
+    }
+
+    void freePlay(LivePlay* play) noexcept
+    {
+        Slot& slot = slots[play->slot];
+        slot.clip.reset();
+        slot.used = false;
+        slot.state.store(PlayState::ended, std::memory_order_relaxed);
+        if (free.size() < free.capacity())
+            free.push_back(play->slot);
+        delete play->leaving;
+        delete play;
+    }
+
+    void freeCommand(const LiveCommand& command) noexcept
+    {
+        if (command.play != nullptr)
+            freePlay(command.play);
+        delete command.content;
+    }
+
+    // [audio]
+
+    void take() noexcept
+    {
+        LiveCommand command;
+        while (!schedule.full() && commands.pop(command))
+            schedule.push(command);
+    }
+
+    [[nodiscard]] std::int64_t frameOf(const LiveCommand& command) const noexcept
+    {
+        return std::max(command.frame, now);
+    }
+
+    /// Frames [at, at + n) of `out`, at most blockFrames: cut where a command, a joint of a loop or a decision comes.
+    void renderPart(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
+    {
+        const std::int64_t end = now + static_cast<std::int64_t>(n);
+        while (now < end)
+        {
+            while (!schedule.empty() && schedule.next().frame <= now)
+            {
+                const LiveCommand command = schedule.next();
+                schedule.pop();
+                carryOut(command);
+            }
+            passLoops();
+            if (now % static_cast<std::int64_t>(decisionFrames) == 0)
+                decide();
+            std::int64_t until = std::min(end, (now / static_cast<std::int64_t>(decisionFrames) + 1) *
+                                                   static_cast<std::int64_t>(decisionFrames));
+            if (!schedule.empty())
+                until = std::min(until, schedule.next().frame);
+            for (const LivePlay* play : active)
+                if (isRunning(*play))
+                    until = std::min(until, std::max(play->content->nextCut(now), now + 1));
+            const auto frames = static_cast<std::size_t>(until - now);
+            mixFrames(out, at, frames);
+            at += frames;
+            now = until;
+            retire();
+        }
+    }
+
+    [[nodiscard]] static bool isRunning(const LivePlay& play) noexcept { return !play.paused && !play.leftOut; }
+
+    void passLoops() noexcept
+    {
+        for (LivePlay* play : active)
+            if (isRunning(*play) && play->content->nextJoint() <= now)
+                play->content->passOn(now, play->controls);
+    }
+
+    /// What plays beside the scene on one kind of actuator.
+    struct LiveMix
+    {
+        Engine& engine;
+        std::size_t kind;
+        void mix(std::span<const std::span<float>> out, std::size_t at, std::size_t n, std::int64_t frame) noexcept
+        {
+            for (LivePlay* play : engine.active)
+            {
+                if (play->leaving != nullptr)
+                    play->leaving->mix(kind, {out, at, n, frame}, engine.buffers);
+                play->content->mix(kind, {out, at, n, frame}, engine.buffers);
+            }
+        }
+    };
+
+    void mixFrames(std::span<const std::span<float>> out, std::size_t at, std::size_t n) noexcept
+    {
+        std::array<std::span<float>, limits::actuators> channels;
+        for (std::size_t k = 0; k < kinds.size(); ++k)
+        {
+            const auto& actuators = kinds[k].actuators;
+            for (std::size_t c = 0; c < actuators.size(); ++c)
+                // What the caller does not want is played unheard: its protection goes on.
+                channels[c] = actuators[c] < out.size() ? out[actuators[c]].subspan(at, n)
+                                                        : std::span(discarded).subspan(actuators[c] * blockFrames, n);
+            LiveMix live{*this, k};
+            kinds[k].player->process(std::span(channels).first(actuators.size()), live);
+        }
+        for (std::size_t a = 0; a < std::min(out.size(), gains.size()); ++a)
+            finish(a, out[a].subspan(at, n));
+        for (Glide& gain : groupGains)
+            gain.skip(n);
+    }
+
+    void finish(std::size_t a, std::span<float> samples) noexcept
+    {
+        Glide& gain = gains[a];
+        if (!gain.restsAt(1.0))
+            for (float& sample : samples)
+                sample = toSample(gain.next() * static_cast<double>(sample));
+        if (taps[a])
+        {
+            taps[a]->line.write(samples);
+            for (std::size_t i = 0; i < samples.size(); ++i)
+                samples[i] = taps[a]->line.read(i, taps[a]->frames);
+        }
+    }
+
+    void carryOut(const LiveCommand& command) noexcept
+    {
+        using Kind = LiveCommand::Kind;
+        switch (command.kind)
+        {
+        case Kind::start:
+            begin(command.play);
+            return;
+        case Kind::setGroup:
+            if (command.control == LiveControl::gain)
+                groupGains[command.slot].glideTo(command.value, command.glide);
+            for (LivePlay* play : active)
+                if (play->group == command.slot)
+                    setControl(*play, command, Fader::group);
+            return;
+        case Kind::stopGroup:
+            for (LivePlay* play : active)
+                if (play->group == command.slot)
+                    stopPlay(*play, command.glide);
+            return;
+        case Kind::setActuator:
+            gains[command.slot].glideTo(command.value, command.glide);
+            return;
+        case Kind::setBudget:
+            budget = {command.value, command.glide};
+            return;
+        case Kind::replace:
+        case Kind::stop:
+        case Kind::pause:
+        case Kind::resume:
+        case Kind::set:
+            break;
+        }
+        LivePlay* play = bySlot[command.slot];
+        if (play == nullptr || play->generation != command.generation)
+        {
+            if (command.content != nullptr)
+                static_cast<void>(giveBack({nullptr, command.content}));
+            return;
+        }
+        if (command.kind == Kind::replace)
+            replaceContent(*play, command);
+        else if (command.kind == Kind::stop)
+            stopPlay(*play, command.glide);
+        else if (command.kind == Kind::pause && !play->stopping && !play->leftOut)
+        {
+            play->pausing = true;
+            play->content->fadeOut(command.glide);
+        }
+        else if (command.kind == Kind::resume && !play->stopping && !play->leftOut)
+        {
+            if (play->paused)
+                play->content->shift(now - play->pausedAt);
+            play->pausing = play->paused = false;
+            play->content->fadeIn(command.glide);
+        }
+        else if (command.kind == Kind::set)
+            setControl(*play, command, Fader::play);
+    }
+
+    void begin(LivePlay* play) noexcept
+    {
+        play->started = now;
+        const Glide& group = groupGains[play->group];
+        play->content->begin(now, play->controls, group.now(), play->fadeIn);
+        if (!group.resting())
+            play->content->forVoices([&](PlayVoice& voice)
+                                     { voice.setFader(Fader::group, group.goal(), group.framesLeft()); });
+        active.push_back(play);
+        bySlot[play->slot] = play;
+        slots[play->slot].state.store(PlayState::playing, std::memory_order_relaxed);
+    }
+
+    void replaceContent(LivePlay& play, const LiveCommand& command) noexcept
+    {
+        if (play.leaving != nullptr)
+            static_cast<void>(giveBack({nullptr, play.leaving})); // there is room for each command
+        command.content->takeOver(*play.content, now, play.controls, command.glide);
+        play.leaving = play.content.release();
+        play.content.reset(command.content);
+        if (play.paused || play.pausing || play.stopping)
+            play.content->fadeOut(0);
+        play.leftOut = false;
+    }
+
+    static void stopPlay(LivePlay& play, std::size_t frames) noexcept
+    {
+        play.stopping = true;
+        play.paused = play.pausing = false;
+        play.content->fadeOut(frames);
+    }
+
+    static void setControl(LivePlay& play, const LiveCommand& command, Fader gainFader) noexcept
+    {
+        const double value = command.value;
+        const std::size_t glide = command.glide;
+        if (command.control == LiveControl::priority)
+            play.priority = static_cast<int>(value);
+        if (command.control != LiveControl::gain || gainFader == Fader::play)
+            apply(play.controls, command.control, value);
+        const auto each = [&](auto&& use)
+        {
+            play.content->forVoices(use);
+            if (play.leaving != nullptr)
+                play.leaving->forVoices(use);
+        };
+        switch (command.control)
+        {
+        case LiveControl::gain:
+            each([&](PlayVoice& voice) { voice.setFader(gainFader, value, glide); });
+            return;
+        case LiveControl::intensity:
+            each([&](PlayVoice& voice) { voice.setFader(Fader::intensity, value, glide); });
+            return;
+        case LiveControl::pan:
+            each([&](PlayVoice& voice) { voice.setPan(value, glide); });
+            return;
+        case LiveControl::delay:
+            each([&](PlayVoice& voice) { voice.setDelay(value, glide); });
+            return;
+        case LiveControl::transposition:
+        case LiveControl::speed:
+            play.content->change(play.controls);
+            return;
+        case LiveControl::priority:
+            return;
+        }
+    }
+
+    /// Gives back plays that have ended and contents that have been replaced.
+    void retire() noexcept
+    {
+        for (std::size_t i = 0; i < active.size();)
+        {
+            LivePlay& play = *active[i];
+            if (play.leaving != nullptr && play.leaving->ended())
+                if (giveBack({nullptr, play.leaving}))
+                    play.leaving = nullptr;
+            if (play.pausing && play.content->fadedOut())
+            {
+                play.pausing = false;
+                play.paused = true;
+                play.pausedAt = now;
+            }
+            const bool over =
+                !play.paused && !play.pausing && !play.leftOut && play.content->ended() && play.leaving == nullptr;
+            if ((over || (play.leftOut && leftOutIsOver(play))) && giveBack({&play, nullptr}))
+            {
+                bySlot[play.slot] = nullptr;
+                slots[play.slot].state.store(PlayState::ended, std::memory_order_relaxed);
+                active.erase(active.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+            else
+                ++i;
+        }
+    }
+
+    [[nodiscard]] bool leftOutIsOver(const LivePlay& play) const noexcept
+    {
+        return play.stopping || now >= play.leftOutUntil;
+    }
+
+    [[nodiscard]] bool giveBack(const Retired& old) noexcept { return retired.push(old); }
+
+    /// Decides what is left out until the next decision: plays are kept by priority, then by the energy that they
+    /// bring.
+    void decide() noexcept
+    {
+        order.assign(active.begin(), active.end());
+        double all = 0.0, out = 0.0, cost = 0.0;
+        std::size_t voices = 0, left = 0;
+        const bool limited = budget.nanosecondsPerFrame > 0.0 || budget.voices > 0;
+        if (limited)
+            std::sort(order.begin(), order.end(), isMoreImportant);
+        for (LivePlay* play : order)
+        {
+            if (play->paused)
+                continue;
+            const double energy = play->energyNow();
+            all += energy;
+            const double more = play->cost(kinds.size());
+            const bool fits = (budget.voices == 0 || voices < budget.voices) &&
+                              (budget.nanosecondsPerFrame == 0.0 || cost + more <= budget.nanosecondsPerFrame);
+            if (play->leftOut || (limited && !fits))
+            {
+                if (!play->leftOut)
+                    leaveOut(*play);
+                out += energy;
+                ++left;
+                continue;
+            }
+            cost += more;
+            ++voices;
+        }
+        playingNow.store(voices, std::memory_order_relaxed);
+        leftOutNow.store(left, std::memory_order_relaxed);
+        costNow.store(cost, std::memory_order_relaxed);
+        const double seconds = static_cast<double>(decisionFrames) / fs;
+        energyAll.store(energyAll.load(std::memory_order_relaxed) + seconds * all, std::memory_order_relaxed);
+        energyOut.store(energyOut.load(std::memory_order_relaxed) + seconds * out, std::memory_order_relaxed);
+    }
+
+    static bool isMoreImportant(const LivePlay* a, const LivePlay* b) noexcept
+    {
+        if (a->priority != b->priority)
+            return a->priority < b->priority;
+        if (a->leftOut != b->leftOut)
+            return b->leftOut; // what plays goes on
+        const double x = a->energyNow(), y = b->energyNow();
+        if (x != y)
+            return x > y;
+        return a->started != b->started ? a->started < b->started : a->slot < b->slot;
+    }
+
+    void leaveOut(LivePlay& play) noexcept
+    {
+        play.leftOut = true;
+        play.pausing = false;
+        play.content->fadeOut(framesOfGlide(Seconds(fadeSeconds), fs));
+        play.leftOutUntil = now + play.content->framesLeft();
+    }
+
+    void publish() noexcept
+    {
+        for (const LivePlay* play : active)
+        {
+            Slot& slot = slots[play->slot];
+            slot.position.store(play->content->clipTime(), std::memory_order_relaxed);
+            slot.state.store(play->leftOut  ? PlayState::leftOut
+                             : play->paused ? PlayState::paused
+                                            : PlayState::playing,
+                             std::memory_order_relaxed);
+        }
+        double reduction = 0.0;
+        for (const ActuatorKind& kind : kinds)
+            for (std::size_t a = 0; a < kind.actuators.size(); ++a)
+                if (const ProtectionMeter* meter = kind.player->protectionMeter(a))
+                    reduction = std::max(reduction, meter->gainReduction);
+        reductionNow.store(reduction, std::memory_order_relaxed);
+    }
+
+    double fs;
+    double longestDelay;
+    std::vector<ActuatorKind> kinds;
+    PlayMaker maker;
+    std::vector<Slot> slots;
+    std::vector<std::uint32_t> free;
+    std::uint64_t sent = 0;
+
+    Ring<LiveCommand> commands;
+    CommandSchedule schedule;
+    Ring<Retired> retired;
+
+    struct Tap
+    {
+        DelayTap line;
+        double frames;
+    };
+
+    EngineBudget budget;
+    std::vector<LivePlay*> active; // in order of start
+    std::vector<LivePlay*> order;
+    std::vector<LivePlay*> bySlot;
+    std::vector<Glide> groupGains;
+    std::vector<Glide> gains;
+    std::vector<std::optional<Tap>> taps;
+    std::size_t latency = 0, preRoll = 0;
+    std::int64_t now = 0; // frame that is mixed next: latencyFrames() ahead of the output
+    MixBuffers buffers;
+    std::vector<float> discarded;
+
+    std::atomic<std::int64_t> rendered{0};
+    std::atomic<std::size_t> playingNow{0}, leftOutNow{0};
+    std::atomic<double> costNow{0.0}, energyAll{0.0}, energyOut{0.0}, reductionNow{0.0};
+};
+
+} // namespace pacini

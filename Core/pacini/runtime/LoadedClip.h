@@ -1,0 +1,94 @@
+#pragma once
+
+// A clip that is ready to be played: kept packed, unpacked when it plays.
+
+#include <pacini/clip/Clip.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/foundation/Result.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// A clip in memory, shared by all that plays of it: a thousand of them cost little more than their packed bytes.
+class LoadedClip
+{
+public:
+    /// Keeps bytes that packClip() made. Errors: those of unpackClip().
+    [[nodiscard]] static Result<std::shared_ptr<const LoadedClip>> ofPacked(std::span<const std::byte> bytes)
+    {
+        auto clip = unpackClip(bytes);
+        if (!clip)
+            return clip.error();
+        return std::shared_ptr<const LoadedClip>(new LoadedClip(*clip, {bytes.begin(), bytes.end()}));
+    }
+
+    /// Packs a clip. Errors: those of validate().
+    [[nodiscard]] static Result<std::shared_ptr<const LoadedClip>> ofClip(const Clip& clip)
+    {
+        if (auto valid = validate(clip); !valid)
+            return valid.error();
+        std::vector<std::byte> bytes = packClip(clip, packParamsFor(clip));
+        bytes.shrink_to_fit();
+        return std::shared_ptr<const LoadedClip>(new LoadedClip(clip, std::move(bytes)));
+    }
+
+    [[nodiscard]] Result<Clip> unpack() const { return unpackClip(packed); }
+
+    [[nodiscard]] const std::string& name() const noexcept { return title; }
+    [[nodiscard]] double duration() const noexcept { return length; } ///< s
+    [[nodiscard]] std::size_t events() const noexcept { return transients; }
+    [[nodiscard]] std::size_t bytes() const noexcept { return packed.size(); }
+    [[nodiscard]] double power() const noexcept { return meanPower; } ///< mean of the drive's square, 1 = full drive
+
+private:
+    LoadedClip(const Clip& clip, std::vector<std::byte> bytes)
+        : title(clip.name),
+          length(clip.duration),
+          transients(clip.transients.size()),
+          meanPower(powerOf(clip)),
+          packed(std::move(bytes))
+    {
+    }
+
+    /// Of a curve of amplitudes of sines, over its time.
+    static double powerOf(const Curve& curve, double duration)
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+        {
+            const double a = curve[i].value, b = curve[i + 1].value;
+            sum += (curve[i + 1].time - curve[i].time) * (a * a + a * b + b * b) / 6.0;
+        }
+        if (!curve.empty())
+            sum += std::max(0.0, duration - curve.back().time) * 0.5 * curve.back().value * curve.back().value;
+        return duration > 0.0 ? sum / duration : 0.0;
+    }
+
+    static double powerOf(const Clip& clip)
+    {
+        if (!clip.envelope.empty())
+            return powerOf(clip.envelope, clip.duration);
+        double sum = 0.0;
+        for (const Band& band : clip.bands)
+            sum += powerOf(band.amplitude, clip.duration);
+        for (const NoiseBand& band : clip.noise)
+            sum += powerOf(band.amplitude, clip.duration);
+        return sum;
+    }
+
+    std::string title;
+    double length;
+    std::size_t transients;
+    double meanPower;
+    std::vector<std::byte> packed;
+};
+
+} // namespace pacini

@@ -1,0 +1,275 @@
+#pragma once
+
+// One play of an engine while it sounds: what was made for it beforehand, and what the audio thread does with it.
+
+#include <pacini/foundation/Clamp.h>
+#include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/Glide.h>
+#include <pacini/synthesis/PlayVoice.h>
+#include <pacini/synthesis/RenderPlan.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// The live controls of a play as they were set last.
+struct PlayControls
+{
+    double gain = 1.0, intensity = 1.0, pan = 0.5, delay = 0.0, transposition = 0.0, speed = 1.0;
+};
+
+/// What plays of a clip from some place on: a voice for each kind of actuator, twice where it loops without end, so
+/// that one pass fades into the next. Made where memory may be allocated, used by the audio thread.
+class PlayContent
+{
+public:
+    static constexpr double joint = 0.01; ///< s in which one pass of a loop fades into the next
+
+    struct Voice
+    {
+        PlannedPlay planned; ///< its clip is not needed any more
+        PlayVoice voice;
+    };
+
+    /// Where a content begins, and how it was made.
+    struct Params
+    {
+        double sampleRate = 48000.0;
+        double loop = 0.0;          ///< s after which the other pass begins, where there are two
+        double offset = 0.0;        ///< s of the clip that were cut off before
+        std::int64_t played = 0;    ///< frames that the voices of the first pass have played already
+        double transposition = 0.0; ///< semitones with which the decoders were made
+        double speed = 1.0;
+    };
+
+    /// `madePasses[i]`: voices of pass i, in the order of the engine's kinds of actuators, prepared; one pass or two.
+    PlayContent(std::vector<std::vector<Voice>> madePasses, const Params& wanted)
+        : passes(std::move(madePasses)), params(wanted)
+    {
+    }
+
+    /// Begins at frame `frame` with what is set. [audio]
+    void begin(std::int64_t frame, const PlayControls& controls, double groupGain, std::size_t fadeIn) noexcept
+    {
+        current = 0;
+        sounding = {true, false};
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            for (Voice& v : passes[pass])
+            {
+                v.voice.goOnAt(frame, pass == 0 ? params.played : 0);
+                v.voice.setFader(Fader::play, controls.gain, 0);
+                v.voice.setFader(Fader::intensity, controls.intensity, 0);
+                v.voice.setFader(Fader::group, groupGain, 0);
+                v.voice.setPan(controls.pan, 0);
+                v.voice.setDelay(controls.delay, 0);
+                v.voice.setFader(Fader::fade, fadeIn > 0 ? 0.0 : 1.0, 0);
+                v.voice.setFader(Fader::fade, 1.0, fadeIn);
+            }
+        change(controls);
+    }
+
+    /// Begins at frame `frame` in the place of another one, which fades out. [audio]
+    void takeOver(PlayContent& other, std::int64_t frame, const PlayControls& controls, std::size_t frames) noexcept
+    {
+        begin(frame, controls, 1.0, frames);
+        for (std::size_t kind = 0; kind < passes[0].size(); ++kind)
+            passes[0][kind].voice.follow(other.passes[other.current][kind].voice);
+        other.fadeOut(frames);
+    }
+
+    template <typename Use>
+    void forVoices(Use&& use) noexcept
+    {
+        for (auto& pass : passes)
+            for (Voice& v : pass)
+                use(v.voice);
+    }
+
+    /// Pitch and speed. [audio]
+    void change(const PlayControls& controls) noexcept
+    {
+        if (!changed && controls.transposition == params.transposition && controls.speed == params.speed)
+            return;
+        changed = true;
+        forVoices([&](PlayVoice& voice) { voice.change(controls.transposition, 1.0 / controls.speed); });
+    }
+
+    /// Fades out. [audio]
+    void fadeOut(std::size_t frames) noexcept
+    {
+        leaving = true;
+        if (sounding[current])
+            for (Voice& v : passes[current])
+                v.voice.setFader(Fader::fade, 0.0, frames);
+    }
+
+    /// Fades in again after fadeOut(). [audio]
+    void fadeIn(std::size_t frames) noexcept
+    {
+        leaving = false;
+        for (Voice& v : passes[current])
+            v.voice.setFader(Fader::fade, 1.0, frames);
+    }
+
+    /// Whether nothing of it sounds any more, or, after fadeOut(), can be heard.
+    [[nodiscard]] bool ended() const noexcept
+    {
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            if (sounding[pass] && !silent(pass))
+                return false;
+        return true;
+    }
+
+    /// Whether it has faded out, though it might go on.
+    [[nodiscard]] bool fadedOut() const noexcept
+    {
+        const auto& voices = passes[current];
+        return leaving && std::all_of(voices.begin(), voices.end(),
+                                      [](const Voice& v) { return v.voice.fader(Fader::fade).resting(); });
+    }
+
+    /// It waited for `frames`. [audio]
+    void shift(std::int64_t frames) noexcept
+    {
+        forVoices([&](PlayVoice& voice) { voice.shift(frames); });
+    }
+
+    /// The next frame before which it must be looked after: where a pass of a loop or a fade out ends. [audio]
+    [[nodiscard]] std::int64_t nextCut(std::int64_t now) const noexcept
+    {
+        if (!leaving)
+            return nextJoint();
+        return now + static_cast<std::int64_t>(passes[current].front().voice.fader(Fader::fade).framesLeft());
+    }
+
+    /// The frame at which the other pass of a loop begins.
+    [[nodiscard]] std::int64_t nextJoint() const noexcept
+    {
+        if (passes.size() < 2 || leaving || !sounding[current])
+            return std::numeric_limits<std::int64_t>::max();
+        const PlayVoice& voice = passes[current].front().voice;
+        return voice.startFrame() +
+               static_cast<std::int64_t>(std::ceil(voice.decoding()->frameAt(Seconds(params.loop))));
+    }
+
+    /// At the joint: the other pass begins. [audio]
+    void passOn(std::int64_t frame, const PlayControls& controls) noexcept
+    {
+        const auto frames = static_cast<std::size_t>(joint * params.sampleRate + 0.5);
+        for (Voice& v : passes[current])
+            v.voice.setFader(Fader::fade, 0.0, frames);
+        const auto& before = passes[current];
+        current = 1 - current;
+        sounding[current] = true;
+        for (std::size_t kind = 0; kind < before.size(); ++kind)
+        {
+            Voice& v = passes[current][kind];
+            v.voice.startAt(frame);
+            v.voice.follow(before[kind].voice);
+            if (changed)
+                v.voice.change(controls.transposition, 1.0 / controls.speed);
+            v.voice.setFader(Fader::fade, 0.0, 0);
+            v.voice.setFader(Fader::fade, 1.0, frames);
+        }
+    }
+
+    /// Adds the voices for one kind of actuator. [audio]
+    void mix(std::size_t kind, const MixTarget& target, MixBuffers& buffers) noexcept
+    {
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            if (sounding[pass] && !silent(pass))
+            {
+                Voice& v = passes[pass][kind];
+                if (!v.voice.ended())
+                    v.voice.mix(v.planned, target, false, buffers);
+            }
+    }
+
+    /// The second of the clip that plays. [audio]
+    [[nodiscard]] double clipTime() const noexcept
+    {
+        const Decoder* decoder = passes[current].front().voice.decoding();
+        return decoder != nullptr ? params.offset + decoder->clipTime() : 0.0;
+    }
+
+    /// Frames until it ends by itself, as far as is known; without end in a loop.
+    [[nodiscard]] std::int64_t framesLeft() const noexcept
+    {
+        const PlayVoice& voice = passes[current].front().voice;
+        return passes.size() > 1 || voice.decoding() == nullptr ? std::numeric_limits<std::int64_t>::max() / 2
+                                                                : voice.decoding()->framesLeft();
+    }
+
+    /// Sinusoids and bands of noise of one pass, over all kinds of actuators.
+    [[nodiscard]] std::size_t carriers() const noexcept
+    {
+        std::size_t count = 0;
+        for (const Voice& v : passes[current])
+            if (v.voice.decoding() != nullptr)
+                count += v.voice.decoding()->report().carriers + 2 * v.voice.decoding()->report().noiseBands;
+        return count;
+    }
+
+private:
+    [[nodiscard]] bool silent(std::size_t pass) const noexcept
+    {
+        const auto& voices = passes[pass];
+        return std::all_of(voices.begin(), voices.end(),
+                           [](const Voice& v) { return v.voice.ended() || v.voice.fader(Fader::fade).restsAt(0.0); });
+    }
+
+    std::vector<std::vector<Voice>> passes;
+    Params params;
+    std::size_t current = 0;
+    std::array<bool, 2> sounding{false, false};
+    bool changed = false; // pitch or speed, ever
+    bool leaving = false;
+};
+
+/// One play, with what it plays and what of it was replaced and fades out.
+struct LivePlay
+{
+    std::uint32_t slot = 0, generation = 0;
+    std::uint32_t group = 0;
+    int priority = 0;
+    double power = 0.0; ///< mean of the clip's at gain 1, full drive = 1
+    std::size_t carriers = 0;
+    std::size_t fadeIn = 0; ///< frames
+    PlayControls controls;
+    std::unique_ptr<PlayContent> content;
+
+    // Of the audio thread:
+    PlayContent* leaving = nullptr; ///< owned; given back when it is silent
+    std::int64_t started = 0;
+    std::int64_t leftOutUntil = 0; ///< frame at which it would have ended
+    std::int64_t pausedAt = 0;
+    bool pausing = false, paused = false, stopping = false, leftOut = false;
+
+    /// What it brings in a second, full drive = 1.
+    [[nodiscard]] double energyNow() const noexcept
+    {
+        const double gain = controls.gain * controls.intensity * groupGain;
+        return gain * gain * power;
+    }
+
+    /// Predicted time on the audio thread for a frame, ns.
+    [[nodiscard]] double cost(std::size_t kinds) const noexcept
+    {
+        return static_cast<double>(kinds) * nsPerVoice + nsPerCarrier * static_cast<double>(carriers);
+    }
+
+    static constexpr double nsPerVoice = 1.5, nsPerCarrier = 0.15; // see Resources/docs/runtime.md
+    double groupGain = 1.0;
+};
+
+} // namespace pacini

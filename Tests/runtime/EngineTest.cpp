@@ -1,0 +1,649 @@
+#include "support/Catch.h"
+#include "support/HeapGuard.h"
+#include "support/Render.h"
+
+#include <pacini/foundation/Random.h>
+#include <pacini/runtime/Engine.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace pacini;
+using test::Channels;
+
+namespace
+{
+constexpr double fs = 8000.0;
+
+Clip humming(double seconds, double level = 0.3, double frequency = 110.0)
+{
+    Clip clip;
+    clip.name = "hum";
+    clip.duration = seconds;
+    clip.bands = {{0.9 * frequency, frequency, 1.1 * frequency, 0, {{0.0, level}}, {}}};
+    return clip;
+}
+
+Clip knocking(double seconds)
+{
+    Clip clip = humming(seconds);
+    clip.envelope = {{0.0, 0.1}, {0.5 * seconds, 0.5}, {seconds, 0.0}};
+    clip.transients = {{0.2 * seconds, 0.8, 0.5}, {0.7 * seconds, 0.6, 0.9}};
+    return clip;
+}
+
+std::shared_ptr<const LoadedClip> loaded(const Clip& clip)
+{
+    const auto made = LoadedClip::ofClip(clip);
+    REQUIRE(made.ok());
+    return *made;
+}
+
+Profile lra()
+{
+    Profile profile;
+    profile.technology = Technology::lra;
+    profile.resonance = {175.0, 9.0};
+    profile.range = {60.0, 400.0, 40.0};
+    profile.drive.overdrive = 1.5;
+    return profile;
+}
+
+Profile erm()
+{
+    Profile profile;
+    profile.technology = Technology::erm;
+    profile.resonance = {160.0, 2.0};
+    profile.range = {40.0, 300.0, 30.0};
+    return profile;
+}
+
+EngineParams paramsOf(std::size_t actuators, std::optional<Profile> profile = {})
+{
+    EngineParams params;
+    params.sampleRate = fs;
+    params.actuators.assign(actuators, EngineActuator{std::move(profile)});
+    return params;
+}
+
+std::unique_ptr<Engine> engineOf(const EngineParams& params, const Scene* scene = nullptr)
+{
+    auto made = Engine::make(params, scene);
+    if (!made.ok())
+        FAIL(made.error().where << " " << made.error().message);
+    return std::move(made).value();
+}
+
+/// Renders `frames` on in blocks of `block`, and asks for `before(frame)` in front of each.
+template <typename Before>
+Channels renderWith(Engine& engine, std::size_t frames, std::size_t block, Before&& before)
+{
+    Channels out(engine.actuators(), std::vector<float>(frames, 7.0f));
+    for (std::size_t i = 0; i < frames;)
+    {
+        before(i);
+        const std::size_t n = std::min(block, frames - i);
+        std::vector<std::span<float>> part;
+        for (auto& channel : out)
+            part.push_back(std::span(channel).subspan(i, n));
+        engine.render(part);
+        i += n;
+    }
+    return out;
+}
+
+Channels renderBlocks(Engine& engine, std::size_t frames, std::size_t block = 100)
+{
+    return renderWith(engine, frames, block, [](std::size_t) {});
+}
+
+PlayId started(Engine& engine, const std::shared_ptr<const LoadedClip>& clip, const PlaySettings& settings = {},
+               std::int64_t frame = 0)
+{
+    const auto play = engine.play(clip, settings, frame);
+    if (!play.ok())
+        FAIL(play.error().where << " " << play.error().message);
+    return *play;
+}
+
+double largest(std::span<const float> x)
+{
+    float most = 0.0f;
+    for (const float v : x)
+        most = std::max(most, std::abs(v));
+    return static_cast<double>(most);
+}
+
+double largestStep(std::span<const float> x)
+{
+    double most = 0.0;
+    for (std::size_t i = 1; i < x.size(); ++i)
+        most = std::max(most, std::abs(static_cast<double>(x[i]) - static_cast<double>(x[i - 1])));
+    return most;
+}
+
+Scene sceneOf(int actuators, std::size_t plays)
+{
+    Scene scene;
+    scene.actuators = actuators;
+    scene.clips = {knocking(0.4), humming(0.3, 0.2, 180.0)};
+    for (std::size_t i = 0; i < plays; ++i)
+    {
+        ScenePlay play;
+        play.clip = i % 2;
+        play.start = 0.07 * static_cast<double>(i);
+        play.pan = actuators > 1 ? static_cast<double>(i % 5) / 4.0 : 0.5;
+        play.gain = plays > 1 ? -3.0 * static_cast<double>(i % 3) : 0.0;
+        scene.plays.push_back(play);
+    }
+    if (plays > 2)
+        scene.changes = {{0.1, 1, SceneParameter::pan, 1.0, 0.1},
+                         {0.12, 2, SceneParameter::delay, 0.01, 0.05},
+                         {0.2, 0, SceneParameter::gain, -12.0, 0.03}};
+    return scene;
+}
+} // namespace
+
+TEST_CASE("An engine plays a scene sample for sample as its player does, on every kind of actuator", "[runtime]")
+{
+    for (const auto& profile : {std::optional<Profile>(), std::optional(lra()), std::optional(erm())})
+        for (const int actuators : {1, 3})
+            for (const std::size_t plays : {std::size_t(1), std::size_t(6)})
+            {
+                CAPTURE(profile.has_value(), actuators, plays);
+                const Scene scene = sceneOf(actuators, plays);
+                CompileParams compile;
+                compile.sampleRate = fs;
+                const auto plan = compilePlan(scene, profile ? &*profile : nullptr, compile);
+                REQUIRE(plan.ok());
+                ScenePlayerParams playing;
+                playing.sampleRate = fs;
+                ScenePlayer player(*plan, playing);
+                const Channels wanted = test::renderChannels(player, static_cast<std::size_t>(actuators), 4096);
+                for (const std::size_t block : {std::size_t(64), std::size_t(333), std::size_t(5000)})
+                {
+                    const auto engine = engineOf(paramsOf(static_cast<std::size_t>(actuators), profile), &scene);
+                    CHECK((renderBlocks(*engine, wanted[0].size(), block) == wanted));
+                }
+            }
+}
+
+TEST_CASE("A clip that is played alone is the decoder's, from its frame on", "[runtime]")
+{
+    const auto clip = loaded(knocking(0.3));
+    Scene scene;
+    scene.clips = {*clip->unpack()};
+    scene.plays.resize(1);
+    scene.plays[0].start = 777.0 / fs;
+    CompileParams compile;
+    compile.sampleRate = fs;
+    compile.leaveOut = false;
+    const auto plan = compilePlan(scene, nullptr, compile);
+    REQUIRE(plan.ok());
+    ScenePlayerParams playing;
+    playing.sampleRate = fs;
+    ScenePlayer player(*plan, playing);
+    const Channels wanted = test::renderChannels(player, 1, 4096);
+
+    const auto engine = engineOf(paramsOf(1));
+    PlayId id;
+    const Channels y = renderWith(*engine, wanted[0].size(), 50,
+                                  [&](std::size_t at)
+                                  {
+                                      if (at == 500)
+                                          id = started(*engine, clip, {}, 777);
+                                      if (at == 600)
+                                          CHECK(engine->status(id).state == PlayState::waiting);
+                                      if (at == 1100)
+                                      {
+                                          CHECK(engine->status(id).state == PlayState::playing);
+                                          const double ahead = static_cast<double>(engine->latencyFrames());
+                                          CHECK(engine->status(id).position == Approx((1100.0 + ahead - 777.0) / fs));
+                                      }
+                                  });
+    for (std::size_t i = 0; i < y[0].size(); ++i)
+        REQUIRE(static_cast<double>(y[0][i]) == Approx(static_cast<double>(wanted[0][i])).margin(1e-6));
+    renderBlocks(*engine, 100);
+    CHECK(engine->status(id).state == PlayState::ended);
+    CHECK(engine->framesRendered() == static_cast<std::int64_t>(wanted[0].size()) + 100);
+}
+
+TEST_CASE("A pan places a play between actuators by power, and glides there without a step", "[runtime]")
+{
+    const auto clip = loaded(humming(2.0, 0.3, 60.0));
+    const auto engine = engineOf(paramsOf(3));
+    PlaySettings settings;
+    settings.controls.pan = 0.25; // halfway between the first two
+    const PlayId id = started(*engine, clip, settings);
+    Channels y = renderBlocks(*engine, 2000);
+    const double half = std::sqrt(0.5) * 0.3;
+    CHECK(largest(std::span(y[0]).subspan(500)) == Approx(half).epsilon(0.01));
+    CHECK(largest(std::span(y[1]).subspan(500)) == Approx(half).epsilon(0.01));
+    CHECK(largest(y[2]) == 0.0);
+    REQUIRE(engine->set(id, LiveControl::pan, 1.0, Seconds(0.1)).ok());
+    y = renderBlocks(*engine, 2000, 77);
+    CHECK(largest(std::span(y[0]).subspan(900)) == 0.0);
+    CHECK(largest(std::span(y[2]).subspan(900)) == Approx(0.3).epsilon(0.01));
+    // On the way it passes the middle one, and no level jumps: the steps are those of the sine and of the glide.
+    CHECK(largest(std::span(y[1]).first(800)) > 0.28);
+    const double sineStep = 0.3 * 2.0 * 3.1416 * 60.0 / fs;
+    for (const auto& channel : y)
+        CHECK(largestStep(channel) < 1.1 * sineStep + 0.3 * 3.0 / 800.0);
+}
+
+TEST_CASE("Live delay is exact and glides without a step", "[runtime]")
+{
+    const auto clip = loaded(knocking(0.5));
+    const auto reference = engineOf(paramsOf(1));
+    started(*reference, clip);
+    const Channels plain = renderBlocks(*reference, 4000);
+    const auto engine = engineOf(paramsOf(1));
+    PlaySettings settings;
+    settings.controls.delay = 240.0 / fs;
+    started(*engine, clip, settings);
+    const Channels late = renderBlocks(*engine, 4240, 61);
+    for (std::size_t i = 0; i < 4240; ++i)
+        REQUIRE(static_cast<double>(late[0][i]) ==
+                Approx(i < 240 ? 0.0 : static_cast<double>(plain[0][i - 240])).margin(1e-6));
+    const auto gliding = engineOf(paramsOf(1));
+    const PlayId id = started(*gliding, loaded(humming(2.0, 0.3, 60.0)));
+    renderBlocks(*gliding, 1000);
+    REQUIRE(gliding->set(id, LiveControl::delay, 0.1, Seconds(0.3)).ok());
+    CHECK(largestStep(renderBlocks(*gliding, 6000, 200)[0]) < 1.45 * 0.3 * 2.0 * 3.1416 * 60.0 / fs);
+}
+
+TEST_CASE("Gain, intensity and a group's fader multiply, and a group sets what plays in it", "[runtime]")
+{
+    const auto clip = loaded(humming(5.0, 0.8));
+    const auto engine = engineOf(paramsOf(1));
+    PlaySettings settings;
+    settings.group = 3;
+    const PlayId id = started(*engine, clip, settings);
+    renderBlocks(*engine, 1000);
+    REQUIRE(engine->set(id, LiveControl::gain, 0.5).ok());
+    REQUIRE(engine->set(id, LiveControl::intensity, 0.5).ok());
+    REQUIRE(engine->setGroup(3, LiveControl::gain, 0.5).ok());
+    REQUIRE(engine->setGroup(2, LiveControl::gain, 0.0).ok());
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == Approx(0.1).epsilon(0.02));
+    // A play to come is under the fader too.
+    REQUIRE(engine->stop(id).ok());
+    renderBlocks(*engine, 500);
+    started(*engine, clip, settings);
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == Approx(0.4).epsilon(0.02));
+    REQUIRE(engine->stopGroup(3, Seconds(0.01)).ok());
+    renderBlocks(*engine, 200);
+    CHECK(largest(renderBlocks(*engine, 500)[0]) == 0.0);
+    CHECK(engine->meters().playing == 0);
+}
+
+TEST_CASE("A play pauses and goes on where it was", "[runtime]")
+{
+    const auto clip = loaded(knocking(0.5));
+    const auto reference = engineOf(paramsOf(1));
+    started(*reference, clip);
+    const Channels plain = renderBlocks(*reference, 4000);
+    for (const std::size_t block : {std::size_t(50), std::size_t(333)})
+    {
+        const auto engine = engineOf(paramsOf(1));
+        const PlayId id = started(*engine, clip);
+        REQUIRE(engine->pause(id, Seconds(0.0), 1000).ok());
+        REQUIRE(engine->resume(id, Seconds(0.0), 3000).ok());
+        PlayState between = PlayState::ended;
+        const Channels y = renderWith(*engine, 6000, block,
+                                      [&](std::size_t at)
+                                      {
+                                          if (at > 2000 && at < 2400)
+                                              between = engine->status(id).state;
+                                      });
+        CHECK(between == PlayState::paused);
+        for (std::size_t i = 0; i < 6000; ++i)
+        {
+            const std::size_t from = i < 1000 ? i : i - 2000;
+            const bool sounds = i < 1000 || i >= 3000;
+            REQUIRE(static_cast<double>(y[0][i]) ==
+                    Approx(sounds ? static_cast<double>(plain[0][from]) : 0.0).margin(1e-6));
+        }
+        CHECK(engine->status(id).state == PlayState::ended);
+    }
+}
+
+TEST_CASE("A loop without end goes round without a click, in phase with its clip", "[runtime]")
+{
+    const auto clip = loaded(humming(0.5, 0.3, 50.0));
+    const auto engine = engineOf(paramsOf(1));
+    PlaySettings settings;
+    settings.loop = 0.5;
+    const PlayId id = started(*engine, clip, settings);
+    const Channels y = renderBlocks(*engine, 30 * 8000, 480);
+    CHECK(engine->status(id).state == PlayState::playing);
+    CHECK(largestStep(y[0]) < 1.3 * 0.3 * 2.0 * 3.1416 * 50.0 / fs);
+    for (std::size_t i = 1000; i < y[0].size(); i += 800)
+        CHECK(largest(std::span(y[0]).subspan(i - 800, 800)) > 0.15);
+    // A finite one ends.
+    settings.passes = 3;
+    const PlayId three = started(*engine, clip, settings, engine->framesRendered());
+    renderBlocks(*engine, 11000);
+    CHECK(engine->status(three).state == PlayState::playing);
+    renderBlocks(*engine, 1200);
+    CHECK(engine->status(three).state == PlayState::ended);
+}
+
+TEST_CASE("Seeking goes on at the place, and a clip is replaced while it plays", "[runtime]")
+{
+    Clip rising = humming(4.0);
+    rising.bands[0].amplitude = {{0.0, 0.0}, {4.0, 0.8}};
+    const auto clip = loaded(rising);
+    const auto engine = engineOf(paramsOf(1));
+    const PlayId id = started(*engine, clip);
+    renderBlocks(*engine, 4000);
+    REQUIRE(engine->seek(id, 3.0).ok());
+    renderBlocks(*engine, 400);
+    CHECK(largest(renderBlocks(*engine, 400)[0]) == Approx(0.62).margin(0.03));
+    CHECK(engine->status(id).position == Approx(3.1).margin(0.01));
+    // Longer than what is played unheard: cut off.
+    const auto longer = loaded(humming(100.0, 0.1));
+    REQUIRE(engine->replace(id, longer).ok());
+    renderBlocks(*engine, 400);
+    CHECK(largest(renderBlocks(*engine, 400)[0]) == Approx(0.1).margin(0.01));
+    CHECK(engine->status(id).position == Approx(3.2).margin(0.02));
+    REQUIRE(engine->seek(id, 50.0).ok());
+    renderBlocks(*engine, 400);
+    CHECK(engine->status(id).position == Approx(50.05).margin(0.02));
+    REQUIRE(engine->set(id, LiveControl::speed, 2.0).ok());
+    renderBlocks(*engine, 8000);
+    CHECK(engine->status(id).position == Approx(52.05).margin(0.05));
+}
+
+TEST_CASE("What has ended, what is out of range and what is too much are errors", "[runtime]")
+{
+    EngineParams params = paramsOf(2);
+    params.maxPlays = 2;
+    params.maxCommands = 16;
+    const auto engine = engineOf(params);
+    const auto clip = loaded(knocking(0.1));
+    const PlayId id = started(*engine, clip);
+    CHECK(engine->set(id, LiveControl::gain, std::nan("")).error().where == "gain");
+    CHECK(engine->set(id, LiveControl::speed, 0.0).error().where == "speed");
+    CHECK(engine->set(id, LiveControl::delay, 0.3).error().where == "delay");
+    CHECK(engine->setGroup(32, LiveControl::gain, 1.0).error().where == "group");
+    CHECK(engine->setActuatorGain(2, 1.0).error().where == "actuator");
+    CHECK(engine->setActuatorGain(1, 1.5).error().where == "value");
+    PlaySettings wrong;
+    wrong.loop = 1.0;
+    CHECK(engine->play(clip, wrong).error().where == "loop");
+    wrong = {};
+    wrong.controls.pan = -1.0;
+    CHECK(engine->play(clip, wrong).error().where == "pan");
+    started(*engine, clip);
+    CHECK(engine->play(clip).error().where == "plays");
+    for (int i = 0; i < 100 && engine->set(id, LiveControl::gain, 1.0).ok(); ++i)
+    {
+    }
+    CHECK(engine->set(id, LiveControl::gain, 1.0).error().where == "commands");
+    renderBlocks(*engine, 2000);
+    CHECK(engine->set(id, LiveControl::gain, 1.0).error().where == "play");
+    CHECK(engine->stop({}).error().where == "play");
+    CHECK(engine->status({77, 1}).state == PlayState::ended);
+    const PlayId again = started(*engine, clip);
+    CHECK(engine->status(id).state == PlayState::ended);
+    CHECK(engine->status(again).state == PlayState::waiting);
+
+    params.actuators[1].gain = 2.0;
+    CHECK(Engine::make(params).error().where == "actuators[1].gain");
+    const Scene scene = sceneOf(3, 1);
+    CHECK(Engine::make(paramsOf(2), &scene).error().where == "scene.actuators");
+}
+
+TEST_CASE("Each actuator is played by its own profile, gain and delay", "[runtime]")
+{
+    EngineParams params = paramsOf(3);
+    params.actuators[0].profile = lra();
+    params.actuators[2].profile = erm();
+    params.actuators[1].gain = 0.5;
+    params.actuators[1].delay = Seconds(100.0 / fs);
+    params.panLaw = PanLaw::delay;
+    params.panDelay = Seconds(0.0);
+    const auto engine = engineOf(params);
+    const auto clip = loaded(humming(1.0, 0.5));
+    started(*engine, clip);
+    const Channels y = renderBlocks(*engine, 4000);
+    const double third = 0.5 / std::sqrt(3.0);
+    CHECK(largest(std::span(y[1]).first(100)) == 0.0);
+    CHECK(largest(std::span(y[1]).subspan(1000)) == Approx(0.5 * third).epsilon(0.02));
+    CHECK(largest(y[0]) > 0.0);
+    // A motor is driven by the strength.
+    CHECK(std::all_of(y[2].begin() + 2000, y[2].end(), [](float v) { return v > 0.0f; }));
+    // The same signals as engines of one actuator each make, in time.
+    EngineParams alone = paramsOf(1, lra());
+    const auto single = engineOf(alone);
+    PlaySettings settings;
+    settings.controls.gain = 1.0 / std::sqrt(3.0);
+    started(*single, clip, settings);
+    const Channels s = renderBlocks(*single, 4000);
+    for (std::size_t i = 0; i < 4000; ++i)
+        REQUIRE(static_cast<double>(y[0][i]) == Approx(static_cast<double>(s[0][i])).margin(1e-5));
+}
+
+TEST_CASE("What does not fit in the budget is left out, least important first", "[runtime]")
+{
+    EngineParams params = paramsOf(1);
+    params.budget.voices = 2;
+    const auto engine = engineOf(params);
+    PlaySettings settings;
+    settings.priority = 1;
+    settings.controls.gain = 1.0;
+    const PlayId loud = started(*engine, loaded(humming(2.0, 0.4, 60.0)), settings);
+    settings.controls.gain = 0.1;
+    const PlayId faint = started(*engine, loaded(humming(2.0, 0.4, 90.0)), settings);
+    settings.priority = 0;
+    settings.controls.gain = 0.01;
+    const PlayId kept = started(*engine, loaded(humming(2.0, 0.4, 120.0)), settings);
+    renderBlocks(*engine, 1000);
+    CHECK(engine->status(loud).state == PlayState::playing);
+    CHECK(engine->status(kept).state == PlayState::playing);
+    CHECK(engine->status(faint).state == PlayState::leftOut);
+    CHECK(engine->meters().leftOut == 1);
+    CHECK(engine->meters().playing == 2);
+    CHECK(engine->meters().leftOutError == Approx(-20.0).margin(0.3));
+    // By time: nothing fits.
+    REQUIRE(engine->setBudget({0.001, 0}).ok());
+    renderBlocks(*engine, 1000);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == 0.0);
+    // What is left out ends when it would have.
+    renderBlocks(*engine, 16000);
+    CHECK(engine->status(loud).state == PlayState::ended);
+    CHECK(engine->meters().playing == 0);
+}
+
+namespace
+{
+/// Random commands for random frames, all of them known `ahead` frames before.
+struct Performance
+{
+    struct Step
+    {
+        std::int64_t frame;
+        int what;
+        std::size_t play;
+        double value;
+        LiveControl control;
+    };
+    std::vector<Step> steps;
+
+    explicit Performance(std::uint64_t seed, std::int64_t frames)
+    {
+        Random random(seed);
+        std::int64_t at = 0;
+        while (at < frames)
+        {
+            at += static_cast<std::int64_t>(random.next() % 300);
+            steps.push_back({at, static_cast<int>(random.next() % 10), random.next() % 64, random.uniform(0.0, 1.0),
+                             static_cast<LiveControl>(random.next() % 7)});
+        }
+    }
+};
+
+double valueOf(LiveControl control, double x)
+{
+    switch (control)
+    {
+    case LiveControl::delay:
+        return 0.25 * x;
+    case LiveControl::transposition:
+        return 24.0 * x - 12.0;
+    case LiveControl::speed:
+        return 0.25 + 2.0 * x;
+    case LiveControl::priority:
+        return std::floor(3.0 * x);
+    default:
+        return x;
+    }
+}
+
+Channels perform(const Performance& performance, const EngineParams& params, std::size_t frames, std::size_t block,
+                 std::size_t ahead)
+{
+    const auto engine = engineOf(params);
+    const std::vector<std::shared_ptr<const LoadedClip>> clips{loaded(knocking(0.3)), loaded(humming(0.4, 0.2, 70.0)),
+                                                               loaded(knocking(0.05))};
+    std::vector<PlayId> plays;
+    std::size_t next = 0;
+    return renderWith(
+        *engine, frames, block,
+        [&](std::size_t at)
+        {
+            while (next < performance.steps.size() &&
+                   performance.steps[next].frame < static_cast<std::int64_t>(at + block + ahead))
+            {
+                const Performance::Step& step = performance.steps[next++];
+                PlaySettings settings;
+                settings.controls.gain = 0.3;
+                settings.controls.pan = step.value;
+                settings.group = static_cast<std::uint32_t>(step.play % 3);
+                settings.loop = step.play % 4 == 0 ? 0.05 : 0.0;
+                const PlayId target = plays.empty() ? PlayId{} : plays[plays.size() - 1 - step.play % plays.size()];
+                // What has ended meanwhile is an error in some of the runs: no difference.
+                if (step.what < 4)
+                    plays.push_back(started(*engine, clips[step.play % 3], settings, step.frame));
+                else if (step.what < 7)
+                    static_cast<void>(engine->set(target, step.control, valueOf(step.control, step.value),
+                                                  Seconds(0.1 * step.value), step.frame));
+                else if (step.what == 7)
+                    static_cast<void>(engine->stop(target, Seconds(0.02), step.frame));
+                else if (step.what == 8)
+                    static_cast<void>(step.value < 0.5 ? engine->pause(target, Seconds(0.01), step.frame)
+                                                       : engine->resume(target, Seconds(0.01), step.frame));
+                else
+                    static_cast<void>(engine->setGroup(static_cast<std::uint32_t>(step.play % 3), LiveControl::gain,
+                                                       step.value, Seconds(0.05), step.frame));
+            }
+        });
+}
+} // namespace
+
+TEST_CASE("Blocks and the time at which commands come change nothing", "[runtime]")
+{
+    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    {
+        CAPTURE(seed);
+        const Performance performance(seed, 20000);
+        EngineParams params = paramsOf(2, seed % 2 == 0 ? std::optional(lra()) : std::nullopt);
+        params.panLaw = seed % 3 == 0 ? PanLaw::both : PanLaw::constantPower;
+        params.maxPlays = 1000;
+        params.budget.voices = seed > 4 ? 5 : 0;
+        const Channels wanted = perform(performance, params, 24000, 256, 64);
+        CHECK(largest(wanted[0]) > 0.05);
+        CHECK((perform(performance, params, 24000, 64, 64) == wanted));
+        CHECK((perform(performance, params, 24000, 1777, 500) == wanted));
+        CHECK((perform(performance, params, 24000, 7, 5000) == wanted));
+        for (const auto& channel : wanted)
+            CHECK(std::all_of(channel.begin(), channel.end(), [](float v) { return std::abs(v) <= 1.0f; }));
+    }
+}
+
+TEST_CASE("Rendering touches no heap, whatever is started, changed, replaced and stopped", "[runtime]")
+{
+    EngineParams params = paramsOf(3, lra());
+    params.actuators[1].profile.reset();
+    const auto engine = engineOf(params);
+    const auto clip = loaded(knocking(0.3));
+    Random random(5);
+    std::vector<PlayId> plays;
+    Channels out(3, std::vector<float>(300));
+    std::vector<std::span<float>> spans(out.begin(), out.end());
+    std::size_t traffic = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+        PlaySettings settings;
+        settings.loop = i % 3 == 0 ? 0.1 : 0.0;
+        if (const auto play = engine->play(clip, settings); play.ok())
+            plays.push_back(*play);
+        const PlayId target = plays[random.next() % plays.size()];
+        static_cast<void>(engine->seek(target, 0.2));
+        static_cast<void>(engine->set(target, LiveControl::pan, random.uniform(0.0, 1.0)));
+        static_cast<void>(engine->set(target, LiveControl::transposition, 3.0));
+        if (i % 2 == 0)
+            static_cast<void>(engine->stop(target));
+        const test::HeapGuard guard;
+        engine->render(spans);
+        traffic += guard.traffic();
+    }
+    CHECK(traffic == 0);
+}
+
+TEST_CASE("One thread renders while another plays and a third looks", "[runtime]")
+{
+    const auto engine = engineOf(paramsOf(2));
+    const auto clip = loaded(knocking(0.1));
+    std::atomic<bool> done{false};
+    std::atomic<std::size_t> seen{0};
+    std::thread audio(
+        [&]
+        {
+            Channels out(2, std::vector<float>(64));
+            std::vector<std::span<float>> spans(out.begin(), out.end());
+            while (!done.load())
+                engine->render(spans);
+        });
+    std::thread viewer(
+        [&]
+        {
+            while (!done.load())
+                seen += engine->meters().playing + (engine->status({0, 1}).position >= 0.0 ? 1u : 0u);
+        });
+    Random random(3);
+    std::vector<PlayId> plays;
+    for (int i = 0; i < 3000; ++i)
+    {
+        if (const auto play = engine->play(clip); play.ok())
+            plays.push_back(*play);
+        if (!plays.empty())
+        {
+            const PlayId target = plays[random.next() % plays.size()];
+            static_cast<void>(engine->set(target, LiveControl::gain, 0.5));
+            if (i % 5 == 0)
+                static_cast<void>(engine->stop(target));
+        }
+        if (i % 100 == 0)
+            std::this_thread::yield();
+    }
+    done.store(true);
+    audio.join();
+    viewer.join();
+    CHECK(seen > 0);
+    CHECK(plays.size() > 100);
+}
