@@ -87,6 +87,33 @@ TEST_CASE("A step over a group has the drives of each of its frames", "[actuator
     CHECK(GroupStep{}.next({1.0, 2.0}, {1.0, 1.0, 1.0, 1.0}).velocity == 2.0);
 }
 
+TEST_CASE("Two masses that step over a group side by side get to the numbers of each alone", "[actuator][protection]")
+{
+    const GroupStep group = designGroupStep(designHeldStep(180.0, 2.5, 0.7, 1e-4));
+    ResonatorState first{0.3, -0.4}, second{-1e-9, 5.0};
+    TwoStates both(first, second);
+    for (int n = 0; n < 50; ++n)
+    {
+        FrameGroup a, b;
+        std::array<Pair, groupFrames> drives;
+        for (std::size_t k = 0; k < groupFrames; ++k)
+        {
+            a[k] = std::sin(0.7 * static_cast<double>(k) + n);
+            b[k] = 1.0 / (static_cast<double>(k) - 3.3 * n + 0.1);
+            drives[k] = Pair(a[k], b[k]);
+        }
+        first = group.next(first, a);
+        second = group.next(second, b);
+        both = group.next(both, drives);
+        CHECK(both.first().displacement == first.displacement);
+        CHECK(both.first().velocity == first.velocity);
+        CHECK(both.second().displacement == second.displacement);
+        CHECK(both.second().velocity == second.velocity);
+        CHECK(both.energy().first() == first.energy());
+        CHECK(both.energy().second() == second.energy());
+    }
+}
+
 TEST_CASE("A mass begins a group where it is, for steps of another design", "[actuator][protection]")
 {
     const HeldStep step = designHeldStep(200.0, 3.0, 1.0, 1e-4), other = designHeldStep(90.0, 0.4, 0.5, 1e-4);

@@ -11,9 +11,11 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/FixedVector.h>
+#include <pacini/foundation/Pair.h>
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -170,24 +172,24 @@ public:
     {
         if (!(playedPeak <= guard.driveLimit))
             return false;
-        MovingMass wantedMass = asWanted;
-        MovingMass playedMass = moved;
-        double wantedMost = wantedMass.state().energy();
-        double playedMost = playedMass.state().energy();
-        for (std::size_t i = 0; i < wanted.size(); i += groupFrames) // side by side: each waits for its own last state
+        TwoStates masses(asWanted.state(), moved.state()); // side by side: each waits for its own last state
+        Pair most = masses.energy();
+        WornGuard::TwoFollowing modes = worn.followTwo(isWorn);
+        for (std::size_t i = 0; i < wanted.size(); i += groupFrames)
         {
-            wantedMass.followGroup(groupAt(wanted, i), guard.group);
-            playedMass.followGroup(groupAt(played, i), guard.group);
-            wantedMost = std::max(wantedMost, wantedMass.state().energy());
-            playedMost = std::max(playedMost, playedMass.state().energy());
+            std::array<Pair, groupFrames> drives;
+            for (std::size_t k = 0; k < groupFrames; ++k)
+                drives[k] = Pair(wanted[i + k], played[i + k]);
+            masses = guard.group.next(masses, drives);
+            most = larger(masses.energy(), most);
+            worn.follow(modes, drives);
         }
-        if (!stays(wantedMost, wantedPeak, maxMeasure * wantedLimit) ||
-            !stays(playedMost, playedPeak, guard.energyLimit))
+        if (!stays(most.first(), wantedPeak, maxMeasure * wantedLimit) ||
+            !stays(most.second(), playedPeak, guard.energyLimit) ||
+            !worn.moveFreely(modes, wantedPeak, playedPeak, maxMeasure))
             return false;
-        if (isWorn && !worn.advanceFreely(wanted, wantedPeak, played, playedPeak, maxMeasure))
-            return false;
-        asWanted = wantedMass;
-        moved = playedMass;
+        asWanted.moveTo(masses.first());
+        moved.moveTo(masses.second());
         return true;
     }
 

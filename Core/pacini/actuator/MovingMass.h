@@ -13,12 +13,36 @@
 namespace pacini
 {
 
+/// Two resonators side by side.
+struct TwoStates
+{
+    Pair displacement, velocity;
+
+    TwoStates(const ResonatorState& first, const ResonatorState& second) noexcept
+        : displacement(first.displacement, second.displacement), velocity(first.velocity, second.velocity)
+    {
+    }
+    TwoStates(Pair x, Pair v) noexcept : displacement(x), velocity(v) {}
+
+    [[nodiscard]] ResonatorState first() const noexcept { return {displacement.first(), velocity.first()}; }
+    [[nodiscard]] ResonatorState second() const noexcept { return {displacement.second(), velocity.second()}; }
+    [[nodiscard]] Pair energy() const noexcept { return displacement * displacement + velocity * velocity; }
+};
+
 /// A held step for every frame of a group at once. Displacement and velocity go side by side.
 struct GroupStep
 {
     Pair fromX; ///< what a displacement adds to both
     Pair fromV;
     std::array<Pair, groupFrames> fromDrives{};
+
+    /// The same weights, each in both lanes, for two states side by side.
+    struct Twice
+    {
+        Pair displacement, velocity;
+    };
+    Twice twiceFromX, twiceFromV;
+    std::array<Twice, groupFrames> twiceFromDrives{};
 
     [[nodiscard]] ResonatorState next(const ResonatorState& z, const FrameGroup& drives) const noexcept
     {
@@ -28,6 +52,20 @@ struct GroupStep
         const Pair after =
             (Pair(z.displacement, z.velocity) + driven) + (fromX * Pair(z.displacement) + fromV * Pair(z.velocity));
         return {after.first(), after.second()};
+    }
+
+    /// next() for two states with drives of their own: the same numbers.
+    [[nodiscard]] TwoStates next(const TwoStates& z, const std::array<Pair, groupFrames>& drives) const noexcept
+    {
+        Pair drivenX(0.0), drivenV(0.0);
+        for (std::size_t k = 0; k < groupFrames; ++k)
+        {
+            drivenX = drivenX + twiceFromDrives[k].displacement * drives[k];
+            drivenV = drivenV + twiceFromDrives[k].velocity * drives[k];
+        }
+        return {(z.displacement + drivenX) +
+                    (twiceFromX.displacement * z.displacement + twiceFromV.displacement * z.velocity),
+                (z.velocity + drivenV) + (twiceFromX.velocity * z.displacement + twiceFromV.velocity * z.velocity)};
     }
 };
 
@@ -45,6 +83,14 @@ struct GroupStep
     }
     group.fromX = {all.xx, all.vx};
     group.fromV = {all.xv, all.vv};
+    const auto twice = [](const Pair& weights)
+    {
+        return GroupStep::Twice{Pair(weights.first()), Pair(weights.second())};
+    };
+    group.twiceFromX = twice(group.fromX);
+    group.twiceFromV = twice(group.fromV);
+    for (std::size_t k = 0; k < groupFrames; ++k)
+        group.twiceFromDrives[k] = twice(group.fromDrives[k]);
     return group;
 }
 
@@ -69,6 +115,9 @@ public:
     {
         now = start = group.next(start, groupDrives);
     }
+
+    /// Goes to where it is after whole groups.
+    void moveTo(const ResonatorState& state) noexcept { now = start = state; }
 
     /// Begins a group, for steps of another design.
     void beginGroup() noexcept

@@ -186,77 +186,90 @@ private:
                       line.begin() + static_cast<std::ptrdiff_t>(position), line.begin());
             position = latency;
         }
-        const std::span<double> to = std::span(line).subspan(position, in.size());
-        for (std::size_t i = 0; i < in.size(); ++i)
-            to[i] = static_cast<double>(bearable(in[i]));
-        if (wholeGroups(in.size()))
-            return highPasses(to, std::span<const double>(line).subspan(position - latency, in.size()));
-        double peak = 0.0;
-        for (double& x : to)
+        std::array<float, longestStretch> borne;
+        if (!areBearable(in))
         {
-            const double input = x - inputMean.value();
+            std::transform(in.begin(), in.end(), borne.begin(), bearable);
+            in = std::span(borne).first(in.size());
+        }
+        const std::span<double> to = std::span(line).subspan(position, in.size());
+        if (wholeGroups(in.size()))
+            return highPasses(in, to, std::span<const double>(line).subspan(position - latency, in.size()));
+        double peak = 0.0;
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            const auto x = static_cast<double>(in[i]);
+            to[i] = x - inputMean.value();
             inputMean.follow(x);
-            x = input;
-            peak = std::max(peak, std::abs(x));
+            peak = std::max(peak, std::abs(to[i]));
         }
         return peak;
     }
 
-    /// The sample within +-largestInput, 0 if it is not finite; in float, where four fit a vector.
+    /// Whether bearable() changes none of them; by their bits, which are in the order of the magnitudes and need no
+    /// branches.
+    [[nodiscard]] static bool areBearable(std::span<const float> samples) noexcept
+    {
+        std::int32_t most = 0;
+        for (const float x : samples)
+            most = std::max(most, std::bit_cast<std::int32_t>(x) & std::numeric_limits<std::int32_t>::max());
+        return most <= std::bit_cast<std::int32_t>(static_cast<float>(largestInput));
+    }
+
+    /// The sample within +-largestInput, 0 if it is not finite.
     [[nodiscard]] static float bearable(float sample) noexcept
     {
         constexpr auto largest = static_cast<float>(largestInput);
-        return std::abs(sample) <= std::numeric_limits<float>::max() ? clampTo(sample, -largest, largest) : 0.0f;
+        const float finite = std::abs(sample) <= std::numeric_limits<float>::max() ? sample : 0.0f;
+        const float above = finite > -largest ? finite : -largest;
+        return above < largest ? above : largest;
     }
 
-    /// Takes the mean out of whole groups of the input, and the second one out of those that are `delayed`, which may
-    /// overlap: into `freeDrive`. Returns the peak of the first; that of the second is kept.
-    double highPasses(std::span<double> input, std::span<const double> delayed) noexcept
+    /// Takes the mean out of whole groups of `in`, into `input`, and the second one out of those that are `delayed`,
+    /// which may overlap these: into `freeDrive`. Returns the peak of the first; that of the second is kept.
+    double highPasses(std::span<const float> in, std::span<double> input, std::span<const double> delayed) noexcept
     {
         RunningMean mean = inputMean;
         freeMean = outputMean;
         Pair before(mean.value(), freeMean.value());
-        double peak = 0.0;
-        freePeak = 0.0;
+        Pair peaks(0.0);
         for (std::size_t i = 0; i < input.size(); i += groupFrames)
         {
-            std::array<Pair, groupFrames> x;
+            std::array<Pair, groupFrames> rest;
             if (latency < groupFrames) // then the second waits for the first, and both for their sums
             {
-                const FrameGroup in = groupAt(input, i);
-                const FrameGroup means = mean.followGroup(in);
+                FrameGroup x, y;
                 for (std::size_t k = 0; k < groupFrames; ++k)
-                    input[i + k] = in[k] - (k == 0 ? before.first() : means[k - 1]);
-                const FrameGroup late = groupAt(delayed, i);
-                const FrameGroup lateMeans = freeMean.followGroup(late);
+                    x[k] = static_cast<double>(in[i + k]);
+                const FrameGroup means = mean.followGroup(x);
                 for (std::size_t k = 0; k < groupFrames; ++k)
-                    freeDrive[i + k] = late[k] - (k == 0 ? before.second() : lateMeans[k - 1]);
+                    input[i + k] = x[k] - (k == 0 ? before.first() : means[k - 1]);
+                y = groupAt(delayed, i);
+                const FrameGroup lateMeans = freeMean.followGroup(y);
+                for (std::size_t k = 0; k < groupFrames; ++k)
+                    rest[k] = Pair(input[i + k], y[k] - (k == 0 ? before.second() : lateMeans[k - 1]));
                 before = Pair(means.back(), lateMeans.back());
             }
             else
             {
+                std::array<Pair, groupFrames> x;
                 for (std::size_t k = 0; k < groupFrames; ++k)
-                    x[k] = Pair(input[i + k], delayed[i + k]);
+                    x[k] = Pair(static_cast<double>(in[i + k]), delayed[i + k]);
                 const auto means = RunningMean::followGroups(mean, freeMean, x);
                 for (std::size_t k = 0; k < groupFrames; ++k)
-                {
-                    const Pair rest = x[k] - (k == 0 ? before : means[k - 1]);
-                    input[i + k] = rest.first();
-                    freeDrive[i + k] = rest.second();
-                }
+                    rest[k] = x[k] - (k == 0 ? before : means[k - 1]);
                 before = means.back();
             }
-            double groupPeak = 0.0, freeGroupPeak = 0.0;
             for (std::size_t k = 0; k < groupFrames; ++k)
             {
-                groupPeak = std::max(groupPeak, std::abs(input[i + k]));
-                freeGroupPeak = std::max(freeGroupPeak, std::abs(freeDrive[i + k]));
+                input[i + k] = rest[k].first();
+                freeDrive[i + k] = rest[k].second();
+                peaks = larger(magnitude(rest[k]), peaks);
             }
-            peak = std::max(peak, groupPeak);
-            freePeak = std::max(freePeak, freeGroupPeak);
         }
         inputMean = mean;
-        return peak;
+        freePeak = peaks.second();
+        return peaks.first();
     }
 
     /// Does what tick() would do, for whole groups of frames in which no limit comes near. Returns false and changes

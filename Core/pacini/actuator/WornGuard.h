@@ -142,21 +142,61 @@ public:
 
     void advance(double drive) noexcept { moved.follow(drive, guard); }
 
-    bool advanceFreely(std::span<const double> wanted, double wantedPeak, std::span<const double> played,
-                       double playedPeak, double maxMeasure) noexcept
+    /// The modes under the wanted drives and under the played ones, while they follow whole groups, and their highest
+    /// energies so far. All go side by side: each of them waits for its own last state.
+    struct TwoFollowing
     {
-        Following inWanted(asWanted, guard);
-        Following inPlayed(moved, guard);
-        for (std::size_t n = 0; n < wanted.size(); n += groupFrames)
+        struct Mode
         {
-            inWanted.follow(groupAt(wanted, n), guard);
-            inPlayed.follow(groupAt(played, n), guard);
+            TwoStates state{Pair(), Pair()};
+            Pair most;
+        };
+        std::array<Mode, WornCoefficients::maxModes> modes;
+        std::size_t count = 0;
+    };
+
+    /// What follow() begins with, of no modes unless `all`.
+    [[nodiscard]] TwoFollowing followTwo(bool all) const noexcept
+    {
+        TwoFollowing two;
+        two.count = all ? guard.groups.size() : 0;
+        for (std::size_t i = 0; i < two.count; ++i)
+        {
+            two.modes[i].state = TwoStates(asWanted.now[i], moved.now[i]);
+            two.modes[i].most = two.modes[i].state.energy();
         }
-        if (!stays(inWanted, wantedPeak, std::sqrt(maxMeasure / perWantedLimit)) ||
-            !stays(inPlayed, playedPeak, guard.limit))
+        return two;
+    }
+
+    /// A whole group; the drives are those wanted and those played.
+    void follow(TwoFollowing& two, const std::array<Pair, groupFrames>& drives) const noexcept
+    {
+        for (std::size_t i = 0; i < two.count; ++i)
+        {
+            auto& [state, most] = two.modes[i];
+            state = guard.groups[i].next(state, drives);
+            most = larger(state.energy(), most);
+        }
+    }
+
+    /// Moves the modes there if it is certain that no measure has exceeded `maxMeasure` and that all that was played
+    /// would be admitted. The peaks are those of the drives.
+    bool moveFreely(const TwoFollowing& two, double wantedPeak, double playedPeak, double maxMeasure) noexcept
+    {
+        double wantedSum = 0.0, playedSum = 0.0;
+        for (std::size_t i = 0; i < two.count; ++i)
+        {
+            wantedSum += std::sqrt(two.modes[i].most.first());
+            playedSum += std::sqrt(two.modes[i].most.second());
+        }
+        if (two.count > 0 && !(stays(wantedSum, wantedPeak, std::sqrt(maxMeasure / perWantedLimit)) &&
+                               stays(playedSum, playedPeak, guard.limit)))
             return false;
-        inWanted.moveTo(asWanted, guard);
-        inPlayed.moveTo(moved, guard);
+        for (std::size_t i = 0; i < two.count; ++i)
+        {
+            asWanted.now[i] = asWanted.start[i] = two.modes[i].state.first();
+            moved.now[i] = moved.start[i] = two.modes[i].state.second();
+        }
         return true;
     }
 
@@ -226,8 +266,7 @@ private:
         }
     };
 
-    /// Modes that follow whole groups, and their highest energies so far. All go side by side: each of them waits for
-    /// its own last state.
+    /// Modes that follow whole groups, and their highest energies so far.
     struct Following
     {
         std::array<ResonatorState, WornCoefficients::maxModes> states;
@@ -253,13 +292,11 @@ private:
         }
     };
 
-    /// Whether the sum of the amplitudes has certainly been within `limit`, between the groups' ends, too.
-    [[nodiscard]] bool stays(const Following& modes, double peak, double limit) const noexcept
+    /// Whether the sum of the amplitudes, `sum` of the highest ones at the groups' ends, has certainly been within
+    /// `limit`, between these, too.
+    [[nodiscard]] bool stays(double sum, double peak, double limit) const noexcept
     {
         constexpr double safely = 1.0 - 1e-6; // far more than rounding
-        double sum = 0.0;
-        for (std::size_t i = 0; i < guard.groups.size(); ++i)
-            sum += std::sqrt(modes.most[i]);
         return sum + guard.groupReach * peak <= safely * limit;
     }
 
@@ -269,7 +306,10 @@ private:
         Following following(modes, guard);
         for (std::size_t n = 0; n < drive.size(); n += groupFrames)
             following.follow(groupAt(drive, n), guard);
-        if (!stays(following, peak, limit))
+        double sum = 0.0;
+        for (std::size_t i = 0; i < guard.groups.size(); ++i)
+            sum += std::sqrt(following.most[i]);
+        if (!stays(sum, peak, limit))
             return false;
         following.moveTo(modes, guard);
         return true;

@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -63,7 +66,7 @@ public:
     [[nodiscard]] bool silent() const noexcept
     {
         return history.silent() && std::all_of(states.begin(), states.begin() + sectionCount(),
-                                               [](const StateVariableState& s) { return s.s1 == 0.0 && s.s2 == 0.0; });
+                                               [](const Pair& s) { return s.first() == 0.0 && s.second() == 0.0; });
     }
 
     /// The frames of an output, from `from` on and before `to`, in which the interpolated signal counts; elsewhere it
@@ -80,28 +83,32 @@ public:
                  std::span<float> out) noexcept
     {
         assert(out.size() == in.size() * ratio && (added.empty() || added.size() == out.size()));
+        const bool anyMoved = sounds(added); // seldom: events are far apart
         for (std::size_t i = 0, n = 0; i < in.size(); ++i, n += ratio)
         {
             const std::span<float> to = out.subspan(n, ratio);
             const auto more = added.empty() ? added : added.subspan(n, ratio);
             const bool counts = n >= counted.from && n + ratio <= counted.to;
-            const bool moved = std::any_of(more.begin(), more.end(), [](float x) { return x != 0.0f; });
+            const bool moved = anyMoved && sounds(more);
             const std::span<const float> newest = history.push(in[i]);
             if (ratio == 1)
             {
                 const double x = (counts ? finiteOrZero(newest.front()) : 0.0) + (moved ? finiteOrZero(more[0]) : 0.0);
-                to[0] = toSample(tick(states, x));
+                States s = sectionStates();
+                to[0] = toSample(tick(s, x));
+                keep(s);
                 continue;
             }
-            for (std::size_t j = 0; j < rounded.size(); ++j)
-                rounded[j] = toSample(j % 2 == 0 ? states[j / 2].s1 : states[j / 2].s2);
+            roundStates();
             filtered.process(newest, rounded, to.data());
             advance(static_cast<double>(newest.back()));
             if (!counts || moved)
                 addApart(newest, more, n, counted, to);
         }
+        States s = sectionStates();
         for (std::size_t k = 0; k < cascade.sections.size(); ++k)
-            states[k].flush();
+            s[k].flush();
+        keep(s);
     }
 
 private:
@@ -113,12 +120,47 @@ private:
         return static_cast<std::ptrdiff_t>(cascade.sections.size());
     }
 
+    [[nodiscard]] States sectionStates() const noexcept
+    {
+        States s;
+        for (std::size_t k = 0; k < cascade.sections.size(); ++k)
+            s[k] = {states[k].first(), states[k].second()};
+        return s;
+    }
+    void keep(const States& s) noexcept
+    {
+        for (std::size_t k = 0; k < cascade.sections.size(); ++k)
+            states[k] = Pair(s[k].s1, s[k].s2);
+    }
+
     /// One frame of the cascade.
     double tick(States& s, double x) const noexcept
     {
         for (std::size_t k = 0; k < cascade.sections.size(); ++k)
             x = s[k].tick(cascade.sections[k], x);
         return x;
+    }
+
+    /// Whether any sample is not 0; without branches, so that several are asked at once.
+    [[nodiscard]] static bool sounds(std::span<const float> samples) noexcept
+    {
+        std::uint32_t bits = 0;
+        for (const float x : samples)
+            bits |= std::bit_cast<std::uint32_t>(x);
+        return bits << 1 != 0; // -0 is 0, too
+    }
+
+    /// toSample() of all states.
+    void roundStates() noexcept
+    {
+        constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
+        for (std::size_t k = 0; k < cascade.sections.size(); ++k)
+        {
+            const Pair audible = cleared(states[k], 1e-30);
+            const Pair state = smaller(larger(audible, Pair(-largest)), Pair(largest));
+            rounded[2 * k] = static_cast<float>(state.first());
+            rounded[2 * k + 1] = static_cast<float>(state.second());
+        }
     }
 
     /// What an input frame answers with, and what it leaves behind.
@@ -187,14 +229,11 @@ private:
         for (std::size_t j = 0; j < count; ++j, column += 2 * count)
             for (std::size_t k = j; k < count; ++k)
             {
-                next[k] = next[k] + Pair(states[j].s1) * column[k];
-                more[k] = more[k] + Pair(states[j].s2) * column[count + k];
+                next[k] = next[k] + Pair(states[j].first()) * column[k];
+                more[k] = more[k] + Pair(states[j].second()) * column[count + k];
             }
         for (std::size_t k = 0; k < count; ++k)
-        {
-            const Pair state = next[k] + more[k];
-            states[k] = {state.first(), state.second()};
-        }
+            states[k] = next[k] + more[k];
     }
 
     /// Adds what the cascade makes of all that is not the interpolated signal: from rest, since it is linear.
@@ -211,10 +250,7 @@ private:
             out[p] = toSample(static_cast<double>(out[p]) + tick(s, x));
         }
         for (std::size_t k = 0; k < cascade.sections.size(); ++k)
-        {
-            states[k].s1 += s[k].s1;
-            states[k].s2 += s[k].s2;
-        }
+            states[k] = states[k] + Pair(s[k].s1, s[k].s2);
     }
 
     std::size_t ratio;
@@ -224,9 +260,9 @@ private:
     NewestFirst history;
     PolyphaseRows filtered; ///< of the taps, then of the states
     std::vector<float> rounded, wanted;
-    States states{};
-    std::array<Pair, maxBiquadSections> left{}; ///< by an input frame of 1, at the end of its taps
-    std::vector<Pair> transitions;              ///< for each state, those of all sections
+    std::array<Pair, maxBiquadSections> states{}; ///< s1 and s2 of each section
+    std::array<Pair, maxBiquadSections> left{};   ///< by an input frame of 1, at the end of its taps
+    std::vector<Pair> transitions;                ///< for each state, those of all sections
 };
 
 } // namespace pacini

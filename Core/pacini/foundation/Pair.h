@@ -2,6 +2,9 @@
 
 // Two doubles that are computed side by side.
 
+#include <cmath>
+#include <cstdint>
+
 namespace pacini
 {
 
@@ -31,8 +34,33 @@ public:
         return Pair(x.lanes * y.lanes);
     }
 
+    /// The larger one of each two; y where one of them is not a number.
+    [[nodiscard]] friend Pair larger(Pair x, Pair y) noexcept
+    {
+        return Pair(x.lanes > y.lanes ? x.lanes : y.lanes);
+    }
+
+    /// The smaller one of each two; y where one of them is not a number.
+    [[nodiscard]] friend Pair smaller(Pair x, Pair y) noexcept
+    {
+        return Pair(x.lanes < y.lanes ? x.lanes : y.lanes);
+    }
+
+    [[nodiscard]] friend Pair magnitude(Pair x) noexcept
+    {
+        constexpr std::int64_t allButSign = std::int64_t((~std::uint64_t(0)) >> 1);
+        return Pair(Lanes(Bits(x.lanes) & Bits{allButSign, allButSign}));
+    }
+
+    /// 0 for what is not a number or smaller in magnitude than `least`, the others as they are.
+    [[nodiscard]] friend Pair cleared(Pair x, double least) noexcept
+    {
+        return Pair(Lanes(Bits(x.lanes) & Bits(magnitude(x).lanes >= Lanes{least, least})));
+    }
+
 private:
     using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+    using Bits = std::int64_t __attribute__((vector_size(2 * sizeof(std::int64_t))));
     explicit Pair(Lanes both) noexcept : lanes(both) {}
 
     Lanes lanes;
@@ -48,6 +76,22 @@ private:
     friend Pair operator*(Pair x, Pair y) noexcept
     {
         return {x.lanes[0] * y.lanes[0], x.lanes[1] * y.lanes[1]};
+    }
+    [[nodiscard]] friend Pair larger(Pair x, Pair y) noexcept
+    {
+        return {x.lanes[0] > y.lanes[0] ? x.lanes[0] : y.lanes[0], x.lanes[1] > y.lanes[1] ? x.lanes[1] : y.lanes[1]};
+    }
+    [[nodiscard]] friend Pair smaller(Pair x, Pair y) noexcept
+    {
+        return {x.lanes[0] < y.lanes[0] ? x.lanes[0] : y.lanes[0], x.lanes[1] < y.lanes[1] ? x.lanes[1] : y.lanes[1]};
+    }
+    [[nodiscard]] friend Pair magnitude(Pair x) noexcept
+    {
+        return {std::abs(x.lanes[0]), std::abs(x.lanes[1])};
+    }
+    [[nodiscard]] friend Pair cleared(Pair x, double least) noexcept
+    {
+        return {std::abs(x.lanes[0]) >= least ? x.lanes[0] : 0.0, std::abs(x.lanes[1]) >= least ? x.lanes[1] : 0.0};
     }
 
 private:

@@ -96,6 +96,8 @@ private:
         filter = std::make_unique<OutputFilter>();
         filter->prepare(spec);
         filter->setParams({plan.profile->equalizer, plan.flattening});
+        if (filter->coefficients().sections.empty())
+            filter.reset();
     }
 
     void addProtection(const Profile& profile, const ProcessSpec& spec, Seconds lookAhead)
