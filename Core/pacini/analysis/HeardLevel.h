@@ -44,21 +44,30 @@ public:
         }
     }
 
-    /// One value for each BandAnalysisResult::envelopeStep from 0 on, `count` in all; after the last frame comes
-    /// nothing. Empty for a sound without frames.
-    [[nodiscard]] std::vector<HeardFrame> finish(std::size_t count)
+    /// One value for each BandAnalysisResult::envelopeStep from 0 on: those that are complete and not yet dropped.
+    [[nodiscard]] std::span<const HeardFrame> found() const noexcept { return values; }
+
+    /// Forgets the first `count` of found().
+    void drop(std::size_t count)
+    {
+        values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+        dropped += count;
+    }
+
+    /// Completes found() to `count` values in all, more than were dropped; after the last frame comes nothing. None for
+    /// a sound without frames.
+    void finish(std::size_t count)
     {
         if (start + recent.size() == 0)
-            return {};
-        while (found.size() < count)
+            return;
+        while (dropped + values.size() < count)
             emit();
-        found.resize(count);
-        return std::move(found);
+        values.resize(count - dropped);
     }
 
 private:
-    static constexpr std::size_t values = 5;
-    using Values = std::array<double, values>;
+    static constexpr std::size_t valueCount = 5;
+    using Values = std::array<double, valueCount>;
 
     /// Smoothing by 3.5 and 70 ms.
     struct Memory
@@ -121,7 +130,10 @@ private:
     static constexpr double delay = 2.5;
     static constexpr double reach = BandAnalysisResult::envelopeStep * OnsetFrame::rate; // half the window
 
-    [[nodiscard]] double centre() const noexcept { return reach * static_cast<double>(found.size()) + delay; }
+    [[nodiscard]] double centre() const noexcept
+    {
+        return reach * static_cast<double>(dropped + values.size()) + delay;
+    }
     /// The first frame after the window of the coming value.
     [[nodiscard]] std::size_t windowEnd() const noexcept
     {
@@ -141,7 +153,7 @@ private:
             const double u = (static_cast<double>(k) + 0.5 - middle) / reach;
             const double w = std::abs(u) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * u) : 0.0;
             total += w;
-            for (std::size_t v = 0; v < values; ++v)
+            for (std::size_t v = 0; v < valueCount; ++v)
                 sum[v] += w * recent[k - start][v];
         }
         HeardFrame frame;
@@ -149,7 +161,7 @@ private:
             frame = {static_cast<float>(sum[0] / total), static_cast<float>(sum[1] / total),
                      static_cast<float>(sum[2] / total), static_cast<float>(sum[3] / total),
                      static_cast<float>(sum[4] / total)};
-        found.push_back(frame);
+        values.push_back(frame);
         const std::size_t unused = std::min(first > start ? first - start : 0, recent.size());
         if (unused < 4096)
             return;
@@ -161,7 +173,8 @@ private:
     std::array<Memory, 3> memory{}; // of the first values
     std::vector<Values> recent;     // frames from number `start` on
     std::size_t start = 0;
-    std::vector<HeardFrame> found;
+    std::vector<HeardFrame> values; // from number `dropped` on
+    std::size_t dropped = 0;
 };
 
 } // namespace pacini
