@@ -172,6 +172,7 @@ public:
         const double longest = SoundSection::seconds + SoundSection::secondsAhead + 10.0;
         const double kept = knownScale ? std::min(expected, longest) : expected;
         analysis.reset(channelCount, static_cast<std::size_t>(kept * analysisRate));
+        fitter.expect(expected);
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
         heard.reset();
