@@ -204,11 +204,11 @@ public:
         analysis.push(input.channels());
         features->finish();
         detectOnsets();
-        const std::size_t frames = analysis.envelopeFrames();
+        const std::size_t values = analysis.envelopeFrames();
         BandAnalysisResult rest = analysis.finish();
         const std::vector<Onset> onsets = detector->finish();
         if (heard)
-            heard->level.finish(frames);
+            heard->level.finish(values);
         const SoundScale scale = knownScale ? *knownScale : scaleOf(rest, onsets);
         while (hasSection(rest))
             addSection(rest, scale, onsets);

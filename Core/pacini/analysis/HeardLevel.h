@@ -4,6 +4,7 @@
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/OnsetFrame.h>
+#include <pacini/foundation/Powers.h>
 
 #include <algorithm>
 #include <array>
@@ -106,22 +107,28 @@ private:
 
     Values next(const OnsetFrame& frame) noexcept
     {
-        double loudness = 0.0;
-        double high = 0.0;
-        double bright = 0.0;
+        std::array<double, ear.size() + 1> parts{}; // an even number
         double total = 0.0;
         double highPower = 0.0;
         for (std::size_t b = 0; b < ear.size(); ++b)
         {
             const double power = std::max(0.0, ear[b].weight * static_cast<double>(frame.bands[b]));
-            const double part = widths[b] * std::pow(power, exponent);
-            loudness += part;
+            parts[b] = power;
             total += power;
+            highPower += b < firstHigh ? 0.0 : power;
+        }
+        raiseAll(parts, exponent);
+        double loudness = 0.0;
+        double high = 0.0;
+        double bright = 0.0;
+        for (std::size_t b = 0; b < ear.size(); ++b)
+        {
+            const double part = widths[b] * parts[b];
+            loudness += part;
             if (b < firstHigh)
                 continue;
             high += part;
             bright += part * 0.5 * static_cast<double>(b - firstHigh);
-            highPower += power;
         }
         return {memory[0].next(loudness), memory[1].next(high), memory[2].next(bright), total, highPower};
     }
@@ -129,6 +136,7 @@ private:
     /// The memory makes loudness late by this; frames.
     static constexpr double delay = 2.5;
     static constexpr double reach = BandAnalysisResult::envelopeStep * OnsetFrame::rate; // half the window
+    static constexpr auto windowSize = static_cast<std::size_t>(4.0 * reach) + 3;
 
     [[nodiscard]] double centre() const noexcept
     {
@@ -150,8 +158,7 @@ private:
         double total = 0.0;
         for (std::size_t k = std::max(first, start); k < end; ++k)
         {
-            const double u = (static_cast<double>(k) + 0.5 - middle) / reach;
-            const double w = std::abs(u) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * u) : 0.0;
+            const double w = window[static_cast<std::size_t>(2.0 * (static_cast<double>(k) + 0.5 - middle + reach))];
             total += w;
             for (std::size_t v = 0; v < valueCount; ++v)
                 sum[v] += w * recent[k - start][v];
@@ -169,7 +176,21 @@ private:
         start += unused;
     }
 
+    /// The Hann window at every half of a frame, where the centres of frames lie: `reach` and `delay` are multiples of
+    /// that.
+    [[nodiscard]] static std::array<double, windowSize> hann()
+    {
+        std::array<double, windowSize> weights{};
+        for (std::size_t i = 0; i < weights.size(); ++i)
+        {
+            const double u = (0.5 * static_cast<double>(i) - reach) / reach;
+            weights[i] = std::abs(u) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * u) : 0.0;
+        }
+        return weights;
+    }
+
     std::array<double, ear.size()> widths = widthFactors();
+    std::array<double, windowSize> window = hann();
     std::array<Memory, 3> memory{}; // of the first values
     std::vector<Values> recent;     // frames from number `start` on
     std::size_t start = 0;

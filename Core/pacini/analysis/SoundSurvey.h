@@ -53,13 +53,13 @@ public:
     {
         input.finish();
         analysis.push(input.channels());
-        const std::size_t frames = analysis.envelopeFrames();
+        const std::size_t values = analysis.envelopeFrames();
         const double peak = analysis.finish().peak;
         if (!heard)
             return {peak, 0.0, 0.0};
         heard->features.finish();
         heard->take();
-        heard->level.finish(frames);
+        heard->level.finish(values);
         return heard->survey.finish(heard->level.found(), heard->detector.finish(), peak);
     }
 
