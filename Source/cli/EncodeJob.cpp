@@ -10,7 +10,7 @@
 
 #include <pacini/analysis/EncodeSound.h>
 #include <pacini/analysis/MonoMix.h>
-#include <pacini/analysis/SoundPeak.h>
+#include <pacini/analysis/SoundSurvey.h>
 
 #include <algorithm>
 #include <optional>
@@ -92,8 +92,11 @@ bool isLong(const AudioReader& reader)
     return static_cast<double>(reader.frames().value_or(0)) > seconds * reader.sampleRate();
 }
 
-/// How much of the time of encoding a long sound its peak takes.
-constexpr double shareOfPeak = 0.2;
+/// How much of the time of encoding a long sound its survey takes.
+double shareOfSurvey(const EncoderParams& params)
+{
+    return params.audible > 0.0 ? 0.4 : 0.2;
+}
 
 /// Encoder parameters that follow from the sound.
 bool dependsOnSound(const EncoderParameter& parameter)
@@ -251,16 +254,16 @@ Result<Clip> EncodeJob::makeClip(AudioReader& reader, const fs::path& input, con
 Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& input, const Progress& progress,
                                        Stopwatch& work)
 {
-    std::optional<double> peak;
+    std::optional<SoundScale> scale;
     double done = 0.0;
-    if (isLong(reader) && !isStream(input) && settings.params.audible == 0.0) // which needs all of it anyway
+    if (isLong(reader) && !isStream(input))
     {
-        done = shareOfPeak;
-        const auto found = peakOf(
-            input, [&](double part) { progress(shareOfPeak * part); }, work);
+        done = shareOfSurvey(settings.params);
+        const auto found = survey(
+            input, [&](double part) { progress(done * part); }, work);
         if (!found)
             return found.error();
-        peak = *found;
+        scale = *found;
     }
     const std::function<void(double)> rest = [&](double part)
     {
@@ -278,26 +281,26 @@ Result<Clip> EncodeJob::encodeInPieces(AudioReader& reader, const fs::path& inpu
                 reading.run([&] { part = file(); });
                 return part;
             };
-            clip = encodePrecisely(encoder, {reader.sampleRate(), reader.channels(), reader.frames().value_or(0), peak},
-                                   next);
+            clip = encodePrecisely(encoder,
+                                   {reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, next);
         });
     work.leaveOut(reading);
     return clip;
 }
 
-Result<double> EncodeJob::peakOf(const fs::path& input, const Progress& progress, Stopwatch& work) const
+Result<SoundScale> EncodeJob::survey(const fs::path& input, const Progress& progress, Stopwatch& work) const
 {
     auto reader = AudioReader::open(input, settings.reading);
     if (!reader)
         return withAdvice(reader.error(), true);
-    SoundPeak peak(Encoder::bandsOf(settings.params));
-    peak.start(reader->sampleRate(), reader->channels());
+    SoundSurvey whole(settings.params);
+    whole.start(reader->sampleRate(), reader->channels());
     const auto read = forEachPart(SoundFile(*reader, progress),
-                                  [&](std::span<const float> part) { work.run([&] { peak.push(part); }); });
+                                  [&](std::span<const float> part) { work.run([&] { whole.push(part); }); });
     if (!read)
         return read.error();
-    double found = 0.0;
-    work.run([&] { found = peak.finish(); });
+    SoundScale found;
+    work.run([&] { found = whole.finish(); });
     return found;
 }
 

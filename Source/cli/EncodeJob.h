@@ -90,7 +90,7 @@ private:
                                         Stopwatch& work);
     [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Path& input, const Progress& progress,
                                               Stopwatch& work);
-    [[nodiscard]] Result<double> peakOf(const Path& input, const Progress& progress, Stopwatch& work) const;
+    [[nodiscard]] Result<SoundScale> survey(const Path& input, const Progress& progress, Stopwatch& work) const;
     [[nodiscard]] Result<std::size_t> writeForeign(const Clip& clip, const Path& output, Replaceable replaceable,
                                                    Stopwatch& work, EncodeResult& result) const;
 

@@ -4,10 +4,11 @@
 #include "io/InputFile.h"
 #include "io/SoundHandle.h"
 
+#include <pacini/foundation/DspBlock.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cerrno>
 #include <cmath>
@@ -138,13 +139,7 @@ struct AudioReader::State
     /// Replaces or reports samples that are no numbers. `samples` starts at frame `delivered`.
     Result<void> checkFinite(std::span<float> samples)
     {
-        // Without the sign, floats are ordered as their bits are, infinity and NaN above all. One pass without
-        // branches, for the usual case that all is well.
-        constexpr auto largest = std::bit_cast<std::uint32_t>(limits::sample);
-        std::uint32_t bad = 0;
-        for (float x : samples)
-            bad |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(x) & 0x7FFFFFFFu) > largest);
-        if (bad == 0)
+        if (areWithinLimit(samples))
             return {};
         for (std::size_t i = 0; i < samples.size(); ++i)
         {

@@ -4,9 +4,11 @@
 #include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/Encoder.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <vector>
 
 using namespace pacini;
@@ -37,13 +39,25 @@ std::vector<HeardFrame> heardOf(float highShare)
         heard[i].loudness = 1.0f;
     return heard;
 }
+
+/// A whole sound.
+void blend(double audible, BandAnalysisResult& found, std::span<const HeardFrame> heard,
+           std::span<const TrainSpan> trains = {})
+{
+    SoundScale scale{found.peak, 0.0, 0.0};
+    for (const HeardFrame& frame : heard)
+    {
+        scale.loudest = std::max(scale.loudest, static_cast<double>(frame.loudness));
+        scale.strongest = std::max(scale.strongest, static_cast<double>(frame.power));
+    }
+    AudibleBlend(edges, audible).next(found, heard, heard.size(), trains, scale);
+}
 } // namespace
 
 TEST_CASE("Where most of what is heard lies above, loudness is the level and the bands keep a quarter", "[analysis]")
 {
     BandAnalysisResult found = steadyBands(0.8f);
-    AudibleBlend(edges, 1.0).apply(found, heardOf(0.9f), {});
-    CHECK(found.peak == 1.0);
+    blend(1.0, found, heardOf(0.9f));
     CHECK(found.heardShare[100] == 1.0f);
     CHECK(found.envelope[100] == Approx(0.8));
     CHECK(found.envelope[frames - 100] == Approx(0.8 * (0.5 - 0.03) / 0.97));
@@ -57,7 +71,7 @@ TEST_CASE("Where most of what is heard lies above, loudness is the level and the
     CHECK(found.tracks[1].frequency[25] > 150.0f);
     // Bands of ten times the level are turned down to it.
     BandAnalysisResult loud = steadyBands(8.0f);
-    AudibleBlend(edges, 1.0).apply(loud, heardOf(0.9f), {});
+    blend(1.0, loud, heardOf(0.9f));
     CHECK(loud.tracks[0].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
     CHECK(loud.tracks[1].amplitude[25] == Approx(0.8 / std::sqrt(3.0)));
 }
@@ -71,7 +85,7 @@ TEST_CASE("What is hardly heard beside the loudest is not felt", "[analysis]")
         for (std::size_t i = frames / 2; i < frames; ++i)
             heard[i].loudness = static_cast<float>(2.0 * share);
         BandAnalysisResult found = steadyBands(0.001f);
-        AudibleBlend(edges, 1.0).apply(found, heard, {});
+        blend(1.0, found, heard);
         const double level = share < 0.03 ? 0.0 : 0.8 * (share - 0.03) / 0.97;
         CHECK(found.envelope[frames - 100] == Approx(level).margin(1e-6));
         CHECK(found.tracks[1].amplitude[bandFrames - 25] == Approx(level).margin(3e-4));
@@ -84,8 +98,7 @@ TEST_CASE("Where little of what is heard lies above, nothing changes", "[analysi
     {
         BandAnalysisResult found = steadyBands(0.3f);
         const BandAnalysisResult before = found;
-        AudibleBlend(edges, 1.0).apply(found, heardOf(share), {});
-        CHECK(found.peak == before.peak);
+        blend(1.0, found, heardOf(share));
         CHECK(found.envelope == before.envelope);
         for (std::size_t k = 0; k < edges.size(); ++k)
         {
@@ -102,7 +115,7 @@ TEST_CASE("What is loud for a moment does not change what leads some seconds awa
     for (std::size_t i = 1000; i < 1020; ++i)
         heard[i].highPower = heard[i].power = 2.0f;
     BandAnalysisResult found = steadyBands(0.3f);
-    AudibleBlend(edges, 0.5).apply(found, heard, {});
+    blend(0.5, found, heard);
     CHECK(found.heardShare[1010] == 0.5f);
     CHECK(found.heardShare[850] == 0.5f);
     CHECK(found.heardShare[100] == 0.0f);
@@ -112,7 +125,7 @@ TEST_CASE("What is loud for a moment does not change what leads some seconds awa
 TEST_CASE("Even trains are left to their pulses", "[analysis]")
 {
     BandAnalysisResult found = steadyBands(0.3f);
-    AudibleBlend(edges, 1.0).apply(found, heardOf(1.0f), std::vector<TrainSpan>{{2.0, 3.0}, {9.99, 12.0}});
+    blend(1.0, found, heardOf(1.0f), std::vector<TrainSpan>{{2.0, 3.0}, {9.99, 12.0}});
     CHECK(found.heardShare[391] == 1.0f);
     CHECK(found.heardShare[396] == Approx(0.5));
     CHECK(found.heardShare[400] == 0.0f);
@@ -123,16 +136,61 @@ TEST_CASE("Even trains are left to their pulses", "[analysis]")
     CHECK(found.heardShare.back() == 0.0f);
 }
 
+TEST_CASE("The peak is that of what is felt in the end", "[analysis]")
+{
+    const auto peakOf = [](float highShare, double peak)
+    {
+        return HeardSurvey(1.0).finish(heardOf(highShare), {}, peak).peak;
+    };
+    CHECK(peakOf(0.0f, 0.1) == 0.1);
+    CHECK(peakOf(0.9f, 0.1) == Approx(std::sqrt(2.0 * 0.02)));
+    CHECK(peakOf(0.9f, 1.0) == 1.0);
+}
+
+TEST_CASE("In parts a sound is blended as in one", "[analysis]")
+{
+    auto heard = heardOf(0.3f);
+    for (std::size_t i = 0; i < frames; i += 7)
+        heard[i] = {1.5f, 1.0f, 0.3f, 0.05f, 0.03f};
+    const std::vector<TrainSpan> trains = {{2.0, 3.0}, {4.5, 5.5}};
+    const SoundScale scale{1.0, 2.0, 0.05};
+    BandAnalysisResult whole = steadyBands(0.3f);
+    AudibleBlend(edges, 1.0).next(whole, heard, frames, trains, scale);
+
+    constexpr std::size_t cut = 1000; // at 5 s; what comes later is looked at to the end, which is 5 s away
+    BandAnalysisResult rest = steadyBands(0.3f);
+    AudibleBlend parts(edges, 1.0);
+    parts.next(rest, heard, cut + 1, trains, scale);
+    BandAnalysisResult first = rest.takeFirst(5.0);
+    std::vector<TrainSpan> later = trains;
+    for (TrainSpan& train : later)
+        train = {train.first - 5.0, train.last - 5.0};
+    parts.next(rest, std::span(heard).subspan(cut), frames - cut, later, scale);
+    const auto joined = [](std::vector<float> a, const std::vector<float>& b)
+    {
+        CHECK(a.back() == b.front());
+        a.insert(a.end(), b.begin() + 1, b.end());
+        return a;
+    };
+    CHECK(joined(first.envelope, rest.envelope) == whole.envelope);
+    CHECK(joined(first.heardShare, rest.heardShare) == whole.heardShare);
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+        CHECK(joined(first.tracks[k].amplitude, rest.tracks[k].amplitude) == whole.tracks[k].amplitude);
+        CHECK(joined(first.tracks[k].frequency, rest.tracks[k].frequency) == whole.tracks[k].frequency);
+    }
+}
+
 TEST_CASE("Silence and a sound that is shorter than its bands leave them alone", "[analysis]")
 {
     BandAnalysisResult found = steadyBands(0.3f);
     const auto before = found.envelope;
-    AudibleBlend(edges, 1.0).apply(found, {}, {});
-    AudibleBlend(edges, 1.0).apply(found, std::vector<HeardFrame>(frames), {});
+    blend(1.0, found, {});
+    blend(1.0, found, std::vector<HeardFrame>(frames));
     CHECK(found.envelope == before);
     auto heard = heardOf(1.0f);
     heard.resize(300);
-    AudibleBlend(edges, 1.0).apply(found, heard, {});
+    blend(1.0, found, heard);
     CHECK(found.envelope[299] == Approx(0.8));
     CHECK(found.envelope[300] == 0.3f);
     CHECK(found.heardShare.size() == frames);

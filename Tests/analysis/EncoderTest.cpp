@@ -2,7 +2,8 @@
 #include "support/Measure.h"
 
 #include <pacini/analysis/Encoder.h>
-#include <pacini/analysis/SoundPeak.h>
+#include <pacini/analysis/SoundSurvey.h>
+#include <pacini/foundation/Random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -395,15 +396,37 @@ TEST_CASE("Long sounds are fitted in sections that cannot be felt", "[analysis][
         difference += std::pow(whole - valueAt(alone.envelope, t), 2.0);
     }
     CHECK(difference < 0.02 * 0.02 * sum);
+}
 
-    SoundPeak peak(Encoder::bandsOf(params));
-    peak.start(fs, 1);
-    peak.push(x);
-    Encoder told(params);
-    told.start(fs, 1, x.size(), peak.finish());
-    for (std::size_t i = 0; i < x.size(); i += 10007)
-        told.push(std::span(x).subspan(i, std::min<std::size_t>(10007, x.size() - i)));
-    CHECK(told.finish() == clip);
+TEST_CASE("A sound that was looked at before is encoded piece by piece to the same clip", "[analysis][encoder]")
+{
+    // Hiss over the first seam, at 600 s, that a train crosses; the loudest comes last.
+    constexpr int fs = 8000;
+    auto x = test::sine(1300 * fs, 110.0, fs, 0.05);
+    Random random(5);
+    for (std::size_t i = 500 * fs; i < 700 * fs; ++i)
+        x[i] = static_cast<float>(random.uniform(-0.05, 0.05));
+    for (std::size_t k = 0; k < 60; ++k)
+        addKick(x, 599 * fs + k * 240, fs, 0.4);
+    for (std::size_t i = 1290 * fs; i < 1295 * fs; ++i)
+        x[i] = static_cast<float>(0.5 * std::sin(2.2 * static_cast<double>(i)));
+    for (const double audible : {0.0, 1.0})
+    {
+        EncoderParams params;
+        params.audible = audible;
+        const auto pushAll = [&x](auto& to)
+        {
+            for (std::size_t i = 0; i < x.size(); i += 10007)
+                to.push(std::span(x).subspan(i, std::min<std::size_t>(10007, x.size() - i)));
+        };
+        SoundSurvey survey(params);
+        survey.start(fs, 1);
+        pushAll(survey);
+        Encoder told(params);
+        told.start(fs, 1, x.size(), survey.finish());
+        pushAll(told);
+        CHECK(told.finish() == encode(x, fs, 1, params));
+    }
 }
 
 TEST_CASE("Wrong parameters are refused by name", "[analysis][encoder]")

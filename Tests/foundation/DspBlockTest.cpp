@@ -144,3 +144,18 @@ TEST_CASE("A designed block is designed for its rate with its parameters, and is
     CHECK(block.resets == 1);
     CHECK(block.latencyFrames() == 0);
 }
+
+TEST_CASE("Samples beyond the limit are noticed wherever they are", "[foundation]")
+{
+    std::vector<float> x(19, -limits::sample);
+    CHECK(areWithinLimit(x));
+    CHECK(areWithinLimit({}));
+    for (const float bad : {std::nextafter(limits::sample, 1e30f), -1.1e12f, std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+        for (std::size_t i = 0; i < x.size(); ++i)
+        {
+            auto y = x;
+            y[i] = bad;
+            CHECK_FALSE(areWithinLimit(y));
+        }
+}

@@ -78,11 +78,7 @@ private:
 
     [[nodiscard]] std::span<const float> withinLimits(std::span<const float> interleaved)
     {
-        const auto isSound = [](float x)
-        {
-            return std::abs(x) <= limits::sample;
-        };
-        if (std::all_of(interleaved.begin(), interleaved.end(), isSound))
+        if (areWithinLimit(interleaved))
             return interleaved;
         limited.resize(interleaved.size());
         std::transform(interleaved.begin(), interleaved.end(), limited.begin(),

@@ -7,6 +7,7 @@
 #include <pacini/analysis/HeardLevel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -16,90 +17,77 @@
 namespace pacini
 {
 
-/// Lets what is heard above the range of touch be felt. Where most of a sound as it is heard (A-weighted power, over
-/// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter of
-/// their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
-/// had it. Where little does, nothing changes, nor in `trains`, whose hits a level would blur. `heard` has a value for
-/// each one of `found.envelope`; `audible` 0 to 1 is how far that goes, and `found.heardShare` tells where it went. The
-/// peak follows. The limits of the blend, what the bands keep and the range of the tone are choices by trial, not
-/// derived.
-class AudibleBlend
+/// What has to be known of a whole sound before parts of it can be encoded.
+struct SoundScale
+{
+    double peak = 0.0;      ///< largest magnitude that is felt, BandAnalysisResult::peak or more
+    double loudest = 0.0;   ///< largest HeardFrame::loudness
+    double strongest = 0.0; ///< largest HeardFrame::power
+    bool operator==(const SoundScale&) const = default;
+};
+
+/// Parts in which long sounds are encoded, so that memory does not grow with them.
+struct SoundSection
+{
+    static constexpr double seconds = 600.0; ///< a multiple of three frames of the bands
+    /// What a section waits for of the next. Loud events mask those before them by what falls 20 dB a second: after
+    /// these no event between silence and the largest sample is masked any more. In HeardShares, power counts 87 dB
+    /// less by then.
+    static constexpr double secondsAhead = 20.0;
+
+    // The same in values of BandAnalysisResult::envelope.
+    static constexpr auto frames = static_cast<std::size_t>(seconds / BandAnalysisResult::envelopeStep + 0.5);
+    static constexpr auto framesAhead = static_cast<std::size_t>(secondsAhead / BandAnalysisResult::envelopeStep + 0.5);
+    static constexpr std::size_t framesSeen = frames + 1 + framesAhead; ///< the frame at the cut is in both sections
+};
+
+/// How far the loudness takes over at each moment, 0 to 1, by where the A-weighted power lies before and after it: a
+/// sound piece by piece. Nothing within even trains, whose hits a level would blur; that comes and goes in 40 ms.
+class HeardShares
 {
 public:
-    AudibleBlend(std::span<const BandEdges> edges, double audible)
-        : fades(edges, BandAnalysisParams{}.overlap), bands(edges.begin(), edges.end()), most(audible)
-    {
-    }
+    /// `audible` 0 to 1 is the largest share.
+    explicit HeardShares(double audible) : most(audible) {}
 
-    void apply(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::span<const TrainSpan> trains)
-    {
-        heard = heard.first(std::min(found.envelope.size(), heard.size()));
-        double loudest = 0.0;
-        double strongest = 0.0;
-        for (const HeardFrame& frame : heard)
-        {
-            loudest = std::max(loudest, static_cast<double>(frame.loudness));
-            strongest = std::max(strongest, static_cast<double>(frame.power));
-        }
-        if (!(loudest > 0.0))
-            return;
-        findShares(heard, strongest, found.heardShare);
-        leaveTrains(trains, found.heardShare);
-        found.heardShare.resize(found.envelope.size(), 0.0f);
-        double peak = found.peak;
-        for (std::size_t i = 0; i < heard.size(); ++i)
-            peak = std::max(peak, static_cast<double>(found.heardShare[i]) *
-                                      std::sqrt(2.0 * static_cast<double>(heard[i].power)));
-        level.resize(heard.size());
-        for (std::size_t i = 0; i < heard.size(); ++i)
-        {
-            const auto share = static_cast<double>(found.heardShare[i]);
-            level[i] = loudestLevel * peak * felt(static_cast<double>(heard[i].loudness) / loudest);
-            found.envelope[i] =
-                static_cast<float>((1.0 - share) * static_cast<double>(found.envelope[i]) + share * level[i]);
-        }
-        for (std::size_t j = 0; j < found.tracks.front().amplitude.size(); ++j)
-            addTone(found, heard, j);
-        found.peak = peak;
-    }
-
-private:
-    /// Of the loudest, from a share of it in loudness. What is hardly heard beside it, as hiss in pauses, is not felt.
-    [[nodiscard]] static double felt(double loudness) noexcept
-    {
-        return std::max(0.0, loudness - unheard) / (1.0 - unheard);
-    }
-
-    /// How far the loudness takes over at each moment, by where the power lies before and after it.
-    void findShares(std::span<const HeardFrame> heard, double strongest, std::vector<float>& share) const
+    /// One value for each of `heard`, 0 for those before `first`. Values up to `end` are over then and the next call
+    /// goes on there; the others are only looked at, as far as they matter for those. `strongest` as in SoundScale,
+    /// times of `trains` from the first of `heard` on. Valid until the next call.
+    std::span<const float> next(std::span<const HeardFrame> heard, std::size_t first, std::size_t end, double strongest,
+                                std::span<const TrainSpan> trains)
     {
         constexpr double none = 0.2;
         constexpr double all = 0.45;
         constexpr double seconds = 1.0; // in which what was counts e times less
         const double rate = -std::expm1(-BandAnalysisResult::envelopeStep / seconds);
         const double silence = 1e-10 * strongest;
-        double total = 0.0;
-        double high = 0.0;
-        std::vector<double> totals, highs;
-        totals.reserve(heard.size());
-        highs.reserve(heard.size());
-        for (const HeardFrame& frame : heard)
+        double total = totalBefore;
+        double high = highBefore;
+        totals.clear();
+        highs.clear();
+        for (std::size_t i = first; i < heard.size(); ++i)
         {
-            totals.push_back(total += rate * (static_cast<double>(frame.power) - total));
-            highs.push_back(high += rate * (static_cast<double>(frame.highPower) - high));
+            totals.push_back(total += rate * (static_cast<double>(heard[i].power) - total));
+            highs.push_back(high += rate * (static_cast<double>(heard[i].highPower) - high));
+            if (i + 1 == end)
+            {
+                totalBefore = total;
+                highBefore = high;
+            }
         }
-        share.resize(heard.size());
-        for (std::size_t i = heard.size(); i-- > 0;)
+        shares.assign(heard.size(), 0.0f);
+        for (std::size_t i = heard.size(); i-- > first;)
         {
-            total += rate * (totals[i] - total);
-            high += rate * (highs[i] - high);
+            total += rate * (totals[i - first] - total);
+            high += rate * (highs[i - first] - high);
             const double u = std::clamp((high / (total + silence) - none) / (all - none), 0.0, 1.0);
-            share[i] = static_cast<float>(most * u * u * (3.0 - 2.0 * u));
+            shares[i] = static_cast<float>(most * u * u * (3.0 - 2.0 * u));
         }
+        leaveTrains(trains);
+        return shares;
     }
 
-    /// Nothing within trains; it comes and goes in 40 ms.
-    static void leaveTrains(std::span<const TrainSpan> trains, std::vector<float>& share)
+private:
+    void leaveTrains(std::span<const TrainSpan> trains)
     {
         constexpr double ramp = 0.040; // s
         for (const TrainSpan& train : trains)
@@ -107,49 +95,157 @@ private:
             const auto frameOf = [&](double time)
             {
                 const double frame = std::max(0.0, std::ceil(time / BandAnalysisResult::envelopeStep));
-                return std::min(share.size(), static_cast<std::size_t>(frame));
+                return std::min(shares.size(), static_cast<std::size_t>(frame));
             };
             for (std::size_t i = frameOf(train.first - ramp); i < frameOf(train.last + ramp); ++i)
             {
                 const double time = static_cast<double>(i) * BandAnalysisResult::envelopeStep;
                 const double outside = std::max({0.0, train.first - time, time - train.last});
-                share[i] *= static_cast<float>(std::min(1.0, outside / ramp));
+                shares[i] *= static_cast<float>(std::min(1.0, outside / ramp));
             }
         }
+    }
+
+    double most;
+    double totalBefore = 0.0; // smoothed power up to the frames to come
+    double highBefore = 0.0;
+    std::vector<double> totals, highs;
+    std::vector<float> shares;
+};
+
+/// Finds the SoundScale of what is heard, section by section, as AudibleBlend goes through it.
+class HeardSurvey
+{
+public:
+    explicit HeardSurvey(double audible) : shares(audible) {}
+
+    /// Looks at the next section, if all that it needs is in `heard`, which begins with it. Returns what needs not be
+    /// kept of that. `onsets` of the whole sound, as far as they are known.
+    [[nodiscard]] std::size_t next(std::span<const HeardFrame> heard, std::span<const Onset> onsets)
+    {
+        if (heard.size() <= SoundSection::framesSeen)
+            return 0;
+        look(heard.first(SoundSection::framesSeen), SoundSection::frames + 1, onsets);
+        ++sections;
+        return SoundSection::frames;
+    }
+
+    /// Completes a sound; `heard` and `onsets` as in next(). Its bands have this `peak`.
+    [[nodiscard]] SoundScale finish(std::span<const HeardFrame> heard, std::span<const Onset> onsets, double peak)
+    {
+        while (const std::size_t over = next(heard, onsets))
+            heard = heard.subspan(over);
+        look(heard, heard.size(), onsets);
+        scale.peak = scale.loudest > 0.0 ? std::max(peak, scale.peak) : peak;
+        return scale;
+    }
+
+private:
+    void look(std::span<const HeardFrame> heard, std::size_t end, std::span<const Onset> onsets)
+    {
+        for (const HeardFrame& frame : heard)
+        {
+            scale.loudest = std::max(scale.loudest, static_cast<double>(frame.loudness));
+            scale.strongest = std::max(scale.strongest, static_cast<double>(frame.power));
+        }
+        const std::size_t first = sections > 0 ? 1 : 0;
+        const auto trains = evenTrains(onsetsFrom(onsets, SoundSection::seconds * sections), trainGapSeconds);
+        const auto share = shares.next(heard, first, end, scale.strongest, trains);
+        for (std::size_t i = first; i < end; ++i)
+            scale.peak = std::max(scale.peak,
+                                  static_cast<double>(share[i]) * std::sqrt(2.0 * static_cast<double>(heard[i].power)));
+    }
+
+    HeardShares shares;
+    int sections = 0; // seen
+    SoundScale scale;
+};
+
+/// Lets what is heard above the range of touch be felt. Where most of a sound as it is heard (A-weighted power, over
+/// some seconds) lies above 900 Hz, the level follows the course of the loudness: the bands keep at most a quarter of
+/// their own amplitude, and a tone of 150 to 290 Hz, the brighter the higher, brings what they lack, as if the sound
+/// had it. Where little does, nothing changes. `audible` 0 to 1 is how far that goes, and
+/// BandAnalysisResult::heardShare tells where it went. The limits of the blend, what the bands keep and the range of
+/// the tone are choices by trial, not derived. One sound, piece by piece.
+class AudibleBlend
+{
+public:
+    AudibleBlend(std::span<const BandEdges> edges, double audible)
+        : fades(edges, BandAnalysisParams{}.overlap), bands(edges.begin(), edges.end()), shares(audible)
+    {
+    }
+
+    /// Changes `found` up to the value `end` of its envelope; what is before is changed already where heardShare has a
+    /// value for it. `heard` has a value for each of the envelope, and for a part that is not the last some more (see
+    /// HeardShares); for the last part it ends at `end`. `scale` is that of the whole sound.
+    void next(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::size_t end,
+              std::span<const TrainSpan> trains, const SoundScale& scale)
+    {
+        if (!(scale.loudest > 0.0))
+            return;
+        const std::size_t first = found.heardShare.size();
+        const bool last = end == heard.size();
+        share = shares.next(heard, first, end, scale.strongest, trains);
+        level.resize(heard.size());
+        for (std::size_t i = first; i < heard.size(); ++i)
+            level[i] = loudestLevel * scale.peak * felt(static_cast<double>(heard[i].loudness) / scale.loudest);
+        for (std::size_t i = first; i < end; ++i)
+        {
+            const auto part = static_cast<double>(share[i]);
+            found.envelope[i] =
+                static_cast<float>((1.0 - part) * static_cast<double>(found.envelope[i]) + part * level[i]);
+        }
+        found.heardShare.insert(found.heardShare.end(), share.begin() + static_cast<std::ptrdiff_t>(first),
+                                share.begin() + static_cast<std::ptrdiff_t>(end));
+        const std::size_t bandFrames = found.tracks.front().amplitude.size();
+        const std::size_t bandEnd = last ? bandFrames : std::min(bandFrames, (end + ratio - 1) / ratio);
+        for (std::size_t j = (first + ratio - 1) / ratio; j < bandEnd; ++j)
+            addTone(found, heard, j);
+        if (last)
+            found.heardShare.resize(found.envelope.size(), 0.0f);
+    }
+
+private:
+    static constexpr std::size_t ratio = // values of the envelope for each of the bands
+        static_cast<std::size_t>(BandAnalysisResult::bandStep / BandAnalysisResult::envelopeStep + 0.5);
+
+    /// Of the loudest, from a share of it in loudness. What is hardly heard beside it, as hiss in pauses, is not felt.
+    [[nodiscard]] static double felt(double loudness) noexcept
+    {
+        return std::max(0.0, loudness - unheard) / (1.0 - unheard);
     }
 
     /// The tone in frame `j` of the bands, which lasts eight values of the envelope.
     void addTone(BandAnalysisResult& found, std::span<const HeardFrame> heard, std::size_t j)
     {
-        constexpr auto ratio =
-            static_cast<std::ptrdiff_t>(BandAnalysisResult::bandStep / BandAnalysisResult::envelopeStep + 0.5);
-        const auto middle = static_cast<std::ptrdiff_t>(j) * ratio;
+        constexpr auto reach = static_cast<std::ptrdiff_t>(ratio);
+        const auto middle = static_cast<std::ptrdiff_t>(j) * reach;
         double weights = 0.0;
         double power = 0.0;
-        double share = 0.0;
+        double driven = 0.0;
         double high = 0.0;
         double bright = 0.0;
-        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, middle - ratio + 1);
-             k < std::min(std::ssize(heard), middle + ratio); ++k)
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, middle - reach + 1);
+             k < std::min(std::ssize(heard), middle + reach); ++k)
         {
             const auto i = static_cast<std::size_t>(k);
-            const double w = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(k - middle) / ratio);
+            const double w = window[static_cast<std::size_t>(k - middle + reach - 1)];
             weights += w;
             power += w * level[i] * level[i];
-            share += w * static_cast<double>(found.heardShare[i]);
+            driven += w * static_cast<double>(share[i]);
             high += w * static_cast<double>(heard[i].high);
             bright += w * static_cast<double>(heard[i].bright);
         }
-        if (!(weights > 0.0 && share > 0.0 && high > 0.0))
+        if (!(weights > 0.0 && driven > 0.0 && high > 0.0))
             return;
-        share /= weights;
+        driven /= weights;
         power /= weights;
         double held = 0.0; // by the bands
         for (const BandAnalysisResult::Track& track : found.tracks)
             held += static_cast<double>(track.amplitude[j]) * static_cast<double>(track.amplitude[j]);
         const double kept = held > 0.0 ? std::min(std::sqrt(power / held), mostKept) : 0.0;
-        const double lacking = share * share * (power - kept * kept * held);
-        const double scale = 1.0 - share + share * kept;
+        const double lacking = driven * driven * (power - kept * kept * held);
+        const double scale = 1.0 - driven + driven * kept;
         const double wanted = lowest * std::pow(highest / lowest, bright / high);
         const double frequency = std::clamp(wanted, bands.front().low, bands.back().high);
         for (std::size_t k = 0; k < found.tracks.size(); ++k)
@@ -173,10 +269,21 @@ private:
     /// Of full drive: beats of the bands with the tone need the rest, or the limiter would flatten what is loud.
     static constexpr double loudestLevel = 0.8;
 
+    /// The Hann window of a frame of the bands.
+    [[nodiscard]] static std::array<double, 2 * ratio - 1> hann()
+    {
+        std::array<double, 2 * ratio - 1> weights;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i] = 0.5 + 0.5 * std::cos(std::numbers::pi * (static_cast<double>(i + 1) - ratio) / ratio);
+        return weights;
+    }
+
+    std::array<double, 2 * ratio - 1> window = hann();
     BandFades fades;
     std::vector<BandEdges> bands;
-    double most;
-    std::vector<double> level; // of the loudness at each value of the envelope
+    HeardShares shares;
+    std::span<const float> share; // of the part at hand
+    std::vector<double> level;    // of the loudness at each value of the envelope
 };
 
 } // namespace pacini

@@ -209,6 +209,12 @@ public:
             analyseAndAdvance();
     }
 
+    /// Values of the envelope that finish() will have found in all.
+    [[nodiscard]] std::size_t envelopeFrames() const noexcept
+    {
+        return static_cast<std::size_t>(framesEvery(BandAnalysisResult::envelopeStep));
+    }
+
     /// What is complete by now; taken from its front, it is not kept.
     [[nodiscard]] BandAnalysisResult& found() noexcept { return output; }
 
@@ -245,6 +251,12 @@ private:
     };
 
     [[nodiscard]] std::size_t bandCount() const noexcept { return settings.bands.size(); }
+
+    /// Frames of what was received, one every `step` s.
+    [[nodiscard]] std::int64_t framesEvery(double step) const noexcept
+    {
+        return static_cast<std::int64_t>(std::floor(static_cast<double>(received) / analysisRate / step + 1e-9)) + 1;
+    }
 
     [[nodiscard]] BinRange makeRange(std::size_t size, std::size_t firstBand, std::size_t lastBand, int rate) const
     {
@@ -313,9 +325,7 @@ private:
             const std::int64_t perSample = analysisRate / track.rate();
             computeAnalytic(range, size);
             track.add((blockStart - static_cast<std::int64_t>(guardFrames)) / perSample, part.re, part.im);
-            const auto frameCount =
-                static_cast<std::int64_t>(std::floor(static_cast<double>(received) / analysisRate / step + 1e-9)) + 1;
-            track.drain<content>(complete / perSample, frameCount, emit);
+            track.drain<content>(complete / perSample, framesEvery(step), emit);
         };
         feed.template operator()<FrameContent::magnitude>(
             plan.wide, wide, BandAnalysisResult::envelopeStep,

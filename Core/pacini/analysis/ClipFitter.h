@@ -23,6 +23,9 @@ public:
     /// At most `breakpoints` per second of sound and band, noise bands included.
     explicit ClipFitter(double breakpoints) : pointsPerSecond(breakpoints) {}
 
+    /// Prepares for a clip of about that length, 0 if that is not known.
+    void expect(double seconds) noexcept { expected = seconds; }
+
     /// Adds the curves of `found`, which begins `start` s after the clip, a multiple of 0.06 s, at the last frame of
     /// the section before. The clip has its bands, noise bands too; its curves end at `start`, or are empty.
     void add(Clip& clip, const BandAnalysisResult& found, double gain, double start)
@@ -140,7 +143,7 @@ private:
     }
 
     /// A curve of levels goes on at `start`, where the sections share a frame. An empty one is silence.
-    static void joinLevel(Curve& curve, Curve next, double start)
+    void joinLevel(Curve& curve, Curve next, double start) const
     {
         const bool sounds = reaches(curve, start);
         if (start == 0.0)
@@ -157,7 +160,7 @@ private:
 
     /// A curve of frequencies goes on at `start`. Where it is a single point, that holds for its whole section; where
     /// it is empty, the one before or after.
-    static void joinPitch(Curve& curve, const Curve& next, double start)
+    void joinPitch(Curve& curve, const Curve& next, double start) const
     {
         constexpr double step = 3.0 * BandAnalysisResult::bandStep;
         if (next.empty())
@@ -173,7 +176,7 @@ private:
     }
 
     /// Where both have a point at `start`, they meet half-way.
-    static void append(Curve& curve, const Curve& next, double start)
+    void append(Curve& curve, const Curve& next, double start) const
     {
         double first = next.front().value;
         if (reaches(curve, start))
@@ -181,10 +184,22 @@ private:
             first = 0.5 * (first + curve.back().value);
             curve.pop_back();
         }
-        curve.reserve(curve.size() + next.size()); // no more: a clip of hours is large
+        reserve(curve, curve.size() + next.size(), start);
         curve.push_back({start, first});
         for (std::size_t i = 1; i < next.size(); ++i)
             curve.push_back({start + next[i].time, next[i].value});
+    }
+
+    /// Room for `size` points, and at once for as many as the whole clip may get: curves of hours that are moved again
+    /// and again leave memory in pieces.
+    void reserve(Curve& curve, std::size_t size, double start) const
+    {
+        if (size <= curve.capacity())
+            return;
+        constexpr double margin = 1.2;
+        constexpr double most = 8.0; // times what is there: lengths that files claim are not to be trusted
+        const double growth = start > 0.0 ? std::clamp(margin * expected / start, 1.0, most) : 1.0;
+        curve.reserve(std::max(size, static_cast<std::size_t>(growth * static_cast<double>(curve.size()))));
     }
 
     static constexpr double floorDecibels = -45.0; // below full drive: the range of touch
@@ -201,6 +216,7 @@ private:
     static constexpr double priceExponent = 1.56;
 
     double pointsPerSecond;
+    double expected = 0.0; // s
     CurveFitter curves;
 };
 

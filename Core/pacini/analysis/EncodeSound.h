@@ -21,8 +21,8 @@ struct SoundFormat
 {
     int sampleRate = 0; ///< Hz
     int channels = 1;
-    std::uint64_t expectedFrames = 0; ///< 0: not known
-    std::optional<double> peak = {};  ///< as SoundPeak finds it
+    std::uint64_t expectedFrames = 0;     ///< 0: not known
+    std::optional<SoundScale> scale = {}; ///< as SoundSurvey finds it
 };
 
 /// Interleaved samples, whole frames; none at the end of the sound.
@@ -62,7 +62,7 @@ private:
 template <typename Next>
 [[nodiscard]] Result<Clip> encodePrecisely(Encoder& encoder, const SoundFormat& format, Next&& next)
 {
-    encoder.start(format.sampleRate, format.channels, format.expectedFrames, format.peak);
+    encoder.start(format.sampleRate, format.channels, format.expectedFrames, format.scale);
     for (;;)
     {
         const SoundPart part = next();

