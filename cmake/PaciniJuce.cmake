@@ -26,3 +26,11 @@ else()
         set(PACINI_JUCE_FOUND TRUE)
     endif()
 endif()
+
+# A library of binary data made of `files`. JUCE's own depends on the list of their names only, which each run of CMake
+# writes: so an edit of one runs CMake.
+function(pacini_add_binary_data target namespace header)
+    juce_add_binary_data(${target} NAMESPACE ${namespace} HEADER_NAME ${header} SOURCES ${ARGN})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()

@@ -206,7 +206,7 @@ Exit ConvertCommand::convertProfile(Console& console)
 {
     const std::string& input = inputs.front();
     const bool toAcf = hasAcfExtension(output);
-    if (!format.empty() || quantise > 0 || options.given())
+    if (!format.empty() || quantise > 0 || !options.firstGiven().empty())
         return console.fail(
             input, {ErrorCode::invalidArgument, "", "is a profile; --format, --quantise and the others are for clips"},
             Exit::usage);
@@ -287,9 +287,11 @@ std::optional<ConvertSettings> ConvertCommand::settingsFor(Console& console, boo
         return wrongUsage(output,
                           "has neither the extension .json nor .pacb nor that of another format; say which with "
                           "--format");
-    if (target->isOwn() && options.given())
-        return wrongUsage(output, "holds all of a clip; --points, --split, --sample-rate and --profile are for other "
-                                  "formats");
+    if (const auto fits = options.checkFor(*target); !fits)
+    {
+        console.error(output, fits.error());
+        return std::nullopt;
+    }
     if (!target->isOwn() && quantise > 0)
         return wrongUsage(output, "is no packed clip; --quantise is for those");
     const auto params = options.params(console);

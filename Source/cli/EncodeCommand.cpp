@@ -233,6 +233,11 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
     if (method.output == MethodOutput::signal)
     {
         const std::string clips = methodNames(MethodOutput::clip);
+        if (const std::string option = exporting.firstGiven(); !option.empty())
+            return wrongUsage(option,
+                              fmt::format("is for clips in formats of other programs, but {} writes a WAV file; "
+                                          "leave it out",
+                                          method.name));
         if (!format.empty())
             return wrongUsage("--format", fmt::format("is for clips, but {} writes a WAV file; clips come from {}",
                                                       method.name, clips));
@@ -311,11 +316,8 @@ Exit EncodeCommand::run(Console& console)
         target = clipFormatWrittenTo(lowerExtension(output));
     if (target != nullptr)
         settings.format = target;
-    if (settings.format->isOwn() && exporting.given())
-        return console.fail("",
-                            wrongUsage("--format", "must be a format of other programs for --points, --split, "
-                                                   "--sample-rate and --profile"),
-                            Exit::usage);
+    if (const auto fits = exporting.checkFor(*settings.format); !fits)
+        return console.fail("", fits.error(), Exit::usage);
     const auto exportParams = exporting.params(console);
     if (!exportParams)
         return Exit::failed;

@@ -8,8 +8,45 @@
 namespace pacini::cli
 {
 
+namespace
+{
+/// An option and the choice of a format that it is.
+struct ExportOption
+{
+    const char* name;
+    bool ExportChoices::*choice; ///< null: how events are written
+
+    [[nodiscard]] bool isIn(const ClipFormat& format) const
+    {
+        return choice != nullptr ? format.choices.*choice : format.events.has_value();
+    }
+};
+
+constexpr ExportOption exportOptions[] = {
+    {"--points", &ExportChoices::amplitudePoints},
+    {"--frequency-points", &ExportChoices::frequencyPoints},
+    {"--split", &ExportChoices::split},
+    {"--quick", &ExportChoices::quick},
+    {"--events", nullptr},
+    {"--sample-rate", &ExportChoices::drive},
+    {"--profile", &ExportChoices::profile},
+    {"--strength", &ExportChoices::drive},
+};
+
+/// "haptic, ahap, hjif"
+std::string formatsWith(const ExportOption& option)
+{
+    std::string names;
+    for (const ClipFormat& format : clipFormats())
+        if (format.isWritten() && option.isIn(format))
+            names += (names.empty() ? "" : ", ") + std::string(format.name);
+    return names;
+}
+} // namespace
+
 void ExportOptions::declare(CLI::App& command)
 {
+    declaredIn = &command;
     addOption(command, "--points", points,
               "For other formats: at most this many points of amplitude per second; without it a clip of one "
               "voice keeps its points [as usual for the format]",
@@ -31,6 +68,7 @@ void ExportOptions::declare(CLI::App& command)
     addOption(command, "--profile", profile,
               "Actuator whose frequency range is used by formats that state none: a file or a shipped profile",
               "PROFILE");
+    addStrength(command, strength, ", in formats that hold samples");
 }
 
 std::optional<ExportParams> ExportOptions::params(Console& console) const
@@ -48,6 +86,7 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
         result.sampleRate = rate;
     result.split = split;
     result.quick = quick;
+    result.strength = strength;
     if (!events.empty())
         result.events = events == "merged" ? EventExport::merged : EventExport::transients;
     if (!profile.empty())
@@ -59,16 +98,35 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
     return result;
 }
 
-std::string ExportOptions::record() const
+Result<void> ExportOptions::checkFor(const ClipFormat& format) const
 {
-    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}", points, frequencyPoints, rate,
-                       split ? ", split" : "", quick ? ", quick" : "", events.empty() ? "" : ", events " + events,
-                       profile.empty() ? "" : ", profile " + profile);
+    for (const ExportOption& option : exportOptions)
+        if (declaredIn->count(option.name) > 0 && !option.isIn(format))
+            return Error{ErrorCode::invalidArgument, option.name,
+                         format.isOwn() ? fmt::format("is for formats of other programs, but {} holds all of a clip; "
+                                                      "leave it out, or write one of {}",
+                                                      format.name, formatsWith(option))
+                                        : fmt::format("changes nothing in {}; leave it out, or write one of {}",
+                                                      format.name, formatsWith(option))};
+    return {};
 }
 
-bool ExportOptions::given() const noexcept
+std::string ExportOptions::firstGiven() const
 {
-    return points > 0.0 || frequencyPoints > 0.0 || rate > 0 || split || quick || !events.empty() || !profile.empty();
+    for (const ExportOption& option : exportOptions)
+        if (declaredIn->count(option.name) > 0)
+            return option.name;
+    return {};
+}
+
+std::string ExportOptions::record() const
+{
+    // Strength only where it was asked for: records of before stay what they were.
+    const std::string chosenStrength =
+        declaredIn->count("--strength") > 0 ? fmt::format(", strength {}", strength) : "";
+    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}{}", points, frequencyPoints, rate,
+                       split ? ", split" : "", quick ? ", quick" : "", events.empty() ? "" : ", events " + events,
+                       profile.empty() ? "" : ", profile " + profile, chosenStrength);
 }
 
 } // namespace pacini::cli

@@ -260,6 +260,16 @@ Exit LintCommand::run(Console& console)
         return console.fail(
             "", {ErrorCode::invalidArgument, "lint", "a file to work on is missing; try 'pacini lint --help'"},
             Exit::usage);
+    if (target.empty())
+    {
+        if (const std::string option = options.firstGiven(); !option.empty())
+            return console.fail("",
+                                {ErrorCode::invalidArgument, option,
+                                 "is for a format to check; name it with --target, see 'pacini lint --targets'"},
+                                Exit::usage);
+    }
+    else if (const auto fits = options.checkFor(*clipFormatNamed(target)); !fits)
+        return console.fail("", fits.error(), Exit::usage);
     const auto params = options.params(console);
     if (!params)
         return Exit::failed;

@@ -158,6 +158,10 @@ std::optional<Error> PlayCommand::usageError() const
         return wrong("--loop has no end that --dry-run could print");
     if (!like.empty() && !dryRun)
         return wrong("--like is for --dry-run");
+    if (!like.empty() && !device.empty())
+        return wrong("--like is for no device that is connected; leave out --device or --like");
+    if (dryRun && wait)
+        return wrong("--wait has no controller to wait for with --dry-run; leave one of them out");
     return std::nullopt;
 }
 

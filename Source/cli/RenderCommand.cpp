@@ -218,18 +218,22 @@ CLI::App* RenderCommand::declare(CLI::App& app)
               numberFrom(-300.0, 0.0), "DB");
     auto* all = command->add_flag("--everything", everything, "Leave nothing out");
     command->get_option("--tolerance")->excludes(all);
-    command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
-    addPreset(*command, "--mapping", mapping,
-              "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
-              "it, or by octaves into it",
-              oneOf({"profile", "clamp", "rescale", "fold"}));
-    addPreset(*command, "--max-boost", maxBoost,
-              "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance",
-              numberFrom(0.0, 40.0));
-    addPreset(*command, "--strength", strength,
-              "Trade of likeness for strength on resonant actuators: 0 plays as flat as can be, 1 all of it on the "
-              "resonance",
-              numberFrom(0.0, 1.0), "S");
+    auto* asIs =
+        command->add_flag("--no-adapt", noAdaptation, "Play clips as they are, not fitted to the profile's actuator");
+    auto* mapped =
+        addPreset(*command, "--mapping", mapping,
+                  "Frequencies outside the actuator's range: as its profile says, to the nearest end, spread over "
+                  "it, or by octaves into it",
+                  oneOf({"profile", "clamp", "rescale", "fold"}));
+    auto* boosted =
+        addPreset(*command, "--max-boost", maxBoost,
+                  "How far the drive may be raised to flatten the actuator's resonance, dB; 0 leaves the resonance",
+                  numberFrom(0.0, 40.0));
+    auto* strengthened = addStrength(*command, strength);
+    for (CLI::Option* fitted : {asIs, mapped, boosted})
+        fitted->needs(command->get_option("--profile"));
+    for (CLI::Option* fitted : {mapped, boosted, strengthened})
+        fitted->excludes(asIs);
     command->add_flag("--no-protection", noProtection,
                       "Do not keep the drive within full drive and the profile's limits: samples beyond 1 are written "
                       "as they are, or clipped as PCM");
@@ -302,6 +306,12 @@ Exit RenderCommand::run(Console& console)
 {
     if (to && *to <= from)
         return console.fail("", {ErrorCode::invalidArgument, "render", "--from must be before --to"}, Exit::usage);
+    for (const char* option : {"--pulse-frequency", "--pulse-cycles"})
+        if (command->count(option) > 0 && pulse != "square" && pulse != "sine")
+            return console.fail("",
+                                {ErrorCode::invalidArgument, option,
+                                 "is for square and sine pulses; leave it out, or choose one of them with --pulse"},
+                                Exit::usage);
     RenderSettings settings;
     settings.compile.sampleRate = std::round(rate);
     settings.compile.tolerance = tolerance;

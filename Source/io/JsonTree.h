@@ -21,6 +21,9 @@ namespace pacini
 class JsonTreeBuilder : public JsonHandler
 {
 public:
+    /// The library says that its null cannot fail, and makes it by a constructor that may.
+    JsonTreeBuilder() noexcept(false) = default;
+
     nlohmann::json root;
 
     bool openObject() override { return open(nlohmann::json::object()); }

@@ -2,11 +2,12 @@
 import hashlib
 import json
 import os
+import struct
 import subprocess
 import time
 import unittest
 
-from command import COMMAND, CommandTest, noise, sine, wav
+from command import COMMAND, SOURCE, CommandTest, noise, read_float_wav, sine, wav
 
 HAPTIC = {"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {
     "amplitude": [{"time": 0, "amplitude": 0.2, "emphasis": {"amplitude": 0.5, "frequency": 0.4}},
@@ -173,6 +174,37 @@ class Convert(CommandTest):
         self.fails(2, ["convert", "clip.json", "x.haptic", "--quantise", "8"], "--quantise")
         self.fails(2, ["convert", "clip.json", "x.pacb", "--points", "8"], "--points")
         self.fails(2, ["convert", "clip.json", "x.haptic", "--format", "nothing"], "--format")
+        for name, option, value, instead in (("x.tact", "--events", "merged", "haptic, ahap, hjif"),
+                                             ("x.hjif", "--profile", "lra-175", "haptic, ahap, haps"),
+                                             ("x.haptic", "--sample-rate", "4000", "wav8"),
+                                             ("x.csv", "--points", "8", "android-xml"),
+                                             ("x.haptic", "--split", None, "one of ahap, android-xml"),
+                                             ("x.ahap", "--quick", None, "one of hjif")):
+            self.fails(2, ["convert", "clip.json", name, option] + ([value] if value else []),
+                       f"pacini: {name}: {option}: changes nothing in {name[2:]}", instead)
+        self.fails(2, ["convert", "clip.json", "x.haptic", "--profile", "lra-175", "--strength", "0"],
+                   "--strength: changes nothing in haptic")
+        self.fails(2, ["convert", "clip.json", "x.wav", "--strength", "0"], "--strength needs --profile")
+
+    def test_strength_is_that_of_render_and_recorded(self):
+        self.succeeds("encode", str(SOURCE / "Resources/demo/iter_drum_roll.flac"), "-o", "in/", "--format", "json")
+        (self.folder / "in/iter_drum_roll.json").rename(self.folder / "in/roll.json")
+        written = {}
+        for options in ([], ["--strength", "0"], ["--strength", "0.4"], ["--strength", "1"]):
+            self.succeeds("convert", "in", "out", "--format", "wav16", "--profile", "lra-175", *options)  # made anew
+            written["".join(options[1:])] = (self.folder / "out/roll.wav").read_bytes()
+            self.succeeds("render", "in/roll.json", "-o", "own.wav", "--rate", "8000", "--profile", "lra-175", *options, "-f")
+            _, own = read_float_wav(self.folder / "own.wav")
+            samples = struct.unpack(f"<{len(own)}h", written["".join(options[1:])][44:44 + 2 * len(own)])
+            self.assertLess(max(abs(a - 32768 * b) for a, b in zip(samples, own)), 1.01, options)
+        self.assertEqual(written[""], written["0.4"])  # the default
+        self.assertEqual(len(set(written.values())), 3)
+        drum = str(SOURCE / "Resources/demo/iter_drum_roll.flac")
+        self.succeeds("encode", drum, "-o", "straight.wav", "--format", "wav16", "--profile", "lra-175", "--strength", "1")
+        self.assertEqual((self.folder / "straight.wav").read_bytes(), written["1"])
+        lost = [self.report("lint", "in/roll.json", "--target", "wav16", "--profile", "lra-175", "--strength", strength)
+                for strength in ("0", "1")]
+        self.assertTrue(all(report["files"][0]["ok"] for report in lost))
 
     def test_bad_files_of_others_say_where(self):
         broken = json.loads(json.dumps(HAPTIC))

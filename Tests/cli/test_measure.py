@@ -94,6 +94,10 @@ class Fit(MeasureTest):
 
 
 class EndToEnd(MeasureTest):
+    def test_one_wearer_and_several_exclude_each_other(self):
+        self.fails(2, ["measure", "simulate", "sweep.wav", "-o", "rec.wav", "--wearers", "2", "--wearer", "1"],
+                   "--wearers", " excludes ")
+
     def test_fourteen_wearers_become_flat(self):
         seconds = "2" if SANITIZED else "6"
         self.succeeds("measure", "sweep", "-o", "sweep.wav", "--duration", seconds, "--rate", "8000", "--levels", "-12")

@@ -53,7 +53,7 @@ def outputs(folder):
         quick = ["--quick"] if target in QUICK else []
         run(f"convert {target}", "convert", "-j1", *quick, *clips, f"{target}/", "--format", target)
         run(f"lint {target}", "lint", *quick, *clips, "--target", target)
-    for target in ["ahap", "android", "haptic"]:
+    for target in ["ahap", "android-xml"]:
         run(f"convert {target} split", "convert", "-j1", *clips, f"{target}-split/", "--format", target, "--split",
             "--points", "20")
     for target in targets:

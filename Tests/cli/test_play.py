@@ -51,6 +51,8 @@ class Play(CommandTest):
         self.fails(2, ["play", "clip.json", "--dry-run", "--loop"], "--loop has no end")
         self.fails(2, ["play", "clip.json", "--like", "switch"], "--like is for --dry-run")
         self.fails(2, ["play", "clip.json", "--dry-run", "--like", "stone"], "--like")
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--device", "1"], "leave out --device or --like")
+        self.fails(2, ["play", "clip.json", "--dry-run", "--like", "xbox", "--wait"], "--wait has no controller")
         self.fails(1, ["play", "clip.json", "--dry-run", "--like", "xbox", "--from", "3"], "clip.json", "nothing between")
         self.fails(1, ["play", "none.json", "--dry-run", "--like", "xbox"], "none.json")
 

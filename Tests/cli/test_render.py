@@ -167,6 +167,19 @@ class Render(CommandTest):
             self.fails(2, ["render", "clip.json", option, value], option, says, "pacini render --help")
         self.assertEqual(self.names(), ["clip.json"])
 
+    def test_options_without_effect_are_usage_errors_that_say_what_to_do(self):
+        self.clip()
+        for option in (["--strength", "1"], ["--max-boost", "3"], ["--mapping", "fold"], ["--no-adapt"]):
+            self.fails(2, ["render", "clip.json", *option], f"{option[0]} needs --profile")
+            if option != ["--no-adapt"]:
+                self.fails(2, ["render", "clip.json", "--profile", "lra-175", "--no-adapt", *option],
+                           option[0], " excludes ", "--no-adapt")
+        for option in ("--pulse-frequency", "--pulse-cycles"):
+            for shape in ([], ["--pulse", "adaptive"]):
+                self.fails(2, ["render", "clip.json", option, "2", *shape], f"{option}: is for square and sine pulses",
+                           "--pulse")
+            self.succeeds("render", "clip.json", option, "2", "--pulse", "sine")
+
     def test_a_signal_of_days_is_refused_instead_of_filling_the_disk(self):
         self.clip(seconds=86400)
         self.fails(1, ["render", "clip.json", "--stretch", "100", "--rate", "2000"], "clip.json: would last 2400.0 hours",

@@ -77,11 +77,13 @@ CLI::App* SimulateSubcommand::declare(CLI::App& app)
         ->required();
     addPreset(*command, "--profile", profile, "Actuator, a profile with a body; its equaliser is not applied",
               "PROFILE");
-    addOption(*command, "--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's",
-              wholeNumberFrom(0u, simulatedWearers), "N");
+    auto* one =
+        addOption(*command, "--wearer", wearer, "Wearer 1 to 14, each with a skin of its own; 0 is the profile's",
+                  wholeNumberFrom(0u, simulatedWearers), "N");
     addOption(*command, "--wearers", wearers,
               "Record wearers 1 to N into files of their own: OUT-01.wav, OUT-02.wav and so on",
-              wholeNumberFrom(1u, simulatedWearers), "N");
+              wholeNumberFrom(1u, simulatedWearers), "N")
+        ->excludes(one);
     addOption(*command, "--contact", contact, "Level of a loose or a tight fit, dB", numberFrom(-60.0, 20.0), "DB");
     addPreset(*command, "--latency", latency, "Latency of player and recorder, ms", numberFrom(0.0, 1000.0), "MS");
     addPreset(*command, "--drift", drift, "How much faster the recorder's clock is, ppm", numberFrom(-5000.0, 5000.0),

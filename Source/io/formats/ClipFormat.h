@@ -90,6 +90,17 @@ struct ExportParams
     bool operator==(const ExportParams&) const = default;
 };
 
+/// Which of ExportParams change what a format writes, beside `events`: others would be without effect.
+struct ExportChoices
+{
+    bool amplitudePoints = false;
+    bool frequencyPoints = false;
+    bool profile = false;
+    bool drive = false; ///< sampleRate, and strength where there is a profile
+    bool split = false;
+    bool quick = false;
+};
+
 /// A format. Readers are lenient where the format's own players are and say so in warnings; writers keep every rule
 /// after rounding. Bytes depend on clip and parameters only.
 struct ClipFormat
@@ -106,7 +117,8 @@ struct ClipFormat
     Result<ImportedClip> (*reader)(std::string_view bytes, bool strict) = nullptr;          ///< null: is not read
     Result<ExportedClip> (*writer)(const Clip& clip, const ExportParams& params) = nullptr; ///< null: is not written
     std::string_view companion = {}; ///< suffix of a second file whose events belong to the clip, if there can be one
-    bool isSamples = false;          ///< the drive signal, at a rate and for an actuator that can be chosen
+    ExportChoices choices = {};
+    bool isSamples = false;                 ///< the drive signal, at a rate and for an actuator that can be chosen
     std::optional<EventExport> events = {}; ///< how events are written unless something else is asked for; none: the
                                             ///< format leaves no choice
 

@@ -112,6 +112,19 @@ Curve fewPoints(const Curve& level, const std::vector<Transient>& events, const 
     return curve;
 }
 
+/// Events weaker by `gain`, but not weaker than their points.
+void weaken(std::vector<Transient>& events, const Curve& level, double gain)
+{
+    auto point = level.begin();
+    for (Transient& event : events)
+    {
+        while (point != level.end() && point->time < event.time)
+            ++point;
+        const double least = point != level.end() && point->time == event.time ? point->value : 0.0;
+        event.amplitude = std::max(gain * event.amplitude, std::min(least, event.amplitude));
+    }
+}
+
 /// An emphasis may not be weaker than its point.
 void lowerToEvents(Curve& level, const std::vector<Transient>& events)
 {
@@ -158,11 +171,12 @@ std::size_t pointCount(double perSecond, double duration)
 
 constexpr double halfStep = 0.5 * leastAmplitude; // of 8 bits
 
-/// Sets the level to few points of a dense one, and adds what that loses.
+/// Sets the level to few points of a dense one, `more` beside those per second, and adds what that loses.
 void fewLevels(NormalisedVoice& result, const Curve& level, const EmphasisPlayer* player, LevelScale scale,
-               double pointsPerSecond)
+               double pointsPerSecond, double more)
 {
-    result.level = fewPoints(level, result.events, player, {pointCount(pointsPerSecond, result.duration), halfStep});
+    const std::size_t count = pointCount(pointsPerSecond, result.duration) + static_cast<std::size_t>(more);
+    result.level = fewPoints(level, result.events, player, {count, halfStep});
     if (player)
         lowerToEvents(result.level, result.events);
     LossTrack track(LossKind::points,
@@ -382,7 +396,10 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
     if (keepsPoints && !params.amplitudePoints)
         result.level = detail::withAnchors(level, eventTimes).curve;
     else
-        fewLevels(result, level, player, format.scale, params.amplitudePoints.value_or(format.amplitudePoints));
+        fewLevels(result, level, player, format.scale, params.amplitudePoints.value_or(format.amplitudePoints),
+                  params.amplitudePoints ? 0.0 : format.pointsPerEvent * static_cast<double>(result.events.size()));
+    if (!keepsPoints && params.events.value_or(usualEvents) == EventExport::transients)
+        weaken(result.events, result.level, format.eventLevel);
     if (keepsPoints && !params.frequencyPoints)
         result.frequency = frequency;
     else

@@ -71,6 +71,8 @@ struct VoiceFormat
     EmphasisPlayer events;         ///< how players show events, with a file that is ducked for them
     double amplitudePoints = 40.0; ///< per second, the density of Meta's analysis
     double frequencyPoints = 30.0; ///< per second
+    double pointsPerEvent = 0.0;   ///< of amplitude, beside those per second
+    double eventLevel = 1.0;       ///< gain of events of which each is a transient, but not below the curve there
 };
 
 /// The one voice of a clip for formats whose levels and frequencies are 0 to 1. The curves have two points or more, go

@@ -6,7 +6,9 @@
 #include "io/formats/json/ClipJson.h"
 #include "io/formats/json/JsonFormat.h"
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <string_view>
@@ -82,6 +84,82 @@ TEST_CASE("A file is of the format that its content says, and else of that of it
     CHECK(formatFound(".wav", "x") == "none");
     CHECK(formatFound(".h", "x") == "none");
     CHECK(formatFound(".other", "x") == "none");
+}
+
+namespace
+{
+/// Two bands that swap, wander beyond what actuators play and have more points than any format takes, and events that
+/// the bands reach.
+Clip restlessClip()
+{
+    Clip clip;
+    clip.duration = 2.0;
+    for (const double centre : {90.0, 210.0})
+    {
+        Band& band = clip.bands.emplace_back();
+        band.lowFrequency = 0.4 * centre;
+        band.centreFrequency = centre;
+        band.highFrequency = 1.7 * centre;
+        for (int i = 0; i <= 400; ++i)
+        {
+            const double time = 0.005 * i, phase = time * (centre < 100.0 ? 40.0 : 53.0);
+            band.amplitude.push_back({time, 0.4 + 0.3 * std::sin(phase)});
+            band.pitch.push_back({time, centre * (1.0 + 0.6 * std::sin(0.7 * phase))});
+        }
+    }
+    for (int i = 0; i <= 400; ++i)
+        clip.envelope.push_back({0.005 * i, 0.5 + 0.3 * std::sin(0.23 * i)});
+    for (int i = 1; i < 8; ++i)
+        clip.transients.push_back({0.25 * i, 0.2, 0.5});
+    return clip;
+}
+} // namespace
+
+TEST_CASE("A format's choices are those of the parameters that change its bytes", "[formats]")
+{
+    const Clip clip = restlessClip();
+    REQUIRE(validate(clip));
+    for (const ClipFormat& format : clipFormats())
+    {
+        if (!format.isWritten())
+            continue;
+        CAPTURE(format.name);
+        const auto bytesWith = [&](auto set)
+        {
+            ExportParams params;
+            set(params);
+            const auto exported = format.write(clip, params);
+            REQUIRE(exported);
+            std::string bytes;
+            for (const ExportedFile& file : exported->files)
+                bytes += file.suffix + ":" + file.bytes;
+            return bytes;
+        };
+        const auto changes = [&](auto set)
+        {
+            return bytesWith(set) != bytesWith([](ExportParams&) {});
+        };
+        const ExportChoices& choices = format.choices;
+        CHECK(choices.amplitudePoints == changes([](ExportParams& params) { params.amplitudePoints = 7.0; }));
+        CHECK(choices.frequencyPoints == changes([](ExportParams& params) { params.frequencyPoints = 3.0; }));
+        CHECK(choices.split == changes([](ExportParams& params) { params.split = true; }));
+        CHECK(choices.quick == changes([](ExportParams& params) { params.quick = true; }));
+        CHECK(choices.drive == changes([](ExportParams& params) { params.sampleRate = 5000; }));
+        CHECK(choices.profile ==
+              changes([](ExportParams& params) { params.profile = test::shippedProfile("lra-175"); }));
+        const auto withStrength = [](double strength)
+        {
+            return [strength](ExportParams& params)
+            {
+                params.profile = test::shippedProfile("lra-175");
+                params.strength = strength;
+            };
+        };
+        CHECK(choices.drive == (bytesWith(withStrength(0.0)) != bytesWith(withStrength(1.0))));
+        CHECK(format.events.has_value() ==
+              (bytesWith([](ExportParams& params) { params.events = EventExport::merged; }) !=
+               bytesWith([](ExportParams& params) { params.events = EventExport::transients; })));
+    }
 }
 
 TEST_CASE("The first format that is written to an extension is that of its files", "[formats]")
