@@ -126,7 +126,7 @@ public:
         const std::uint32_t slot = free.back();
         Slot& entry = slots[slot];
         play->slot = slot;
-        play->generation = entry.generation.load(std::memory_order_relaxed) + 1;
+        play->generation = nextGeneration(entry.generation.load(std::memory_order_relaxed));
         play->group = settings.group;
         play->priority = settings.priority;
         play->power = clip->power();
@@ -224,6 +224,18 @@ public:
         if (auto done = exchange(play, clip, std::min(position, clip->duration()), frame); !done)
             return done;
         slot.clip = clip;
+        return {};
+    }
+
+    /// Replaces a clip in all that plays of it.
+    Result<void> replaceAll(const LoadedClip* old, const std::shared_ptr<const LoadedClip>& clip)
+    {
+        collect();
+        for (std::uint32_t i = 0; i < slots.size(); ++i)
+            if (slots[i].used && slots[i].clip.get() == old)
+                if (auto done = replace({i, slots[i].generation.load(std::memory_order_relaxed)}, clip); !done)
+                    return done;
+        maker.forget(old);
         return {};
     }
 
@@ -385,6 +397,12 @@ private:
     }
 
     // [message]
+
+    /// 1 to 2^24 - 1, so that it fits in the handles of other languages.
+    [[nodiscard]] static std::uint32_t nextGeneration(std::uint32_t generation) noexcept
+    {
+        return generation < 0xFFFFFFu ? generation + 1 : 1;
+    }
 
     [[nodiscard]] Result<void> check(PlayId play) noexcept
     {

@@ -74,7 +74,7 @@ constexpr ExportChoices voiceChoices{.amplitudePoints = true, .frequencyPoints =
 constexpr ExportChoices driveAndEnvelope{.amplitudePoints = true, .profile = true, .drive = true};
 
 /// Name, title, extension, what is kept, recognition, reader and writer come first.
-constexpr std::array formats{
+constexpr std::array allFormats{
     ClipFormat{.name = "json",
                .title = "Pacini clip (JSON)",
                .extension = ".json",
@@ -185,6 +185,18 @@ constexpr std::array formats{
     samples("raw16", "Drive signal, signed 16-bit samples", ".s16", nullptr, samplesOf<writeRaw, 16>),
     samples("c", "Drive signal, C array for firmware", ".h", isCArray, writeCArray),
 };
+#ifdef PACINI_READERS_ONLY
+/// What only plays clips takes no writers along.
+constexpr auto formats = []
+{
+    auto readers = allFormats;
+    for (ClipFormat& format : readers)
+        format.writer = nullptr;
+    return readers;
+}();
+#else
+constexpr const auto& formats = allFormats;
+#endif
 } // namespace
 
 std::span<const ClipFormat> clipFormats()

@@ -1,0 +1,747 @@
+// The C functions of pacini.h: handles to objects, errors to codes and texts, exceptions to errors.
+
+#define PACINI_BUILDING 1
+
+#include "document/BuiltInProfiles.h"
+#include "io/ClipFile.h"
+#include "io/InputFile.h"
+#include "io/ProfileJson.h"
+#include "io/SceneFile.h"
+#include "io/formats/ClipFormat.h"
+#include "library/Handles.h"
+#include "pacini.h"
+
+#include <pacini/runtime/Engine.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using namespace pacini;
+using library::Handle;
+using library::HandleKind;
+using library::PlayHandle;
+
+constexpr std::size_t mostEngines = 64; // 6 bits of a play's handle
+constexpr std::size_t mostClips = 1'000'000;
+constexpr std::uint32_t blockFrames = 256; // of interleaved output at a time
+
+thread_local std::string lastError;
+
+struct EngineEntry
+{
+    std::unique_ptr<Engine> engine;
+    std::array<std::array<float, blockFrames>, PACINI_MAX_ACTUATORS> channels{}; // [audio]
+    std::atomic<std::uint32_t> budgetFrames{512};
+};
+
+/// All that the library holds. It is never destroyed: an audio thread may outlive the end of main().
+struct Library
+{
+    std::mutex control; ///< of everything but `engines` while rendering
+    library::HandleTable<std::shared_ptr<const LoadedClip>> clips{HandleKind::clip, mostClips};
+    library::SharedSlots<EngineEntry, mostEngines> engines;
+};
+
+Library& all()
+{
+    static Library* const library = new Library;
+    return *library;
+}
+
+pacini_result fail(pacini_result code, std::string text)
+{
+    lastError = std::move(text);
+    return code;
+}
+
+pacini_result codeOf(ErrorCode code)
+{
+    switch (code)
+    {
+    case ErrorCode::invalidArgument:
+        return PACINI_INVALID;
+    case ErrorCode::unsupportedVersion:
+        return PACINI_NEWER;
+    case ErrorCode::tooLarge:
+        return PACINI_TOO_MANY;
+    case ErrorCode::io:
+    case ErrorCode::diskFull:
+        return PACINI_IO;
+    case ErrorCode::invalidData:
+    case ErrorCode::truncated:
+    case ErrorCode::notFinite:
+        return PACINI_BAD_DATA;
+    }
+    return PACINI_INTERNAL;
+}
+
+pacini_result fail(const Error& error, std::string_view what = {})
+{
+    std::string text(what);
+    for (const std::string& part : {error.where, error.message})
+        if (!part.empty())
+            text += (text.empty() ? "" : ": ") + part;
+    return fail(codeOf(error.code), std::move(text));
+}
+
+pacini_result stale(const char* what)
+{
+    return fail(PACINI_STALE, std::string(what) + " is not in use (any more)");
+}
+
+/// Runs what may allocate; nothing leaves it but a code.
+template <typename Work>
+pacini_result guarded(Work&& work) noexcept
+{
+    try
+    {
+        return work();
+    }
+    catch (const std::bad_alloc&)
+    {
+        lastError.clear();
+        return PACINI_NO_MEMORY;
+    }
+    catch (const std::exception& error)
+    {
+        try
+        {
+            return fail(PACINI_INTERNAL, error.what());
+        }
+        catch (...)
+        {
+            return PACINI_NO_MEMORY;
+        }
+    }
+    catch (...)
+    {
+        return PACINI_INTERNAL;
+    }
+}
+
+/// What a struct of the caller, which may be older and shorter, says beside the defaults.
+template <typename Struct>
+bool readStruct(const Struct* from, Struct& to)
+{
+    if (from == nullptr)
+        return true;
+    const std::uint32_t size = from->struct_size;
+    if (size < sizeof(std::uint32_t) || size > 4096)
+        return false;
+    std::memcpy(&to, from, std::min<std::size_t>(size, sizeof(Struct)));
+    return true;
+}
+
+/// Writes what fits into a struct of the caller.
+template <typename Struct>
+pacini_result writeStruct(Struct& from, Struct* to)
+{
+    if (to == nullptr || to->struct_size < sizeof(std::uint32_t) || to->struct_size > 4096)
+        return fail(PACINI_INVALID, "info: call its init function first");
+    from.struct_size = to->struct_size;
+    std::memcpy(to, &from, std::min<std::size_t>(to->struct_size, sizeof(Struct)));
+    return PACINI_OK;
+}
+
+Result<std::shared_ptr<const LoadedClip>> loadClip(std::string_view bytes, std::string_view extension)
+{
+    const ClipFormat* format = clipFormatOf(extension, bytes);
+    if (format == nullptr || !format->isRead())
+        return Error{ErrorCode::invalidData, "", "is not a clip that Pacini reads"};
+    if (format == &packedFormat())
+        return LoadedClip::ofPacked(std::as_bytes(std::span(bytes)));
+    auto read = format->read(bytes);
+    if (!read)
+        return read.error();
+    return LoadedClip::ofClip(read->clip);
+}
+
+pacini_result addClip(const std::shared_ptr<const LoadedClip>& clip, pacini_clip* handle)
+{
+    const std::lock_guard lock(all().control);
+    *handle = all().clips.add(clip);
+    return *handle != 0 ? PACINI_OK : fail(PACINI_TOO_MANY, "a million clips are loaded: release some");
+}
+
+Result<std::optional<Profile>> profileOf(const char* text)
+{
+    if (text == nullptr || *text == '\0')
+        return std::optional<Profile>();
+    const std::string_view given(text);
+    if (given.find('{') != std::string_view::npos)
+    {
+        auto read = readProfileJson(given);
+        if (!read)
+            return read.error();
+        return std::optional<Profile>(std::move(read).value());
+    }
+    std::string names;
+    for (std::size_t slot = 0; !profileNameOf(slot).empty(); ++slot)
+    {
+        if (profileNameOf(slot) == given)
+            return builtInProfile(slot);
+        names += (names.empty() ? "" : ", ") + std::string(profileNameOf(slot));
+    }
+    return Error{ErrorCode::invalidArgument, "",
+                 "'" + std::string(given) + "' is no profile that comes with Pacini; there are " + names};
+}
+
+pacini_result createEngine(const pacini_engine_config* given, const Scene* scene, pacini_engine* handle)
+{
+    pacini_engine_config config;
+    pacini_engine_config_init(&config);
+    if (handle == nullptr)
+        return fail(PACINI_INVALID, "engine: is NULL");
+    *handle = 0;
+    if (!readStruct(given, config))
+        return fail(PACINI_INVALID, "config: call pacini_engine_config_init() first");
+    if (config.actuator_count < 1 || config.actuator_count > PACINI_MAX_ACTUATORS)
+        return fail(PACINI_INVALID, "actuator_count: must be 1 to 16");
+    if (config.pan_law < PACINI_PAN_POWER || config.pan_law > PACINI_PAN_BOTH)
+        return fail(PACINI_INVALID, "pan_law: must be a pacini_pan_law");
+    if (!(config.budget >= 0.0 && config.budget <= 1e6) || config.budget_frames < 1)
+        return fail(PACINI_INVALID, "budget: must be 0 to 1e6 microseconds for 1 frame or more");
+    EngineParams params;
+    params.sampleRate = config.sample_rate;
+    params.panLaw = static_cast<PanLaw>(config.pan_law);
+    params.protect = config.protect != 0;
+    params.panDelay = Seconds(config.pan_delay);
+    params.longestDelay = Seconds(config.longest_delay);
+    params.adaptation.strength = config.strength;
+    params.maxPlays = config.max_plays;
+    params.maxCommands = config.max_commands;
+    params.budget = {1e3 * config.budget / static_cast<double>(config.budget_frames), config.budget_voices};
+    if (scene != nullptr)
+    {
+        params.panLaw = scene->panLaw;
+        params.panDelay = Seconds(scene->panDelay);
+    }
+    for (std::uint32_t a = 0; a < config.actuator_count; ++a)
+    {
+        auto profile = profileOf(config.actuators[a].profile);
+        if (!profile)
+            return fail(profile.error(), "actuators[" + std::to_string(a) + "].profile");
+        params.actuators.push_back(
+            {std::move(profile).value(), config.actuators[a].gain, Seconds(config.actuators[a].delay)});
+    }
+    auto engine = Engine::make(params, scene);
+    if (!engine)
+        return fail(engine.error());
+    auto entry = std::make_unique<EngineEntry>();
+    entry->engine = std::move(engine).value();
+    entry->budgetFrames = config.budget_frames;
+    const std::lock_guard lock(all().control);
+    const auto [index, generation] = all().engines.add(entry.get());
+    if (index == mostEngines)
+        return fail(PACINI_TOO_MANY, "64 engines are in use: destroy some");
+    static_cast<void>(entry.release()); // the slots have it
+    *handle = Handle{HandleKind::engine, index, generation}.number();
+    return PACINI_OK;
+}
+
+using EngineUse = library::SharedSlots<EngineEntry, mostEngines>::Use;
+
+/// The engine of a handle while this lives; generation 0 for a handle of another kind, which finds none.
+EngineUse useEngine(std::uint64_t number)
+{
+    const Handle handle = Handle::of(number);
+    return {all().engines, handle.index, handle.kind == HandleKind::engine ? handle.generation : 0};
+}
+
+/// Calls work(engine) for one thread at a time.
+template <typename Work>
+pacini_result withEngine(pacini_engine number, Work&& work) noexcept
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            const EngineUse use = useEngine(number);
+            return use.get() != nullptr ? work(*use.get()) : stale("engine");
+        });
+}
+
+/// Calls work(engine, play) for one thread at a time.
+template <typename Work>
+pacini_result withPlay(pacini_play number, Work&& work) noexcept
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            if (Handle::of(number).kind != HandleKind::play)
+                return stale("play");
+            const PlayHandle handle = PlayHandle::of(number);
+            const std::uint32_t generation = all().engines.generationOf(handle.engine);
+            if ((generation & 0xFFFu) != handle.engineGeneration)
+                return stale("engine of the play");
+            const EngineUse use(all().engines, handle.engine, generation);
+            if (use.get() == nullptr)
+                return stale("engine of the play");
+            return work(*use.get()->engine, PlayId{handle.slot, handle.generation});
+        });
+}
+
+pacini_result finish(const Result<void>& done)
+{
+    if (done)
+        return PACINI_OK;
+    return done.error().where == "play" ? fail(PACINI_STALE, "play: has ended") : fail(done.error());
+}
+
+bool isControl(pacini_control control)
+{
+    return control >= PACINI_GAIN && control <= PACINI_PRIORITY;
+}
+
+Seconds glideOf(double seconds)
+{
+    return Seconds(std::isfinite(seconds) ? seconds : 0.0);
+}
+} // namespace
+
+extern "C"
+{
+uint32_t pacini_api_version(void)
+{
+    return 1000 * PACINI_API_MAJOR + PACINI_API_MINOR;
+}
+
+const char* pacini_result_text(pacini_result result)
+{
+    switch (result)
+    {
+    case PACINI_OK:
+        return "no error";
+    case PACINI_INVALID:
+        return "an argument is out of its range";
+    case PACINI_STALE:
+        return "a handle is not in use (any more)";
+    case PACINI_BAD_DATA:
+        return "this is no clip, scene or profile";
+    case PACINI_NEWER:
+        return "this was written by a newer version";
+    case PACINI_TOO_MANY:
+        return "there are too many, or it is too large";
+    case PACINI_IO:
+        return "a file cannot be read";
+    case PACINI_NO_MEMORY:
+        return "there is not enough memory";
+    case PACINI_INTERNAL:
+        break;
+    }
+    return "a defect of Pacini: please report it";
+}
+
+size_t pacini_last_error(char* text, size_t size)
+{
+    if (text != nullptr && size > 0)
+    {
+        const std::size_t n = std::min(size - 1, lastError.size());
+        std::memcpy(text, lastError.data(), n);
+        text[n] = '\0';
+    }
+    return lastError.size() + 1;
+}
+
+pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip)
+{
+    return guarded(
+        [&]
+        {
+            if (clip == nullptr)
+                return fail(PACINI_INVALID, "clip: is NULL");
+            *clip = 0;
+            if (bytes == nullptr || size == 0)
+                return fail(PACINI_INVALID, "bytes: there are none");
+            const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
+            return loaded ? addClip(*loaded, clip) : fail(loaded.error());
+        });
+}
+
+pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip)
+{
+    return guarded(
+        [&]
+        {
+            if (clip == nullptr || path == nullptr)
+                return fail(PACINI_INVALID, clip == nullptr ? "clip: is NULL" : "path: is NULL");
+            *clip = 0;
+            const auto* const utf8 = reinterpret_cast<const char8_t*>(path);
+            auto read = readClip(std::filesystem::path(std::u8string_view(utf8)));
+            if (!read)
+                return fail(read.error(), path);
+            const auto loaded = read->format == &packedFormat()
+                                    ? LoadedClip::ofPacked(std::as_bytes(std::span(read->bytes)))
+                                    : LoadedClip::ofClip(read->clip);
+            return loaded ? addClip(*loaded, clip) : fail(loaded.error(), path);
+        });
+}
+
+pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size)
+{
+    return guarded(
+        [&]
+        {
+            if (bytes == nullptr || size == 0)
+                return fail(PACINI_INVALID, "bytes: there are none");
+            const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
+            if (!loaded)
+                return fail(loaded.error());
+            const std::lock_guard lock(all().control);
+            auto* const held = all().clips.find(clip);
+            if (held == nullptr)
+                return stale("clip");
+            for (std::uint32_t i = 0; i < mostEngines; ++i)
+            {
+                const EngineUse use(all().engines, i, all().engines.generationOf(i));
+                if (use.get() != nullptr)
+                    if (auto done = use.get()->engine->replaceAll(held->get(), *loaded); !done)
+                        return fail(done.error());
+            }
+            *held = *loaded;
+            return PACINI_OK;
+        });
+}
+
+void pacini_clip_info_init(pacini_clip_info* info)
+{
+    if (info == nullptr)
+        return;
+    *info = {};
+    info->struct_size = sizeof(pacini_clip_info);
+}
+
+pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info)
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            const auto* const held = all().clips.find(clip);
+            if (held == nullptr)
+                return stale("clip");
+            const LoadedClip& loaded = **held;
+            pacini_clip_info read{};
+            read.events = static_cast<std::uint32_t>(loaded.events());
+            read.duration = loaded.duration();
+            read.bytes = loaded.bytes() + sizeof(LoadedClip);
+            std::copy_n(loaded.name().begin(), std::min(loaded.name().size(), sizeof(read.name) - 1), read.name);
+            return writeStruct(read, info);
+        });
+}
+
+pacini_result pacini_clip_release(pacini_clip clip)
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            const auto* const held = all().clips.find(clip);
+            if (held == nullptr)
+                return stale("clip");
+            for (std::uint32_t i = 0; i < mostEngines; ++i)
+            {
+                const EngineUse use(all().engines, i, all().engines.generationOf(i));
+                if (use.get() != nullptr)
+                    use.get()->engine->forget(held->get());
+            }
+            all().clips.remove(clip);
+            return PACINI_OK;
+        });
+}
+
+void pacini_engine_config_init(pacini_engine_config* config)
+{
+    if (config == nullptr)
+        return;
+    *config = {};
+    const EngineParams usual;
+    config->struct_size = sizeof(pacini_engine_config);
+    config->actuator_count = 1;
+    config->sample_rate = usual.sampleRate;
+    for (pacini_actuator& actuator : config->actuators)
+        actuator.gain = 1.0;
+    config->pan_law = PACINI_PAN_POWER;
+    config->protect = 1;
+    config->pan_delay = usual.panDelay.value;
+    config->longest_delay = usual.longestDelay.value;
+    config->strength = usual.adaptation.strength;
+    config->max_plays = static_cast<std::uint32_t>(usual.maxPlays);
+    config->max_commands = static_cast<std::uint32_t>(usual.maxCommands);
+    config->budget_frames = 512;
+}
+
+pacini_result pacini_engine_create(const pacini_engine_config* config, pacini_engine* engine)
+{
+    return guarded([&] { return createEngine(config, nullptr, engine); });
+}
+
+pacini_result pacini_engine_create_scene(const pacini_engine_config* config, const char* scene_path,
+                                         pacini_engine* engine)
+{
+    return guarded(
+        [&]
+        {
+            if (scene_path == nullptr)
+                return fail(PACINI_INVALID, "scene_path: is NULL");
+            const auto* const utf8 = reinterpret_cast<const char8_t*>(scene_path);
+            const auto scene = readScene(std::filesystem::path(std::u8string_view(utf8)));
+            return scene ? createEngine(config, &*scene, engine) : fail(scene.error(), scene_path);
+        });
+}
+
+pacini_result pacini_engine_destroy(pacini_engine engine)
+{
+    return guarded(
+        [&]
+        {
+            const std::lock_guard lock(all().control);
+            const Handle handle = Handle::of(engine);
+            if (handle.kind != HandleKind::engine)
+                return stale("engine");
+            const std::unique_ptr<EngineEntry> entry(all().engines.remove(handle.index, handle.generation));
+            return entry ? PACINI_OK : stale("engine");
+        });
+}
+
+pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count, uint32_t frames)
+{
+    if (channels == nullptr || channel_count == 0 || frames == 0)
+        return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+    for (std::uint32_t c = 0; c < channel_count; ++c)
+        if (channels[c] == nullptr)
+            return PACINI_INVALID;
+    const EngineUse use = useEngine(engine);
+    const std::uint32_t played =
+        use.get() == nullptr
+            ? 0
+            : std::min(channel_count, static_cast<std::uint32_t>(use.get()->engine->actuators()));
+    for (std::uint32_t c = played; c < channel_count; ++c)
+        std::fill_n(channels[c], frames, 0.0f);
+    if (use.get() == nullptr)
+        return PACINI_STALE;
+    std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
+    for (std::uint32_t c = 0; c < played; ++c)
+        spans[c] = std::span(channels[c], frames);
+    use.get()->engine->render(std::span(spans).first(played));
+    return PACINI_OK;
+}
+
+pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count, uint32_t frames)
+{
+    if (samples == nullptr || channel_count == 0 || frames == 0)
+        return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+    const EngineUse use = useEngine(engine);
+    const std::size_t wanted = channel_count;
+    std::fill_n(samples, wanted * frames, 0.0f);
+    if (use.get() == nullptr)
+        return PACINI_STALE;
+    EngineEntry& entry = *use.get();
+    const std::size_t played = std::min(wanted, entry.engine->actuators());
+    for (std::uint32_t done = 0; done < frames;)
+    {
+        const std::uint32_t n = std::min(frames - done, blockFrames);
+        std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
+        for (std::size_t c = 0; c < played; ++c)
+            spans[c] = std::span(entry.channels[c]).first(n);
+        entry.engine->render(std::span(spans).first(played));
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::size_t c = 0; c < played; ++c)
+                samples[(done + i) * wanted + c] = spans[c][i];
+        done += n;
+    }
+    return PACINI_OK;
+}
+
+void pacini_engine_info_init(pacini_engine_info* info)
+{
+    if (info == nullptr)
+        return;
+    *info = {};
+    info->struct_size = sizeof(pacini_engine_info);
+}
+
+pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info)
+{
+    return withEngine(engine,
+                      [&](EngineEntry& entry)
+                      {
+                          const EngineMeters meters = entry.engine->meters();
+                          pacini_engine_info read{};
+                          read.latency = static_cast<std::uint32_t>(entry.engine->latencyFrames());
+                          read.frame = entry.engine->framesRendered();
+                          read.playing = static_cast<std::uint32_t>(meters.playing);
+                          read.left_out = static_cast<std::uint32_t>(meters.leftOut);
+                          read.cost = 1e-3 * meters.cost * static_cast<double>(entry.budgetFrames.load());
+                          read.left_out_error = meters.leftOutError;
+                          read.gain_reduction = meters.gainReduction;
+                          return writeStruct(read, info);
+                      });
+}
+
+pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames, uint32_t voices)
+{
+    return withEngine(engine,
+                      [&](EngineEntry& entry)
+                      {
+                          if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
+                              return fail(PACINI_INVALID,
+                                          "budget: must be 0 to 1e6 microseconds for 1 frame or more");
+                          auto done = entry.engine->setBudget({1e3 * microseconds / static_cast<double>(frames), voices});
+                          if (done)
+                              entry.budgetFrames = frames;
+                          return finish(done);
+                      });
+}
+
+pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide,
+                                              int64_t frame)
+{
+    return withEngine(engine,
+                      [&](EngineEntry& entry) {
+                          return finish(entry.engine->setActuatorGain(actuator, gain, glideOf(glide), frame));
+                      });
+}
+
+void pacini_play_settings_init(pacini_play_settings* settings)
+{
+    if (settings == nullptr)
+        return;
+    *settings = {};
+    settings->struct_size = sizeof(pacini_play_settings);
+    settings->gain = settings->intensity = settings->speed = 1.0;
+    settings->pan = 0.5;
+}
+
+pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
+                                pacini_play* play)
+{
+    if (play != nullptr)
+        *play = 0;
+    return withEngine(engine,
+                      [&](EngineEntry& entry)
+                      {
+                          const auto* const held = all().clips.find(clip);
+                          if (held == nullptr)
+                              return stale("clip");
+                          pacini_play_settings given;
+                          pacini_play_settings_init(&given);
+                          if (!readStruct(settings, given))
+                              return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
+                          PlaySettings wanted;
+                          wanted.controls = {given.gain,  given.intensity,     given.pan,
+                                             given.delay, given.transposition, given.speed};
+                          wanted.from = given.from;
+                          wanted.loop = given.loop == -1.0 ? (*held)->duration() : given.loop;
+                          wanted.passes = given.passes;
+                          wanted.headroom = given.headroom;
+                          wanted.fadeIn = Seconds(given.fade_in);
+                          wanted.group = given.group;
+                          wanted.priority = given.priority;
+                          wanted.variation.amount = given.variation;
+                          wanted.variation.seed = given.seed;
+                          const auto started = entry.engine->play(*held, wanted, given.frame);
+                          if (!started)
+                              return fail(started.error());
+                          const Handle owner = Handle::of(engine);
+                          if (play != nullptr)
+                              *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}
+                                          .number();
+                          return PACINI_OK;
+                      });
+}
+
+pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide, int64_t frame)
+{
+    return withPlay(play,
+                    [&](Engine& engine, PlayId id)
+                    {
+                        if (!isControl(control))
+                            return fail(PACINI_INVALID, "control: must be a pacini_control");
+                        return finish(
+                            engine.set(id, static_cast<LiveControl>(control), value, glideOf(glide), frame));
+                    });
+}
+
+pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame)
+{
+    return withPlay(play,
+                    [&](Engine& engine, PlayId id) { return finish(engine.stop(id, glideOf(fade), frame)); });
+}
+
+pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame)
+{
+    return withPlay(play,
+                    [&](Engine& engine, PlayId id) { return finish(engine.pause(id, glideOf(fade), frame)); });
+}
+
+pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame)
+{
+    return withPlay(play,
+                    [&](Engine& engine, PlayId id) { return finish(engine.resume(id, glideOf(fade), frame)); });
+}
+
+pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame)
+{
+    return withPlay(play, [&](Engine& engine, PlayId id) { return finish(engine.seek(id, position, frame)); });
+}
+
+void pacini_play_info_init(pacini_play_info* info)
+{
+    if (info == nullptr)
+        return;
+    *info = {};
+    info->struct_size = sizeof(pacini_play_info);
+}
+
+pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info)
+{
+    return withPlay(play,
+                    [&](Engine& engine, PlayId id)
+                    {
+                        const PlayStatus status = engine.status(id);
+                        pacini_play_info read{};
+                        read.state = static_cast<std::int32_t>(status.state);
+                        read.position = status.position;
+                        return writeStruct(read, info);
+                    });
+}
+
+pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control, double value, double glide,
+                               int64_t frame)
+{
+    return withEngine(engine,
+                      [&](EngineEntry& entry)
+                      {
+                          if (!isControl(control))
+                              return fail(PACINI_INVALID, "control: must be a pacini_control");
+                          return finish(entry.engine->setGroup(group, static_cast<LiveControl>(control), value,
+                                                               glideOf(glide), frame));
+                      });
+}
+
+pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame)
+{
+    return withEngine(engine,
+                      [&](EngineEntry& entry)
+                      { return finish(entry.engine->stopGroup(group, glideOf(fade), frame)); });
+}
+} // extern "C"

@@ -1,0 +1,258 @@
+#include "support/Catch.h"
+
+#include <pacini.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace
+{
+/// A clip as people write it.
+const std::string hum = R"({"format": "pacini.clip", "version": 1, "name": "hum", "duration": 1,
+ "bands": [{"low": 90, "centre": 100, "high": 110, "amplitude": [[0, 0.5], [1, 0.5]]}],
+ "transients": [{"time": 0.25, "amplitude": 0.9, "sharpness": 0.5}]})";
+const std::string faintHum = R"({"format": "pacini.clip", "version": 1, "name": "faint", "duration": 1,
+ "bands": [{"low": 90, "centre": 100, "high": 110, "amplitude": [[0, 0.1], [1, 0.1]]}]})";
+
+std::string lastError()
+{
+    std::string text(pacini_last_error(nullptr, 0), '\0');
+    pacini_last_error(text.data(), text.size());
+    text.pop_back();
+    return text;
+}
+
+void require(pacini_result result)
+{
+    INFO(pacini_result_text(result) << ": " << lastError());
+    REQUIRE(result == PACINI_OK);
+}
+
+pacini_clip loaded(const std::string& text)
+{
+    pacini_clip clip = 0;
+    require(pacini_clip_load(text.data(), text.size(), &clip));
+    return clip;
+}
+
+pacini_engine created(std::uint32_t actuators = 1)
+{
+    pacini_engine_config config;
+    pacini_engine_config_init(&config);
+    config.actuator_count = actuators;
+    config.sample_rate = 8000.0;
+    pacini_engine engine = 0;
+    require(pacini_engine_create(&config, &engine));
+    return engine;
+}
+
+std::vector<float> rendered(pacini_engine engine, std::uint32_t frames)
+{
+    std::vector<float> out(frames);
+    float* channels[] = {out.data()};
+    require(pacini_render(engine, channels, 1, frames));
+    return out;
+}
+
+float largest(const std::vector<float>& x)
+{
+    float most = 0.0f;
+    for (const float v : x)
+        most = std::max(most, std::abs(v));
+    return most;
+}
+
+pacini_play_info infoOf(pacini_play play)
+{
+    pacini_play_info info;
+    pacini_play_info_init(&info);
+    require(pacini_play_get_info(play, &info));
+    return info;
+}
+} // namespace
+
+TEST_CASE("A clip is loaded from memory in any format, played, changed and stopped through C")
+{
+    CHECK(pacini_api_version() == 1000 * PACINI_API_MAJOR + PACINI_API_MINOR);
+    const pacini_clip clip = loaded(hum);
+    pacini_clip_info info;
+    pacini_clip_info_init(&info);
+    require(pacini_clip_get_info(clip, &info));
+    CHECK(std::string(info.name) == "hum");
+    CHECK(info.duration == 1.0);
+    CHECK(info.events == 1);
+    CHECK(info.bytes > 20);
+    CHECK(info.bytes < 1000);
+
+    const pacini_engine engine = created();
+    pacini_play_settings settings;
+    pacini_play_settings_init(&settings);
+    settings.loop = -1.0;
+    settings.frame = 1000;
+    pacini_play play = 0;
+    require(pacini_play_start(engine, clip, &settings, &play));
+    CHECK(infoOf(play).state == PACINI_WAITING);
+    CHECK(largest(rendered(engine, 1000)) == 0.0f);
+    CHECK(largest(rendered(engine, 1000)) > 0.4f);
+    CHECK(infoOf(play).state == PACINI_PLAYING);
+    CHECK(infoOf(play).position == Approx(0.125).margin(0.01));
+    require(pacini_play_set(play, PACINI_GAIN, 0.1, 0.01, 0));
+    rendered(engine, 200);
+    CHECK(largest(rendered(engine, 500)) < 0.15f);
+    // Hot reload.
+    require(pacini_play_set(play, PACINI_GAIN, 1.0, 0.0, 0));
+    require(pacini_clip_reload(clip, faintHum.data(), faintHum.size()));
+    rendered(engine, 400);
+    CHECK(largest(rendered(engine, 1000)) == Approx(0.1).margin(0.02));
+    require(pacini_play_seek(play, 0.9, 0));
+    require(pacini_play_pause(play, 0.0, 0));
+    rendered(engine, 200);
+    CHECK(infoOf(play).state == PACINI_PAUSED);
+    require(pacini_play_resume(play, 0.0, 0));
+    require(pacini_play_stop(play, 0.01, 0));
+    rendered(engine, 400);
+    CHECK(infoOf(play).state == PACINI_ENDED);
+    CHECK(pacini_play_set(play, PACINI_GAIN, 1.0, 0.0, 0) == PACINI_STALE);
+    CHECK(lastError() == "play: has ended");
+
+    pacini_engine_info state;
+    pacini_engine_info_init(&state);
+    require(pacini_engine_get_info(engine, &state));
+    CHECK(state.frame == 1000 + 1000 + 200 + 500 + 400 + 1000 + 200 + 400);
+    CHECK(state.latency == 8);
+    CHECK(state.playing == 0);
+    require(pacini_engine_destroy(engine));
+    require(pacini_clip_release(clip));
+}
+
+TEST_CASE("Handles that are stale or of another kind are errors, also after their place is used again")
+{
+    const pacini_clip clip = loaded(hum);
+    const pacini_engine engine = created();
+    pacini_play play = 0;
+    require(pacini_play_start(engine, clip, nullptr, &play));
+    pacini_play_info info;
+    pacini_play_info_init(&info);
+    for (const std::uint64_t other : {std::uint64_t(0), engine, clip, play + 1, ~play, ~std::uint64_t(0)})
+    {
+        CHECK(pacini_play_stop(other, 0.0, 0) == PACINI_STALE);
+        if (other != play + 1)
+            CHECK(pacini_play_get_info(other, &info) == PACINI_STALE);
+    }
+    for (const std::uint64_t other : {std::uint64_t(0), play, clip, engine + 2, ~std::uint64_t(0)})
+    {
+        std::array<float, 8> samples;
+        samples.fill(1.0f);
+        CHECK(pacini_render_interleaved(other, samples.data(), 1, 8) == PACINI_STALE);
+        CHECK(std::all_of(samples.begin(), samples.end(), [](float v) { return v == 0.0f; })); // not what was there
+        CHECK(pacini_engine_destroy(other) == PACINI_STALE);
+        CHECK(pacini_play_start(other, clip, nullptr, nullptr) == PACINI_STALE);
+        CHECK(pacini_play_start(engine, other, nullptr, nullptr) == (other == clip ? PACINI_OK : PACINI_STALE));
+    }
+    require(pacini_engine_destroy(engine));
+    CHECK(pacini_engine_destroy(engine) == PACINI_STALE);
+    const pacini_engine again = created();
+    CHECK(again != engine);
+    pacini_play newer = 0;
+    require(pacini_play_start(again, clip, nullptr, &newer));
+    CHECK(newer != play);
+    CHECK(pacini_play_get_info(play, &info) == PACINI_STALE);
+    require(pacini_clip_release(clip));
+    CHECK(pacini_clip_release(clip) == PACINI_STALE);
+    CHECK(largest(rendered(again, 2000)) > 0.4f); // what plays goes on
+    require(pacini_engine_destroy(again));
+}
+
+TEST_CASE("Wrong arguments are told by name")
+{
+    pacini_engine_config config;
+    pacini_engine_config_init(&config);
+    pacini_engine engine = 1;
+    const auto says = [&](const std::string& text)
+    {
+        CHECK(pacini_engine_create(&config, &engine) != PACINI_OK);
+        CHECK(engine == 0);
+        CHECK(lastError().find(text) != std::string::npos);
+        pacini_engine_config_init(&config);
+    };
+    config.sample_rate = std::nan("");
+    says("sampleRate: must be");
+    config.actuator_count = 17;
+    says("actuator_count: must be 1 to 16");
+    config.actuators[0].profile = "lra-176";
+    says("actuators[0].profile: 'lra-176' is no profile that comes with Pacini; there are flat-pcm");
+    config.actuators[0].profile = "{\"format\": 1}";
+    says("actuators[0].profile");
+    config.struct_size = 0;
+    says("pacini_engine_config_init()");
+    pacini_clip clip = 1;
+    CHECK(pacini_clip_load("nonsense", 8, &clip) == PACINI_BAD_DATA);
+    CHECK(clip == 0);
+    CHECK(pacini_clip_load(hum.data(), hum.size() / 2, &clip) == PACINI_BAD_DATA);
+    CHECK(pacini_clip_load_file("there/is/none", &clip) == PACINI_IO);
+    CHECK(lastError().find("there/is/none") != std::string::npos);
+    CHECK(pacini_clip_load(nullptr, 3, &clip) == PACINI_INVALID);
+    CHECK(pacini_render(0, nullptr, 1, 1) == PACINI_INVALID);
+    // A caller of an older header has a shorter struct: what it does not know stays as usual.
+    config.struct_size = 8;
+    config.actuator_count = 3;
+    config.sample_rate = -1.0;
+    require(pacini_engine_create(&config, &engine));
+    require(pacini_engine_destroy(engine));
+}
+
+TEST_CASE("Channels beyond the actuators are silent, and interleaved is the same")
+{
+    const pacini_clip clip = loaded(hum);
+    const pacini_engine a = created(2);
+    const pacini_engine b = created(2);
+    require(pacini_play_start(a, clip, nullptr, nullptr));
+    require(pacini_play_start(b, clip, nullptr, nullptr));
+    std::vector<float> x(1000, 9.0f), y(1000, 9.0f), z(1000, 9.0f), mixed(3000, 9.0f);
+    float* channels[] = {x.data(), y.data(), z.data()};
+    require(pacini_render(a, channels, 3, 1000));
+    require(pacini_render_interleaved(b, mixed.data(), 3, 1000));
+    CHECK(largest(z) == 0.0f);
+    CHECK(largest(x) > 0.3f);
+    for (std::size_t i = 0; i < 1000; ++i)
+    {
+        REQUIRE(mixed[3 * i] == x[i]);
+        REQUIRE(mixed[3 * i + 1] == y[i]);
+        REQUIRE(mixed[3 * i + 2] == 0.0f);
+    }
+    require(pacini_engine_destroy(a));
+    require(pacini_engine_destroy(b));
+    require(pacini_clip_release(clip));
+}
+
+TEST_CASE("An engine may be destroyed while another thread renders it")
+{
+    const pacini_clip clip = loaded(hum);
+    for (int i = 0; i < 50; ++i)
+    {
+        const pacini_engine engine = created();
+        require(pacini_play_start(engine, clip, nullptr, nullptr));
+        std::thread audio(
+            [engine]
+            {
+                std::array<float, 64> samples;
+                while (pacini_render_interleaved(engine, samples.data(), 1, 64) == PACINI_OK)
+                {
+                }
+            });
+        std::this_thread::yield();
+        require(pacini_engine_destroy(engine));
+        audio.join();
+    }
+    require(pacini_clip_release(clip));
+}

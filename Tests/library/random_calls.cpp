@@ -1,0 +1,212 @@
+// Calls libpacini at random: `random_calls COUNT [SEED]` makes COUNT sequences of calls in random order, with stale and
+// invented handles, NaN, infinities and huge sizes. Nothing may crash, and what is rendered is finite and within full
+// drive.
+
+#include <pacini.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+std::uint64_t state = 1;
+
+std::uint64_t next()
+{
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return state;
+}
+
+double number()
+{
+    switch (next() % 10)
+    {
+    case 0:
+        return std::numeric_limits<double>::quiet_NaN();
+    case 1:
+        return std::numeric_limits<double>::infinity();
+    case 2:
+        return -1e300;
+    case 3:
+        return 1e300;
+    case 4:
+        return -1.0;
+    default:
+        return static_cast<double>(next() % 1000) / 500.0;
+    }
+}
+
+const std::string clipText = R"({"format": "pacini.clip", "version": 1, "duration": 0.05,
+ "bands": [{"low": 90, "centre": 100, "high": 110, "amplitude": [[0, 0.9], [0.05, 0.1]]}],
+ "transients": [{"time": 0.01, "amplitude": 0.9, "sharpness": 0.5}]})";
+
+struct Handles
+{
+    std::vector<std::uint64_t> known{0, ~std::uint64_t(0)};
+
+    std::uint64_t any() const
+    {
+        const std::uint64_t one = known[next() % known.size()];
+        return next() % 16 == 0 ? one ^ (std::uint64_t(1) << (next() % 64)) : one;
+    }
+    void add(std::uint64_t handle)
+    {
+        known.push_back(handle);
+        if (known.size() > 40)
+            known.erase(known.begin() + 2);
+    }
+};
+
+bool rendersWell(std::uint64_t engine)
+{
+    std::array<float, 3 * 300> samples;
+    const auto channels = static_cast<std::uint32_t>(next() % 4), frames = static_cast<std::uint32_t>(next() % 301);
+    pacini_render_interleaved(engine, samples.data(), channels, frames);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(channels) * frames; ++i)
+        if (!(std::abs(samples[i]) <= 1.0f))
+        {
+            std::printf("sample %zu is %g\n", i, static_cast<double>(samples[i]));
+            return false;
+        }
+    return true;
+}
+
+bool sequence(Handles& handles)
+{
+    const std::uint64_t calls = next() % 30;
+    for (std::uint64_t i = 0; i < calls; ++i)
+    {
+        std::uint64_t made = 0;
+        const std::uint64_t handle = handles.any();
+        const double x = number(), y = number();
+        const auto frame = static_cast<std::int64_t>(next() % 4 == 0 ? next() : 0);
+        const auto control = static_cast<pacini_control>(next() % 9);
+        switch (next() % 17)
+        {
+        case 0:
+            if (next() % 3 == 0)
+                pacini_clip_load(clipText.data(), next() % 2 == 0 ? clipText.size() : next() % clipText.size(), &made);
+            break;
+        case 1:
+        {
+            if (next() % 4 != 0)
+                break;
+            pacini_engine_config config;
+            pacini_engine_config_init(&config);
+            config.actuator_count = 1 + static_cast<std::uint32_t>(next() % 3);
+            config.sample_rate = next() % 8 == 0 ? number() : 8000.0;
+            config.max_plays = next() % 8 == 0 ? static_cast<std::uint32_t>(next()) % 20000 : 8;
+            config.max_commands = 32;
+            config.pan_law = static_cast<std::int32_t>(next() % 4);
+            config.actuators[0].profile = next() % 3 == 0 ? "lra-175" : next() % 3 == 0 ? "erm-coin" : nullptr;
+            config.actuators[1].gain = next() % 8 == 0 ? number() : 0.5;
+            config.actuators[1].delay = next() % 8 == 0 ? number() : 0.01;
+            config.longest_delay = next() % 8 == 0 ? number() : 0.1;
+            config.budget = next() % 4 == 0 ? number() : 0.0;
+            pacini_engine_create(&config, &made);
+            break;
+        }
+        case 2:
+        case 3:
+        case 4:
+        {
+            pacini_play_settings settings;
+            pacini_play_settings_init(&settings);
+            double* const fields[] = {&settings.gain,  &settings.intensity,     &settings.pan,
+                                      &settings.delay, &settings.transposition, &settings.speed,
+                                      &settings.from,  &settings.loop,          &settings.headroom,
+                                      &settings.fade_in, &settings.variation};
+            for (double* const field : fields)
+                if (next() % 8 == 0)
+                    *field = number();
+            settings.passes = next() % 4 == 0 ? static_cast<std::uint32_t>(next()) : 0;
+            settings.group = static_cast<std::uint32_t>(next() % 33);
+            settings.frame = frame;
+            if (next() % 32 == 0)
+                settings.struct_size = static_cast<std::uint32_t>(next());
+            pacini_play_start(handle, handles.any(), next() % 4 == 0 ? nullptr : &settings, &made);
+            break;
+        }
+        case 5:
+            pacini_play_set(handle, control, x, y, frame);
+            break;
+        case 6:
+            pacini_play_stop(handle, x, frame);
+            break;
+        case 7:
+            pacini_play_pause(handle, x, frame);
+            break;
+        case 8:
+            pacini_play_resume(handle, x, frame);
+            break;
+        case 9:
+            pacini_play_seek(handle, x, frame);
+            break;
+        case 10:
+            pacini_group_set(handle, static_cast<std::uint32_t>(next() % 34), control, x, y, frame);
+            break;
+        case 11:
+            pacini_group_stop(handle, static_cast<std::uint32_t>(next() % 34), x, frame);
+            break;
+        case 12:
+            pacini_engine_set_actuator_gain(handle, static_cast<std::uint32_t>(next() % 5), x, y, frame);
+            pacini_engine_set_budget(handle, x, static_cast<std::uint32_t>(next() % 3), next() % 2 == 0 ? 0u : 2u);
+            break;
+        case 13:
+            if (next() % 8 == 0)
+                pacini_engine_destroy(handle);
+            if (next() % 8 == 0)
+                pacini_clip_release(handle);
+            break;
+        case 14:
+            pacini_clip_reload(handle, clipText.data(), clipText.size());
+            break;
+        case 15:
+        {
+            pacini_play_info play;
+            pacini_play_info_init(&play);
+            pacini_play_get_info(handle, &play);
+            pacini_engine_info engine;
+            pacini_engine_info_init(&engine);
+            pacini_engine_get_info(handle, &engine);
+            pacini_clip_info clip;
+            pacini_clip_info_init(&clip);
+            pacini_clip_get_info(handle, &clip);
+            break;
+        }
+        default:
+            if (!rendersWell(handle))
+                return false;
+        }
+        if (made != 0)
+            handles.add(made);
+    }
+    return true;
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc < 2)
+        return 2;
+    const long long count = std::atoll(argv[1]);
+    state = argc > 2 ? std::strtoull(argv[2], nullptr, 10) | 1u : 20261125u;
+    Handles handles;
+    for (long long i = 0; i < count; ++i)
+        if (!sequence(handles))
+        {
+            std::printf("in sequence %lld\n", i);
+            return 1;
+        }
+    std::printf("%lld sequences of random calls\n", count);
+    return 0;
+}
