@@ -265,6 +265,31 @@ TEST_CASE("A coil goes ahead freely exactly as far as its bounds tell", "[actuat
     }
 }
 
+TEST_CASE("A coil that bears any drive for a while admits it and goes ahead freely", "[actuator][protection]")
+{
+    const CoilHeatParams params{2.0, 0.5, Seconds(0.05)};
+    CoilHeat heat = coilOf(params, 4000.0);
+    const std::vector<double> full(32, 1.0);
+    int groups = 0;
+    for (; heat.bears(full.size()); ++groups)
+    {
+        REQUIRE(groups < 1000);
+        CoilHeat copy = heat;
+        for (const double drive : full)
+        {
+            REQUIRE(copy.admit(drive) == drive);
+            copy.advance(drive);
+        }
+        REQUIRE(heat.advanceFreely(full, 1.0));
+        CHECK(heat.admit(100.0) == copy.admit(100.0));
+    }
+    // The bound takes each stretch as if its coil did not cool: it ends less than two stretches before the limit.
+    const double share = -std::expm1(-1.0 / (0.05 * 4000.0));
+    const double frames = std::log1p(-0.25) / std::log1p(-share); // to 0.5 W of 2 W
+    CHECK(32.0 * groups <= frames);
+    CHECK(32.0 * groups > frames - 64.0);
+}
+
 TEST_CASE("What is left of a coil's heat far below all that matters becomes 0", "[actuator][protection]")
 {
     CoilHeat heat = coilOf({1.0, 1.0, Seconds(0.01)}, 2000.0);

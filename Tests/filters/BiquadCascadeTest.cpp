@@ -6,6 +6,9 @@
 #include <pacini/filters/BiquadCascade.h>
 #include <pacini/filters/Butterworth.h>
 
+#include <limits>
+#include <vector>
+
 using namespace pacini;
 using namespace pacini::test;
 
@@ -75,6 +78,9 @@ TEST_CASE("A cascade without sections passes everything unchanged", "[filters]")
     cascade.prepare({48000.0, 500});
     CHECK(runInBlocks(cascade, x, 100) == x);
     CHECK(cascade.coefficients().response(100_Hz, 48000.0) == std::complex<double>(1.0));
+    const std::vector<float> awkward{0.5f, std::numeric_limits<float>::infinity(),
+                                     std::numeric_limits<float>::quiet_NaN(), 1e-38f};
+    CHECK(runInBlocks(cascade, awkward, 4) == std::vector<float>{0.5f, 0.0f, 0.0f, 0.0f});
 }
 
 TEST_CASE("Sections that a cascade loses and regains start from silence", "[filters]")

@@ -76,6 +76,20 @@ TEST_CASE("A sample is finite and far above the denormals on its way out", "[fou
     CHECK(toSample(std::numeric_limits<double>::quiet_NaN()) == 0.0f);
 }
 
+TEST_CASE("A sample that a block passes on is what it would be on its way in and out", "[foundation]")
+{
+    const float inf = std::numeric_limits<float>::infinity();
+    const float largest = std::numeric_limits<float>::max();
+    const float smallest = std::numeric_limits<float>::denorm_min();
+    for (const float x : {0.0f, 0.25f, 1e-30f, std::nextafter(1e-30f, 0.0f), smallest, 3e30f, largest, inf})
+        for (const float sample : {x, -x})
+        {
+            CAPTURE(sample);
+            CHECK(passedSample(sample) == toSample(finiteOrZero(sample)));
+        }
+    CHECK(passedSample(std::numeric_limits<float>::quiet_NaN()) == 0.0f);
+}
+
 TEST_CASE("A state below 1e-100 becomes 0", "[foundation]")
 {
     for (const double kept : {1e-100, -1e-100, 1.0, -5e-100})

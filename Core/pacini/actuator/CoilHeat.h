@@ -76,6 +76,14 @@ public:
 
     void advance(double drive) noexcept { temperature.follow(full * drive * drive); }
 
+    /// Whether it is certain that the next `frames` drives, a multiple of a group from the start of one on, are
+    /// admitted whatever they are within +-1, and that advanceFreely() takes them.
+    [[nodiscard]] bool bears(std::size_t frames) const noexcept
+    {
+        const double hottest = hottestAfter(frames, 1.0);
+        return hottest <= safely * limit && full <= safely * ((limit - hottest) / heating + hottest);
+    }
+
     /// Does measure() and advance() for whole groups of frames, from the start of a group, if it is certain that no
     /// measure exceeds `maxMeasure` and that all of `played` would be admitted. Otherwise nothing changes and it
     /// returns false. The peak is that of `played`.

@@ -3,6 +3,7 @@
 // Drive of a motor with an eccentric mass (ERM): its voltage, from the strength that is wanted.
 
 #include <pacini/actuator/CoilHeat.h>
+#include <pacini/actuator/FrameGroup.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/actuator/ProtectionParams.h>
 #include <pacini/foundation/Clamp.h>
@@ -10,6 +11,7 @@
 #include <pacini/foundation/Units.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -48,7 +50,13 @@ public:
     {
         const double rate = wanted > state ? rise : fall;
         const double perRate = wanted > state ? perRise : perFall;
-        const double drive = clampTo(rate < 1.0 ? state + (wanted - state) * perRate : wanted, lowest, highest);
+        const double exact = rate < 1.0 ? state + (wanted - state) * perRate : wanted;
+        if (exact >= lowest && exact <= highest)
+        {
+            state = wanted; // for which nothing has to wait
+            return exact;
+        }
+        const double drive = clampTo(exact, lowest, highest);
         state += rate * (drive - state);
         return drive;
     }
@@ -128,8 +136,10 @@ public:
         current = params;
         if (params.heat)
             heat.design(*params.heat, fs);
+        framesIntoGroup = 0;
         speed.design(params.speedTimes, fs);
         highest = clampTo(params.overdrive, 1.0, 10.0);
+        perHighest = 1.0 / highest;
         start = clampTo(params.startVoltage, 0.0, 1.0);
         stall = clampTo(params.stallVoltage, 0.0, start);
         kickFrames =
@@ -141,21 +151,61 @@ public:
         heat.reset();
         starting = false;
         kickLeft = 0;
+        framesIntoGroup = 0;
     }
 
     void process(std::span<const float> in, std::span<float> out) noexcept
     {
-        forEachSample(
-            in, out, [this](double strength) { return tick(strength); },
-            [this]
-            {
-                speed.flush();
-                heat.flush();
-            });
+        for (std::size_t begin = 0; begin < in.size();)
+        {
+            const std::size_t left = in.size() - begin;
+            const std::size_t n = framesIntoGroup > 0  ? std::min(left, groupFrames - framesIntoGroup)
+                                  : left < groupFrames ? left
+                                                       : std::min(left - left % groupFrames, flushInterval);
+            const auto from = in.subspan(begin, n);
+            const auto to = out.subspan(begin, n);
+            const bool wholeGroups = framesIntoGroup == 0 && n % groupFrames == 0;
+            if (!current.heat || (wholeGroups && heat.bears(n)))
+                playFreely(from, to);
+            else
+                for (std::size_t i = 0; i < n; ++i)
+                    to[i] = toSample(tick(finiteOrZero(from[i])));
+            framesIntoGroup = (framesIntoGroup + n) % groupFrames;
+            begin += n;
+            speed.flush();
+            heat.flush();
+        }
     }
 
 private:
+    /// What tick() does where the coil bears the largest voltage, which it then follows by whole groups.
+    void playFreely(std::span<const float> in, std::span<float> out) noexcept
+    {
+        std::array<double, flushInterval> driveRoom;
+        const auto drives = std::span(driveRoom).first(in.size());
+        double peak = 0.0;
+        for (std::size_t i = 0; i < in.size(); ++i)
+        {
+            const double voltage = follow(finiteOrZero(in[i]), highest);
+            drives[i] = voltage * perHighest;
+            peak = std::max(peak, std::abs(drives[i]));
+            out[i] = toSample(voltage);
+        }
+        if (current.heat)
+            heat.advanceFreely(drives, std::min(peak, 1.0)); // which bears() has asked for; a peak may be rounded above
+    }
+
     double tick(double strength) noexcept
+    {
+        const double most = current.heat ? highest * heat.admit(1.0) : highest;
+        const double voltage = follow(strength, most);
+        if (current.heat)
+            heat.advance(voltage * perHighest);
+        return voltage;
+    }
+
+    /// One frame of a voltage up to `most`.
+    double follow(double strength, double most) noexcept
     {
         const double exact = strength > 0.0 ? std::sqrt(strength) : 0.0;
         const double wanted = exact < 0.5 * stall ? 0.0 : std::max(exact, stall);
@@ -166,11 +216,8 @@ private:
             starting = true;
             kickLeft = kickFrames;
         }
-        const double most = current.heat ? highest * heat.admit(1.0) : highest;
         const double lowest = starting ? std::min(start, most) : current.braking ? -most : 0.0;
         const double voltage = speed.tick(wanted, lowest, most);
-        if (current.heat)
-            heat.advance(voltage / highest);
         if (kickLeft > 0)
             --kickLeft;
         else if (speed.value() >= wanted)
@@ -181,6 +228,8 @@ private:
     FirstOrderInverse speed;
     CoilHeat heat;
     double highest = 1.0;
+    double perHighest = 1.0;
+    std::size_t framesIntoGroup = 0;
     double start = 0.0;
     double stall = 0.0;
     std::size_t kickFrames = 0;

@@ -133,6 +133,13 @@ concept DspBank = requires(B bank, ProcessSpec spec, typename B::Params params, 
     return static_cast<float>(y > largest ? largest : (y < -largest ? -largest : y));
 }
 
+/// toSample(finiteOrZero(x)): a sample that a block passes on.
+[[nodiscard]] inline float passedSample(float x) noexcept
+{
+    const float size = std::abs(x);
+    return (size >= 1e-30f) & (size <= std::numeric_limits<float>::max()) ? x : 0.0f;
+}
+
 /// Sets a state variable that has decayed below anything audible to 0, at the end of each process() call and every
 /// `flushInterval` frames: in silence a feedback loop would otherwise end in denormal numbers, which cost a hundred
 /// times as much. The limit lies so far under that of toSample() that no output depends on where this happens.
