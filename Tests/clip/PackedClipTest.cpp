@@ -1,5 +1,6 @@
 #include "support/Catch.h"
 #include "support/ClipSamples.h"
+#include "support/RandomClip.h"
 
 #include <pacini/clip/PackedClip.h>
 
@@ -77,6 +78,37 @@ TEST_CASE("What lies on the grids is kept exactly, and packs to the same bytes",
             REQUIRE(twice.ok());
             CHECK(*twice == *once);
         }
+}
+
+TEST_CASE("A clip is rounded to its grids as packing and unpacking it does", "[clip]")
+{
+    const auto check = [](Clip clip, int bits)
+    {
+        CAPTURE(bits);
+        setQuantise(clip, bits);
+        REQUIRE(validate(clip).ok());
+        const auto unpacked = unpackClip(packClip(clip, packParamsFor(clip)));
+        REQUIRE(unpacked.ok());
+        CHECK(onGrids(clip) == *unpacked);
+    };
+    for (const int bits : {4, 6, 8, 12, 13, 16})
+    {
+        for (std::uint64_t seed = 0; seed < 40; ++seed)
+        {
+            CAPTURE(seed);
+            check(test::randomClip(seed), bits);
+            check(test::randomFullClip(seed), bits);
+        }
+        Clip extremes;
+        extremes.duration = 1.23456;
+        extremes.envelope = {{0.0, 0.0}, {0.00049, 1e-9}, {0.0005, limits::amplitude}, {1.2345, 1e-4}, {1.23456, 3e-3}};
+        extremes.bands = {{100.0, 150.0, 200.0, 0, {{0.0, 1e-3}, {1.23456, 0.0}}, {{0.0, 0.0015}, {1.2341, 3e5}}}};
+        extremes.transients = {{1.23456, 1e-9, 1.0}};
+        check(extremes, bits);
+        extremes.envelope = {{0.0, 0.0}, {1.0, 0.0}};
+        extremes.bands.front().amplitude = {};
+        check(extremes, bits);
+    }
 }
 
 TEST_CASE("Long gaps, long curves and the ends of the ranges survive packing", "[clip]")

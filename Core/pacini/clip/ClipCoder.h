@@ -5,6 +5,7 @@
 #include <pacini/clip/BandPriority.h>
 #include <pacini/clip/BandTiling.h>
 #include <pacini/clip/Clip.h>
+#include <pacini/clip/ClipGrids.h>
 #include <pacini/clip/ClipText.h>
 #include <pacini/clip/PackedCurves.h>
 #include <pacini/clip/PackedText.h>
@@ -30,14 +31,6 @@ namespace pacini
 static_assert(FLT_EVAL_METHOD != 1 && FLT_EVAL_METHOD != 2,
               "the compiler keeps more digits than a double has: on 32-bit x86 add -msse2 -mfpmath=sse");
 
-/// Parameters of packing. The grids of a packed clip: LevelQuantiser and PitchQuantiser of `bits`, times on ticks.
-struct PackParams
-{
-    int bits = 12;                       ///< 4 to 16
-    std::uint32_t ticksPerSecond = 1000; ///< 1 to 1 000 000
-    bool operator==(const PackParams&) const = default;
-};
-
 namespace detail
 {
 
@@ -51,9 +44,7 @@ public:
     ClipCoder(Coder& coderToUse, const PackParams& packParams, std::size_t inputBytes = limits::points / pointsPerByte)
         : coder(coderToUse),
           params(packParams),
-          levelQuantiser(params.bits),
-          pitches(params.bits),
-          sharpnesses(params.bits, 0.0, 1.0),
+          grids(params),
           maxPoints(std::min(limits::points, pointsPerByte * (inputBytes + 8)))
     {
     }
@@ -125,7 +116,7 @@ private:
             failed = true;
             return;
         }
-        lastTick = static_cast<std::int64_t>(std::floor(clip.duration * params.ticksPerSecond + 1e-6));
+        grids.setDuration(clip.duration);
     }
 
     double codeSampleRate(double rate)
@@ -138,17 +129,6 @@ private:
         return exact(rate);
     }
 
-    [[nodiscard]] std::int64_t tickOf(double time) const
-    {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::llround(time * params.ticksPerSecond)), 0,
-                                        lastTick);
-    }
-
-    [[nodiscard]] double timeOf(std::int64_t tick) const
-    {
-        return static_cast<double>(tick) / static_cast<double>(params.ticksPerSecond);
-    }
-
     // ---- curves
 
     template <typename Quantiser>
@@ -157,7 +137,7 @@ private:
         GridCurve grid;
         grid.reserve(curve.size());
         for (const Breakpoint& point : curve)
-            grid.push_back({tickOf(point.time), quantiser.code(point.value)});
+            grid.push_back({grids.tickOf(point.time), quantiser.code(point.value)});
         return grid;
     }
 
@@ -167,7 +147,7 @@ private:
         Curve curve;
         curve.reserve(grid.size());
         for (const GridPoint& point : grid)
-            curve.push_back({timeOf(point.tick), quantiser.value(point.code)});
+            curve.push_back({grids.timeOf(point.tick), quantiser.value(point.code)});
         return curve;
     }
 
@@ -177,7 +157,7 @@ private:
         const GridCurve wanted = reading ? GridCurve{} : toGrid(curve, quantiser);
         if (failed)
             return {};
-        GridCurve grid = kind.code(coder, wanted, lastTick, hints, maxPoints - points);
+        GridCurve grid = kind.code(coder, wanted, grids.lastTick(), hints, maxPoints - points);
         points += grid.size();
         if constexpr (reading)
         {
@@ -202,7 +182,7 @@ private:
         codeBandFrequencies(clip.bands);
         if (failed)
             return;
-        const FlooredLevels levels{levelQuantiser, codeFloor(clip)};
+        const FlooredLevels levels{grids.levels, codeFloor(clip)};
         const GridCurve envelope = codeCurve(clip.envelope, envelopeCoder, levels, {});
         GridCurve below;
         std::vector<double> energies;
@@ -215,35 +195,13 @@ private:
         for (Band& band : clip.bands)
             pitchBelow = codePitch(band, pitchCoder, pitchBelow);
         codePriorities(clip.bands, prioritiesByEnergy(energies));
-        codeCurve(clip.centroid, centroidCoder, pitches, {});
+        codeCurve(clip.centroid, centroidCoder, grids.pitches, {});
     }
-
-    /// Silence is code 0, far below the faintest real level: moved up to just below that, steps to and from it cost
-    /// little.
-    struct FlooredLevels
-    {
-        const LevelQuantiser& levels;
-        std::int64_t silence;
-        [[nodiscard]] std::int64_t code(double amplitude) const { return std::max(levels.code(amplitude), silence); }
-        [[nodiscard]] double value(std::int64_t code) const { return code <= silence ? 0.0 : levels.value(code); }
-    };
 
     /// The code that stands for silence: one below the lowest level in the clip's envelope and bands.
     std::int64_t codeFloor(const Clip& clip)
     {
-        std::int64_t lowest = levelQuantiser.topCode();
-        const auto look = [&](const Curve& curve)
-        {
-            for (const Breakpoint& point : curve)
-                if (const auto code = levelQuantiser.code(point.value); code > 0)
-                    lowest = std::min(lowest, code);
-        };
-        if constexpr (!reading)
-        {
-            look(clip.envelope);
-            for (const Band& band : clip.bands)
-                look(band.amplitude);
-        }
+        const std::int64_t lowest = reading ? 1 : grids.lowestLevel(clip);
         return static_cast<std::int64_t>(
             std::min<std::uint64_t>(number(static_cast<std::uint64_t>(lowest - 1), 32.0), 1u << 24));
     }
@@ -259,7 +217,8 @@ private:
             [[nodiscard]] std::int64_t code(double hertz) const { return pitches.code(hertz) - centre; }
             [[nodiscard]] double value(std::int64_t code) const { return pitches.value(code + centre); }
         };
-        return codeCurve(band.pitch, kind, FromCentre{pitches, pitches.code(band.centreFrequency)}, {&below, nullptr});
+        return codeCurve(band.pitch, kind, FromCentre{grids.pitches, grids.pitches.code(band.centreFrequency)},
+                         {&below, nullptr});
     }
 
     void codeBandFrequencies(std::vector<Band>& bands)
@@ -321,12 +280,14 @@ private:
         for (std::size_t i = 0; i < count && !failed; ++i)
         {
             const Transient wanted = reading ? Transient{} : clip.transients[i];
-            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
-                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
-            level = code(amplitudes, level, levelQuantiser.code(wanted.amplitude), std::int64_t{1} << 24);
-            sharp = code(sharps, sharp, sharpnesses.code(wanted.sharpness), (std::int64_t{1} << params.bits) - 1);
+            tick = std::min(grids.lastTick(),
+                            tick + static_cast<std::int64_t>(
+                                       gaps.code(coder, static_cast<std::uint64_t>(grids.tickOf(wanted.time) - tick))));
+            level = code(amplitudes, level, grids.levels.code(wanted.amplitude), std::int64_t{1} << 24);
+            sharp = code(sharps, sharp, grids.sharpnesses.code(wanted.sharpness), (std::int64_t{1} << params.bits) - 1);
             if constexpr (reading)
-                clip.transients.push_back({timeOf(tick), levelQuantiser.value(level), sharpnesses.value(sharp)});
+                clip.transients.push_back(
+                    {grids.timeOf(tick), grids.levels.value(level), grids.sharpnesses.value(sharp)});
         }
         points += count;
     }
@@ -351,7 +312,7 @@ private:
         {
             band.lowFrequency = exact(band.lowFrequency);
             band.highFrequency = exact(band.highFrequency);
-            below = codeCurve(band.amplitude, kind, levelQuantiser, {&below, nullptr});
+            below = codeCurve(band.amplitude, kind, grids.levels, {&below, nullptr});
         }
     }
 
@@ -368,9 +329,10 @@ private:
         for (std::size_t i = 0; i < count; ++i)
         {
             const Marker wanted = reading ? Marker{} : clip.markers[i];
-            tick = std::min(lastTick, tick + static_cast<std::int64_t>(gaps.code(
-                                                 coder, static_cast<std::uint64_t>(tickOf(wanted.time) - tick))));
-            Marker marker{timeOf(tick), texts.code(wanted.name)};
+            tick = std::min(grids.lastTick(),
+                            tick + static_cast<std::int64_t>(
+                                       gaps.code(coder, static_cast<std::uint64_t>(grids.tickOf(wanted.time) - tick))));
+            Marker marker{grids.timeOf(tick), texts.code(wanted.name)};
             if constexpr (reading)
                 clip.markers.push_back(std::move(marker));
         }
@@ -379,10 +341,7 @@ private:
 
     Coder& coder;
     PackParams params;
-    LevelQuantiser levelQuantiser;
-    PitchQuantiser pitches;
-    UniformQuantiser sharpnesses;
-    std::int64_t lastTick = 0;
+    ClipGrids grids;
     std::size_t maxPoints;
     std::size_t points = 0;
     bool failed = false;

@@ -3,6 +3,7 @@
 // The packed form of a clip (.pacb): quantised, predicted and entropy-coded.
 
 #include <pacini/clip/ClipCoder.h>
+#include <pacini/clip/ClipGrids.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pacini
@@ -140,13 +140,11 @@ inline void setQuantise(Clip& clip, int bits)
     return clip;
 }
 
-/// A valid clip on the grids that packParamsFor() finds, as packing and unpacking leave it. It is taken apart
-/// meanwhile, since one of hours is large.
+/// A valid clip on the grids that packParamsFor() finds, as packing and unpacking leave it.
 [[nodiscard]] inline Clip onGrids(Clip clip)
 {
-    const PackParams grids = packParamsFor(clip);
-    const std::vector<std::byte> packed = packClip(std::move(clip), grids);
-    return unpackClip(packed).value();
+    detail::ClipGrids(packParamsFor(clip)).round(clip);
+    return clip;
 }
 
 } // namespace pacini
