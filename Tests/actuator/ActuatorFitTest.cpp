@@ -309,3 +309,29 @@ TEST_CASE("A measured equaliser stays up to the standard strength and has no cut
         CHECK(fitted(profile, 1.0) == ActuatorFit{std::nullopt, profile.equalizer, profile.range, 0.0});
     }
 }
+
+TEST_CASE("The ring time is that of the resonance as it is played", "[actuator]")
+{
+    // q / (pi f); without room to raise the drive a resonance stays as sharp as it is at full strength.
+    const Profile sharp = resonant(175.0, 10.0);
+    CHECK(ringTime(sharp, fitActuator(sharp, {0_dB, 1.0})) == Approx(10.0 / (std::numbers::pi * 175.0)));
+    const ActuatorFit usual = fitted(sharp, standardStrength);
+    CHECK(ringTime(sharp, usual) ==
+          Approx(usual.flattening->target.q / (std::numbers::pi * usual.flattening->target.frequency)));
+    CHECK(ringTime(sharp, usual) < 0.5 * 10.0 / (std::numbers::pi * 175.0));
+
+    // The peak whose gain and q undo a resonance of q 4 leaves one of q 1.
+    Profile equalised = resonant(100.0, 4.0);
+    const double fourth = 20.0 * std::log10(0.25);
+    equalised.equalizer.pushBack({EqualizerType::peak, 100.0, fourth, 2.0});
+    CHECK(ringTime(equalised, fitted(equalised, 0.0)) == Approx(1.0 / (std::numbers::pi * 100.0)));
+    CHECK(ringTime(equalised, fitted(equalised, 1.0)) == Approx(4.0 / (std::numbers::pi * 100.0)));
+
+    forEachProfile(
+        [](const std::string&, const Profile& profile)
+        {
+            const double ring = ringTime(profile, fitActuator(profile, {}));
+            const bool rings = profile.technology != Technology::erm && profile.technology != Technology::pcm;
+            CHECK((rings ? ring > 0.0 && ring < profile.response.fallTime : ring == 0.0));
+        });
+}

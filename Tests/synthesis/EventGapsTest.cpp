@@ -1,7 +1,11 @@
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
 
+#include <pacini/actuator/FeltModel.h>
+#include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/Decoder.h>
 #include <pacini/synthesis/EventGaps.h>
+#include <pacini/synthesis/ScenePlayer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +47,15 @@ double levelAt(std::span<const float> x, double fs, double from)
     return std::sqrt(sum / static_cast<double>(count));
 }
 
+/// dB by which the level rises over 10 ms around `time`, at most.
+double largestRise(std::span<const float> x, double fs, double time)
+{
+    double rise = -100.0;
+    for (double t = time - 0.02; t < time + 0.01; t += 0.0005)
+        rise = std::max(rise, 20.0 * std::log10(levelAt(x, fs, t + 0.01) / levelAt(x, fs, t)));
+    return rise;
+}
+
 /// dB by which the level rises over 10 ms at an event of a clip, at most.
 double riseAt(const Clip& clip, double time, const EventGapParams& gaps)
 {
@@ -52,10 +65,29 @@ double riseAt(const Clip& clip, double time, const EventGapParams& gaps)
     Decoder decoder(clip, params);
     std::vector<float> drive(static_cast<std::size_t>(decoder.totalFrames()));
     decoder.process(drive);
-    double rise = -100.0;
-    for (double t = time - 0.02; t < time + 0.01; t += 0.0005)
-        rise = std::max(rise, 20.0 * std::log10(levelAt(drive, 8000.0, t + 0.01) / levelAt(drive, 8000.0, t)));
-    return rise;
+    return largestRise(drive, 8000.0, time);
+}
+
+/// What is felt of a clip on an actuator, at 48 kHz; without `ringing` as if that did not ring.
+std::vector<float> feltOf(const Clip& clip, const Profile& profile, bool ringing)
+{
+    Scene scene;
+    scene.clips = {clip};
+    scene.plays = {{}};
+    auto plan = compilePlan(scene, &profile);
+    REQUIRE(plan.ok());
+    for (PlannedPlay& play : plan->plays)
+        play.decoder.gaps.ring = ringing ? play.decoder.gaps.ring : 0.0;
+    ScenePlayer player(*plan);
+    std::vector<float> felt(static_cast<std::size_t>(player.totalFrames()));
+    const std::span<float> all(felt);
+    player.process(std::span(&all, 1));
+    FeltModel model;
+    model.prepare({48000.0, felt.size()});
+    model.setParams(feltModelParams(profile).value());
+    model.reset();
+    model.process(felt, felt);
+    return felt;
 }
 } // namespace
 
@@ -191,4 +223,40 @@ TEST_CASE("An event in a steady tone is played so that the level rises by more t
         CHECK(riseAt(clip, 1.0, none) + 5.0 < riseAt(clip, 1.0, {}));
         CHECK(riseAt(clip, 1.0, {}) > 12.0);
     }
+}
+
+TEST_CASE("A gap lasts until the ringing is low enough, but leaves most of the time between events", "[synthesis]")
+{
+    EventGapParams params;
+    params.ring = 0.010;
+    const auto gapOf = [&](const std::vector<Transient>& events)
+    {
+        const Curve gapped = withEventGaps(steady, events, params);
+        double open = events.back().time;
+        while (open > 0.5 && valueAt(gapped, open - 0.0001) == Approx(valueAt(gapped, events.back().time)))
+            open -= 0.0001;
+        return events.back().time - open;
+    };
+    // From 0.4, to which the envelope peaks, ringing falls to 18 dB below the event's 0.8.
+    const double expected = 0.010 * std::log(0.4 / (0.8 * std::pow(10.0, -0.9)));
+    CHECK(gapOf({{1.0, 0.8, 0.5}}) == Approx(expected).margin(2e-4));
+    CHECK(gapOf({{0.97, 0.8, 0.5}, {1.0, 0.8, 0.5}}) == Approx(0.35 * 0.03).margin(2e-4));
+    params.ring = 0.0001;
+    CHECK(gapOf({{1.0, 0.8, 0.5}}) == Approx(params.strongHold).margin(2e-4));
+}
+
+TEST_CASE("A gap lets an event be felt in a tone on a resonance that rings", "[synthesis][events]")
+{
+    for (const char* name : {"lra-175", "lra-235-narrow"})
+        for (const double amplitude : {0.7, 1.0})
+        {
+            CAPTURE(name, amplitude);
+            const Profile profile = test::shippedProfile(name);
+            const Clip clip = toneWithEvent(1.0, amplitude);
+            const double without = largestRise(feltOf(clip, profile, false), 48000.0, 1.0);
+            const double with = largestRise(feltOf(clip, profile, true), 48000.0, 1.0);
+            CAPTURE(without, with);
+            CHECK(with > without + 3.0);
+            CHECK(with > 12.0);
+        }
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -169,6 +170,24 @@ inline ActuatorRange drawnIn(ActuatorRange extended, const ActuatorRange& own, c
         fit.range = detail::drawnIn(fit.range, profile.range, worn, fit.towardsResonance);
     }
     return fit;
+}
+
+/// How long a valid profile's actuator rings when it is played so: s in which its ringing, as worn, falls to 1/e. That
+/// is q / (pi f) of the resonance that it is flattened to, or of its own with as much less q as the equaliser cuts
+/// there. 0 for motors and plain signals.
+[[nodiscard]] inline double ringTime(const Profile& profile, const ActuatorFit& fit) noexcept
+{
+    if (profile.technology == Technology::erm || profile.technology == Technology::pcm)
+        return 0.0;
+    const auto fall = [](const Resonance& resonance)
+    {
+        return resonance.q / (std::numbers::pi * resonance.frequency);
+    };
+    if (fit.flattening)
+        return fall(fit.flattening->target);
+    constexpr double fs = 48000.0; // far above any resonance
+    const Resonance own = profile.body ? loadedResonance(*profile.body, profile.resonance) : profile.resonance;
+    return std::min(1.0, std::abs(designEqualizer(fit.equalizer, fs).response(Hertz(own.frequency), fs))) * fall(own);
 }
 
 /// Whether strength changes how a valid profile's actuator is played with the usual boost: that of plain signals and

@@ -224,7 +224,10 @@ inline DecoderParams planDecoder(const RenderPlan& plan, const Clip& clip, const
     const double resonance = plan.profile ? plan.profile->resonance.frequency : 67.0;
     DecoderParams decoder = decoderParamsFor(clip, base, params.decoder, resonance);
     if (fit)
+    {
         fitPulses(decoder, *plan.profile, fit->range, params.decoder);
+        decoder.gaps.ring = ringTime(*plan.profile, *fit) / play.stretch; // gaps are stretched with the clip
+    }
     if (plan.motor)
         decoder.carriers = CarrierMode::none;
     // Without its highest bands a clip would get another inner rate, and with it other rounding.

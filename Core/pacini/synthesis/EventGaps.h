@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <span>
 
 namespace pacini
@@ -36,11 +37,18 @@ struct EventGapParams
     double train = 0.045, trainRise = 10.0;
     double trainHold = 0.45; ///< of the time since the event before, instead of `hold`
     double trainFade = 0.2;  ///< instead of `fade`
+    /// What plays the clip rings on into the gap, which is then open for as long as takes the ringing of what is before
+    /// it `ringRise` dB below the event, but not longer than a part of the time since the event before.
+    double ring = 0.0;       ///< s of the clip in which the ringing falls to 1/e; 0: nothing rings
+    double ringRise = 18.0;  ///< dB
+    double ringShare = 0.35; ///< of the time since the event before
     bool operator==(const EventGapParams&) const = default;
 };
 
 namespace detail
 {
+
+inline constexpr double peakOfMean = 2.0; ///< what bands reach over a mean over 10 ms
 
 /// The largest value of a curve from `first` to `last` s.
 inline double largestWithin(const Curve& curve, double first, double last) noexcept
@@ -64,6 +72,18 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
     return smallest;
 }
 
+/// How long a gap before `event`, which gets as strong as `full`, has to be open until the ringing of `envelope` is low
+/// enough in it, s; 0 where that is at once.
+inline double ringingOut(const Curve& envelope, const Transient& event, double full, double since,
+                         const EventGapParams& params) noexcept
+{
+    if (!(params.ring > 0.0))
+        return 0.0;
+    const double before = peakOfMean * largestWithin(envelope, event.time - 4.0 * params.ring, event.time);
+    const double nepers = std::log(before / full) + params.ringRise * std::numbers::ln10 / 20.0;
+    return std::clamp(params.ring * nepers, 0.0, params.ringShare * since);
+}
+
 } // namespace detail
 
 /// `envelope` (means over 10 ms; bands peak at twice its value) with a gap before each of `events`, which are in order
@@ -74,7 +94,7 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
 {
     if (envelope.empty() || events.empty())
         return envelope;
-    constexpr double peakOfMean = 2.0;
+    using detail::peakOfMean;
     double top = 0.0;
     for (const Breakpoint& point : envelope)
         top = std::max(top, point.value);
@@ -101,9 +121,8 @@ inline double smallestWithin(const Curve& curve, double first, double last) noex
         const double least = strong ? params.strongLeast : params.least;
         if (!(full > 0.0) || (!inTrain && (rise < least || rise >= params.enough)))
             continue;
-        const double open = event.time - (inTrain  ? params.trainHold * since
-                                          : strong ? params.strongHold
-                                                   : params.hold);
+        const double hold = inTrain ? params.trainHold * since : strong ? params.strongHold : params.hold;
+        const double open = event.time - std::max(hold, detail::ringingOut(envelope, event, full, since, params));
         const double start = open - (inTrain ? params.trainFade * since : params.fade);
         if (start <= free || event.time <= 0.0)
             continue;
