@@ -50,7 +50,8 @@ struct Handle
 
     [[nodiscard]] constexpr std::uint64_t number() const noexcept
     {
-        return static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(index & 0xFFFFFFu) << 32 | generation;
+        return static_cast<std::uint64_t>(kind) << 56 | static_cast<std::uint64_t>(index & 0xFFFFFFu) << 32 |
+               generation;
     }
 
     [[nodiscard]] static constexpr Handle of(std::uint64_t number) noexcept

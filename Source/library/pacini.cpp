@@ -2,6 +2,8 @@
 
 #define PACINI_BUILDING 1
 
+#include "pacini.h"
+
 #include "document/BuiltInProfiles.h"
 #include "io/ClipFile.h"
 #include "io/InputFile.h"
@@ -9,7 +11,6 @@
 #include "io/SceneFile.h"
 #include "io/formats/ClipFormat.h"
 #include "library/Handles.h"
-#include "pacini.h"
 
 #include <pacini/runtime/Engine.h>
 
@@ -319,429 +320,425 @@ Seconds glideOf(double seconds)
 
 extern "C"
 {
-uint32_t pacini_api_version(void)
-{
-    return 1000 * PACINI_API_MAJOR + PACINI_API_MINOR;
-}
-
-const char* pacini_result_text(pacini_result result)
-{
-    switch (result)
+    uint32_t pacini_api_version(void)
     {
-    case PACINI_OK:
-        return "no error";
-    case PACINI_INVALID:
-        return "an argument is out of its range";
-    case PACINI_STALE:
-        return "a handle is not in use (any more)";
-    case PACINI_BAD_DATA:
-        return "this is no clip, scene or profile";
-    case PACINI_NEWER:
-        return "this was written by a newer version";
-    case PACINI_TOO_MANY:
-        return "there are too many, or it is too large";
-    case PACINI_IO:
-        return "a file cannot be read";
-    case PACINI_NO_MEMORY:
-        return "there is not enough memory";
-    case PACINI_INTERNAL:
-        break;
+        return 1000 * PACINI_API_MAJOR + PACINI_API_MINOR;
     }
-    return "a defect of Pacini: please report it";
-}
 
-size_t pacini_last_error(char* text, size_t size)
-{
-    if (text != nullptr && size > 0)
+    const char* pacini_result_text(pacini_result result)
     {
-        const std::size_t n = std::min(size - 1, lastError.size());
-        std::memcpy(text, lastError.data(), n);
-        text[n] = '\0';
+        switch (result)
+        {
+        case PACINI_OK:
+            return "no error";
+        case PACINI_INVALID:
+            return "an argument is out of its range";
+        case PACINI_STALE:
+            return "a handle is not in use (any more)";
+        case PACINI_BAD_DATA:
+            return "this is no clip, scene or profile";
+        case PACINI_NEWER:
+            return "this was written by a newer version";
+        case PACINI_TOO_MANY:
+            return "there are too many, or it is too large";
+        case PACINI_IO:
+            return "a file cannot be read";
+        case PACINI_NO_MEMORY:
+            return "there is not enough memory";
+        case PACINI_INTERNAL:
+            break;
+        }
+        return "a defect of Pacini: please report it";
     }
-    return lastError.size() + 1;
-}
 
-pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip)
-{
-    return guarded(
-        [&]
-        {
-            if (clip == nullptr)
-                return fail(PACINI_INVALID, "clip: is NULL");
-            *clip = 0;
-            if (bytes == nullptr || size == 0)
-                return fail(PACINI_INVALID, "bytes: there are none");
-            const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
-            return loaded ? addClip(*loaded, clip) : fail(loaded.error());
-        });
-}
-
-pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip)
-{
-    return guarded(
-        [&]
-        {
-            if (clip == nullptr || path == nullptr)
-                return fail(PACINI_INVALID, clip == nullptr ? "clip: is NULL" : "path: is NULL");
-            *clip = 0;
-            const auto* const utf8 = reinterpret_cast<const char8_t*>(path);
-            auto read = readClip(std::filesystem::path(std::u8string_view(utf8)));
-            if (!read)
-                return fail(read.error(), path);
-            const auto loaded = read->format == &packedFormat()
-                                    ? LoadedClip::ofPacked(std::as_bytes(std::span(read->bytes)))
-                                    : LoadedClip::ofClip(read->clip);
-            return loaded ? addClip(*loaded, clip) : fail(loaded.error(), path);
-        });
-}
-
-pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size)
-{
-    return guarded(
-        [&]
-        {
-            if (bytes == nullptr || size == 0)
-                return fail(PACINI_INVALID, "bytes: there are none");
-            const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
-            if (!loaded)
-                return fail(loaded.error());
-            const std::lock_guard lock(all().control);
-            auto* const held = all().clips.find(clip);
-            if (held == nullptr)
-                return stale("clip");
-            for (std::uint32_t i = 0; i < mostEngines; ++i)
-            {
-                const EngineUse use(all().engines, i, all().engines.generationOf(i));
-                if (use.get() != nullptr)
-                    if (auto done = use.get()->engine->replaceAll(held->get(), *loaded); !done)
-                        return fail(done.error());
-            }
-            *held = *loaded;
-            return PACINI_OK;
-        });
-}
-
-void pacini_clip_info_init(pacini_clip_info* info)
-{
-    if (info == nullptr)
-        return;
-    *info = {};
-    info->struct_size = sizeof(pacini_clip_info);
-}
-
-pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info)
-{
-    return guarded(
-        [&]
-        {
-            const std::lock_guard lock(all().control);
-            const auto* const held = all().clips.find(clip);
-            if (held == nullptr)
-                return stale("clip");
-            const LoadedClip& loaded = **held;
-            pacini_clip_info read{};
-            read.events = static_cast<std::uint32_t>(loaded.events());
-            read.duration = loaded.duration();
-            read.bytes = loaded.bytes() + sizeof(LoadedClip);
-            std::copy_n(loaded.name().begin(), std::min(loaded.name().size(), sizeof(read.name) - 1), read.name);
-            return writeStruct(read, info);
-        });
-}
-
-pacini_result pacini_clip_release(pacini_clip clip)
-{
-    return guarded(
-        [&]
-        {
-            const std::lock_guard lock(all().control);
-            const auto* const held = all().clips.find(clip);
-            if (held == nullptr)
-                return stale("clip");
-            for (std::uint32_t i = 0; i < mostEngines; ++i)
-            {
-                const EngineUse use(all().engines, i, all().engines.generationOf(i));
-                if (use.get() != nullptr)
-                    use.get()->engine->forget(held->get());
-            }
-            all().clips.remove(clip);
-            return PACINI_OK;
-        });
-}
-
-void pacini_engine_config_init(pacini_engine_config* config)
-{
-    if (config == nullptr)
-        return;
-    *config = {};
-    const EngineParams usual;
-    config->struct_size = sizeof(pacini_engine_config);
-    config->actuator_count = 1;
-    config->sample_rate = usual.sampleRate;
-    for (pacini_actuator& actuator : config->actuators)
-        actuator.gain = 1.0;
-    config->pan_law = PACINI_PAN_POWER;
-    config->protect = 1;
-    config->pan_delay = usual.panDelay.value;
-    config->longest_delay = usual.longestDelay.value;
-    config->strength = usual.adaptation.strength;
-    config->max_plays = static_cast<std::uint32_t>(usual.maxPlays);
-    config->max_commands = static_cast<std::uint32_t>(usual.maxCommands);
-    config->budget_frames = 512;
-}
-
-pacini_result pacini_engine_create(const pacini_engine_config* config, pacini_engine* engine)
-{
-    return guarded([&] { return createEngine(config, nullptr, engine); });
-}
-
-pacini_result pacini_engine_create_scene(const pacini_engine_config* config, const char* scene_path,
-                                         pacini_engine* engine)
-{
-    return guarded(
-        [&]
-        {
-            if (scene_path == nullptr)
-                return fail(PACINI_INVALID, "scene_path: is NULL");
-            const auto* const utf8 = reinterpret_cast<const char8_t*>(scene_path);
-            const auto scene = readScene(std::filesystem::path(std::u8string_view(utf8)));
-            return scene ? createEngine(config, &*scene, engine) : fail(scene.error(), scene_path);
-        });
-}
-
-pacini_result pacini_engine_destroy(pacini_engine engine)
-{
-    return guarded(
-        [&]
-        {
-            const std::lock_guard lock(all().control);
-            const Handle handle = Handle::of(engine);
-            if (handle.kind != HandleKind::engine)
-                return stale("engine");
-            const std::unique_ptr<EngineEntry> entry(all().engines.remove(handle.index, handle.generation));
-            return entry ? PACINI_OK : stale("engine");
-        });
-}
-
-pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count, uint32_t frames)
-{
-    if (channels == nullptr || channel_count == 0 || frames == 0)
-        return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
-    for (std::uint32_t c = 0; c < channel_count; ++c)
-        if (channels[c] == nullptr)
-            return PACINI_INVALID;
-    const EngineUse use = useEngine(engine);
-    const std::uint32_t played =
-        use.get() == nullptr
-            ? 0
-            : std::min(channel_count, static_cast<std::uint32_t>(use.get()->engine->actuators()));
-    for (std::uint32_t c = played; c < channel_count; ++c)
-        std::fill_n(channels[c], frames, 0.0f);
-    if (use.get() == nullptr)
-        return PACINI_STALE;
-    std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
-    for (std::uint32_t c = 0; c < played; ++c)
-        spans[c] = std::span(channels[c], frames);
-    use.get()->engine->render(std::span(spans).first(played));
-    return PACINI_OK;
-}
-
-pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count, uint32_t frames)
-{
-    if (samples == nullptr || channel_count == 0 || frames == 0)
-        return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
-    const EngineUse use = useEngine(engine);
-    const std::size_t wanted = channel_count;
-    std::fill_n(samples, wanted * frames, 0.0f);
-    if (use.get() == nullptr)
-        return PACINI_STALE;
-    EngineEntry& entry = *use.get();
-    const std::size_t played = std::min(wanted, entry.engine->actuators());
-    for (std::uint32_t done = 0; done < frames;)
+    size_t pacini_last_error(char* text, size_t size)
     {
-        const std::uint32_t n = std::min(frames - done, blockFrames);
+        if (text != nullptr && size > 0)
+        {
+            const std::size_t n = std::min(size - 1, lastError.size());
+            std::memcpy(text, lastError.data(), n);
+            text[n] = '\0';
+        }
+        return lastError.size() + 1;
+    }
+
+    pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip)
+    {
+        return guarded(
+            [&]
+            {
+                if (clip == nullptr)
+                    return fail(PACINI_INVALID, "clip: is NULL");
+                *clip = 0;
+                if (bytes == nullptr || size == 0)
+                    return fail(PACINI_INVALID, "bytes: there are none");
+                const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
+                return loaded ? addClip(*loaded, clip) : fail(loaded.error());
+            });
+    }
+
+    pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip)
+    {
+        return guarded(
+            [&]
+            {
+                if (clip == nullptr || path == nullptr)
+                    return fail(PACINI_INVALID, clip == nullptr ? "clip: is NULL" : "path: is NULL");
+                *clip = 0;
+                const auto* const utf8 = reinterpret_cast<const char8_t*>(path);
+                auto read = readClip(std::filesystem::path(std::u8string_view(utf8)));
+                if (!read)
+                    return fail(read.error(), path);
+                const auto loaded = read->format == &packedFormat()
+                                        ? LoadedClip::ofPacked(std::as_bytes(std::span(read->bytes)))
+                                        : LoadedClip::ofClip(read->clip);
+                return loaded ? addClip(*loaded, clip) : fail(loaded.error(), path);
+            });
+    }
+
+    pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size)
+    {
+        return guarded(
+            [&]
+            {
+                if (bytes == nullptr || size == 0)
+                    return fail(PACINI_INVALID, "bytes: there are none");
+                const auto loaded = loadClip({static_cast<const char*>(bytes), size}, "");
+                if (!loaded)
+                    return fail(loaded.error());
+                const std::lock_guard lock(all().control);
+                auto* const held = all().clips.find(clip);
+                if (held == nullptr)
+                    return stale("clip");
+                for (std::uint32_t i = 0; i < mostEngines; ++i)
+                {
+                    const EngineUse use(all().engines, i, all().engines.generationOf(i));
+                    if (use.get() != nullptr)
+                        if (auto done = use.get()->engine->replaceAll(held->get(), *loaded); !done)
+                            return fail(done.error());
+                }
+                *held = *loaded;
+                return PACINI_OK;
+            });
+    }
+
+    void pacini_clip_info_init(pacini_clip_info* info)
+    {
+        if (info == nullptr)
+            return;
+        *info = {};
+        info->struct_size = sizeof(pacini_clip_info);
+    }
+
+    pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info)
+    {
+        return guarded(
+            [&]
+            {
+                const std::lock_guard lock(all().control);
+                const auto* const held = all().clips.find(clip);
+                if (held == nullptr)
+                    return stale("clip");
+                const LoadedClip& loaded = **held;
+                pacini_clip_info read{};
+                read.events = static_cast<std::uint32_t>(loaded.events());
+                read.duration = loaded.duration();
+                read.bytes = loaded.bytes() + sizeof(LoadedClip);
+                std::copy_n(loaded.name().begin(), std::min(loaded.name().size(), sizeof(read.name) - 1), read.name);
+                return writeStruct(read, info);
+            });
+    }
+
+    pacini_result pacini_clip_release(pacini_clip clip)
+    {
+        return guarded(
+            [&]
+            {
+                const std::lock_guard lock(all().control);
+                const auto* const held = all().clips.find(clip);
+                if (held == nullptr)
+                    return stale("clip");
+                for (std::uint32_t i = 0; i < mostEngines; ++i)
+                {
+                    const EngineUse use(all().engines, i, all().engines.generationOf(i));
+                    if (use.get() != nullptr)
+                        use.get()->engine->forget(held->get());
+                }
+                all().clips.remove(clip);
+                return PACINI_OK;
+            });
+    }
+
+    void pacini_engine_config_init(pacini_engine_config* config)
+    {
+        if (config == nullptr)
+            return;
+        *config = {};
+        const EngineParams usual;
+        config->struct_size = sizeof(pacini_engine_config);
+        config->actuator_count = 1;
+        config->sample_rate = usual.sampleRate;
+        for (pacini_actuator& actuator : config->actuators)
+            actuator.gain = 1.0;
+        config->pan_law = PACINI_PAN_POWER;
+        config->protect = 1;
+        config->pan_delay = usual.panDelay.value;
+        config->longest_delay = usual.longestDelay.value;
+        config->strength = usual.adaptation.strength;
+        config->max_plays = static_cast<std::uint32_t>(usual.maxPlays);
+        config->max_commands = static_cast<std::uint32_t>(usual.maxCommands);
+        config->budget_frames = 512;
+    }
+
+    pacini_result pacini_engine_create(const pacini_engine_config* config, pacini_engine* engine)
+    {
+        return guarded([&] { return createEngine(config, nullptr, engine); });
+    }
+
+    pacini_result pacini_engine_create_scene(const pacini_engine_config* config, const char* scene_path,
+                                             pacini_engine* engine)
+    {
+        return guarded(
+            [&]
+            {
+                if (scene_path == nullptr)
+                    return fail(PACINI_INVALID, "scene_path: is NULL");
+                const auto* const utf8 = reinterpret_cast<const char8_t*>(scene_path);
+                const auto scene = readScene(std::filesystem::path(std::u8string_view(utf8)));
+                return scene ? createEngine(config, &*scene, engine) : fail(scene.error(), scene_path);
+            });
+    }
+
+    pacini_result pacini_engine_destroy(pacini_engine engine)
+    {
+        return guarded(
+            [&]
+            {
+                const std::lock_guard lock(all().control);
+                const Handle handle = Handle::of(engine);
+                if (handle.kind != HandleKind::engine)
+                    return stale("engine");
+                const std::unique_ptr<EngineEntry> entry(all().engines.remove(handle.index, handle.generation));
+                return entry ? PACINI_OK : stale("engine");
+            });
+    }
+
+    pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count, uint32_t frames)
+    {
+        if (channels == nullptr || channel_count == 0 || frames == 0)
+            return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+        for (std::uint32_t c = 0; c < channel_count; ++c)
+            if (channels[c] == nullptr)
+                return PACINI_INVALID;
+        const EngineUse use = useEngine(engine);
+        const std::uint32_t played =
+            use.get() == nullptr ? 0
+                                 : std::min(channel_count, static_cast<std::uint32_t>(use.get()->engine->actuators()));
+        for (std::uint32_t c = played; c < channel_count; ++c)
+            std::fill_n(channels[c], frames, 0.0f);
+        if (use.get() == nullptr)
+            return PACINI_STALE;
         std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
-        for (std::size_t c = 0; c < played; ++c)
-            spans[c] = std::span(entry.channels[c]).first(n);
-        entry.engine->render(std::span(spans).first(played));
-        for (std::uint32_t i = 0; i < n; ++i)
-            for (std::size_t c = 0; c < played; ++c)
-                samples[(done + i) * wanted + c] = spans[c][i];
-        done += n;
+        for (std::uint32_t c = 0; c < played; ++c)
+            spans[c] = std::span(channels[c], frames);
+        use.get()->engine->render(std::span(spans).first(played));
+        return PACINI_OK;
     }
-    return PACINI_OK;
-}
 
-void pacini_engine_info_init(pacini_engine_info* info)
-{
-    if (info == nullptr)
-        return;
-    *info = {};
-    info->struct_size = sizeof(pacini_engine_info);
-}
+    pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count,
+                                            uint32_t frames)
+    {
+        if (samples == nullptr || channel_count == 0 || frames == 0)
+            return channel_count == 0 || frames == 0 ? PACINI_OK : PACINI_INVALID;
+        const EngineUse use = useEngine(engine);
+        const std::size_t wanted = channel_count;
+        std::fill_n(samples, wanted * frames, 0.0f);
+        if (use.get() == nullptr)
+            return PACINI_STALE;
+        EngineEntry& entry = *use.get();
+        const std::size_t played = std::min(wanted, entry.engine->actuators());
+        for (std::uint32_t done = 0; done < frames;)
+        {
+            const std::uint32_t n = std::min(frames - done, blockFrames);
+            std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
+            for (std::size_t c = 0; c < played; ++c)
+                spans[c] = std::span(entry.channels[c]).first(n);
+            entry.engine->render(std::span(spans).first(played));
+            for (std::uint32_t i = 0; i < n; ++i)
+                for (std::size_t c = 0; c < played; ++c)
+                    samples[(done + i) * wanted + c] = spans[c][i];
+            done += n;
+        }
+        return PACINI_OK;
+    }
 
-pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info)
-{
-    return withEngine(engine,
-                      [&](EngineEntry& entry)
-                      {
-                          const EngineMeters meters = entry.engine->meters();
-                          pacini_engine_info read{};
-                          read.latency = static_cast<std::uint32_t>(entry.engine->latencyFrames());
-                          read.frame = entry.engine->framesRendered();
-                          read.playing = static_cast<std::uint32_t>(meters.playing);
-                          read.left_out = static_cast<std::uint32_t>(meters.leftOut);
-                          read.cost = 1e-3 * meters.cost * static_cast<double>(entry.budgetFrames.load());
-                          read.left_out_error = meters.leftOutError;
-                          read.gain_reduction = meters.gainReduction;
-                          return writeStruct(read, info);
-                      });
-}
+    void pacini_engine_info_init(pacini_engine_info* info)
+    {
+        if (info == nullptr)
+            return;
+        *info = {};
+        info->struct_size = sizeof(pacini_engine_info);
+    }
 
-pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames, uint32_t voices)
-{
-    return withEngine(engine,
-                      [&](EngineEntry& entry)
-                      {
-                          if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
-                              return fail(PACINI_INVALID,
-                                          "budget: must be 0 to 1e6 microseconds for 1 frame or more");
-                          auto done = entry.engine->setBudget({1e3 * microseconds / static_cast<double>(frames), voices});
-                          if (done)
-                              entry.budgetFrames = frames;
-                          return finish(done);
-                      });
-}
+    pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info)
+    {
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              const EngineMeters meters = entry.engine->meters();
+                              pacini_engine_info read{};
+                              read.latency = static_cast<std::uint32_t>(entry.engine->latencyFrames());
+                              read.frame = entry.engine->framesRendered();
+                              read.playing = static_cast<std::uint32_t>(meters.playing);
+                              read.left_out = static_cast<std::uint32_t>(meters.leftOut);
+                              read.cost = 1e-3 * meters.cost * static_cast<double>(entry.budgetFrames.load());
+                              read.left_out_error = meters.leftOutError;
+                              read.gain_reduction = meters.gainReduction;
+                              return writeStruct(read, info);
+                          });
+    }
 
-pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide,
-                                              int64_t frame)
-{
-    return withEngine(engine,
-                      [&](EngineEntry& entry) {
-                          return finish(entry.engine->setActuatorGain(actuator, gain, glideOf(glide), frame));
-                      });
-}
+    pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames, uint32_t voices)
+    {
+        return withEngine(
+            engine,
+            [&](EngineEntry& entry)
+            {
+                if (!(microseconds >= 0.0 && microseconds <= 1e6) || frames < 1)
+                    return fail(PACINI_INVALID, "budget: must be 0 to 1e6 microseconds for 1 frame or more");
+                auto done = entry.engine->setBudget({1e3 * microseconds / static_cast<double>(frames), voices});
+                if (done)
+                    entry.budgetFrames = frames;
+                return finish(done);
+            });
+    }
 
-void pacini_play_settings_init(pacini_play_settings* settings)
-{
-    if (settings == nullptr)
-        return;
-    *settings = {};
-    settings->struct_size = sizeof(pacini_play_settings);
-    settings->gain = settings->intensity = settings->speed = 1.0;
-    settings->pan = 0.5;
-}
+    pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain, double glide,
+                                                  int64_t frame)
+    {
+        return withEngine(engine, [&](EngineEntry& entry)
+                          { return finish(entry.engine->setActuatorGain(actuator, gain, glideOf(glide), frame)); });
+    }
 
-pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
-                                pacini_play* play)
-{
-    if (play != nullptr)
-        *play = 0;
-    return withEngine(engine,
-                      [&](EngineEntry& entry)
-                      {
-                          const auto* const held = all().clips.find(clip);
-                          if (held == nullptr)
-                              return stale("clip");
-                          pacini_play_settings given;
-                          pacini_play_settings_init(&given);
-                          if (!readStruct(settings, given))
-                              return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
-                          PlaySettings wanted;
-                          wanted.controls = {given.gain,  given.intensity,     given.pan,
-                                             given.delay, given.transposition, given.speed};
-                          wanted.from = given.from;
-                          wanted.loop = given.loop == -1.0 ? (*held)->duration() : given.loop;
-                          wanted.passes = given.passes;
-                          wanted.headroom = given.headroom;
-                          wanted.fadeIn = Seconds(given.fade_in);
-                          wanted.group = given.group;
-                          wanted.priority = given.priority;
-                          wanted.variation.amount = given.variation;
-                          wanted.variation.seed = given.seed;
-                          const auto started = entry.engine->play(*held, wanted, given.frame);
-                          if (!started)
-                              return fail(started.error());
-                          const Handle owner = Handle::of(engine);
-                          if (play != nullptr)
-                              *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}
-                                          .number();
-                          return PACINI_OK;
-                      });
-}
+    void pacini_play_settings_init(pacini_play_settings* settings)
+    {
+        if (settings == nullptr)
+            return;
+        *settings = {};
+        settings->struct_size = sizeof(pacini_play_settings);
+        settings->gain = settings->intensity = settings->speed = 1.0;
+        settings->pan = 0.5;
+    }
 
-pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide, int64_t frame)
-{
-    return withPlay(play,
-                    [&](Engine& engine, PlayId id)
-                    {
-                        if (!isControl(control))
-                            return fail(PACINI_INVALID, "control: must be a pacini_control");
-                        return finish(
-                            engine.set(id, static_cast<LiveControl>(control), value, glideOf(glide), frame));
-                    });
-}
+    pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
+                                    pacini_play* play)
+    {
+        if (play != nullptr)
+            *play = 0;
+        return withEngine(
+            engine,
+            [&](EngineEntry& entry)
+            {
+                const auto* const held = all().clips.find(clip);
+                if (held == nullptr)
+                    return stale("clip");
+                pacini_play_settings given;
+                pacini_play_settings_init(&given);
+                if (!readStruct(settings, given))
+                    return fail(PACINI_INVALID, "settings: call pacini_play_settings_init() first");
+                PlaySettings wanted;
+                wanted.controls = {given.gain,  given.intensity,     given.pan,
+                                   given.delay, given.transposition, given.speed};
+                wanted.from = given.from;
+                wanted.loop = given.loop == -1.0 ? (*held)->duration() : given.loop;
+                wanted.passes = given.passes;
+                wanted.headroom = given.headroom;
+                wanted.fadeIn = Seconds(given.fade_in);
+                wanted.group = given.group;
+                wanted.priority = given.priority;
+                wanted.variation.amount = given.variation;
+                wanted.variation.seed = given.seed;
+                const auto started = entry.engine->play(*held, wanted, given.frame);
+                if (!started)
+                    return fail(started.error());
+                const Handle owner = Handle::of(engine);
+                if (play != nullptr)
+                    *play = PlayHandle{owner.index, owner.generation, started->slot, started->generation}.number();
+                return PACINI_OK;
+            });
+    }
 
-pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame)
-{
-    return withPlay(play,
-                    [&](Engine& engine, PlayId id) { return finish(engine.stop(id, glideOf(fade), frame)); });
-}
+    pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide, int64_t frame)
+    {
+        return withPlay(play,
+                        [&](Engine& engine, PlayId id)
+                        {
+                            if (!isControl(control))
+                                return fail(PACINI_INVALID, "control: must be a pacini_control");
+                            return finish(
+                                engine.set(id, static_cast<LiveControl>(control), value, glideOf(glide), frame));
+                        });
+    }
 
-pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame)
-{
-    return withPlay(play,
-                    [&](Engine& engine, PlayId id) { return finish(engine.pause(id, glideOf(fade), frame)); });
-}
+    pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame)
+    {
+        return withPlay(play, [&](Engine& engine, PlayId id) { return finish(engine.stop(id, glideOf(fade), frame)); });
+    }
 
-pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame)
-{
-    return withPlay(play,
-                    [&](Engine& engine, PlayId id) { return finish(engine.resume(id, glideOf(fade), frame)); });
-}
+    pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame)
+    {
+        return withPlay(play,
+                        [&](Engine& engine, PlayId id) { return finish(engine.pause(id, glideOf(fade), frame)); });
+    }
 
-pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame)
-{
-    return withPlay(play, [&](Engine& engine, PlayId id) { return finish(engine.seek(id, position, frame)); });
-}
+    pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame)
+    {
+        return withPlay(play,
+                        [&](Engine& engine, PlayId id) { return finish(engine.resume(id, glideOf(fade), frame)); });
+    }
 
-void pacini_play_info_init(pacini_play_info* info)
-{
-    if (info == nullptr)
-        return;
-    *info = {};
-    info->struct_size = sizeof(pacini_play_info);
-}
+    pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame)
+    {
+        return withPlay(play, [&](Engine& engine, PlayId id) { return finish(engine.seek(id, position, frame)); });
+    }
 
-pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info)
-{
-    return withPlay(play,
-                    [&](Engine& engine, PlayId id)
-                    {
-                        const PlayStatus status = engine.status(id);
-                        pacini_play_info read{};
-                        read.state = static_cast<std::int32_t>(status.state);
-                        read.position = status.position;
-                        return writeStruct(read, info);
-                    });
-}
+    void pacini_play_info_init(pacini_play_info* info)
+    {
+        if (info == nullptr)
+            return;
+        *info = {};
+        info->struct_size = sizeof(pacini_play_info);
+    }
 
-pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control, double value, double glide,
-                               int64_t frame)
-{
-    return withEngine(engine,
-                      [&](EngineEntry& entry)
-                      {
-                          if (!isControl(control))
-                              return fail(PACINI_INVALID, "control: must be a pacini_control");
-                          return finish(entry.engine->setGroup(group, static_cast<LiveControl>(control), value,
-                                                               glideOf(glide), frame));
-                      });
-}
+    pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info)
+    {
+        return withPlay(play,
+                        [&](Engine& engine, PlayId id)
+                        {
+                            const PlayStatus status = engine.status(id);
+                            pacini_play_info read{};
+                            read.state = static_cast<std::int32_t>(status.state);
+                            read.position = status.position;
+                            return writeStruct(read, info);
+                        });
+    }
 
-pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame)
-{
-    return withEngine(engine,
-                      [&](EngineEntry& entry)
-                      { return finish(entry.engine->stopGroup(group, glideOf(fade), frame)); });
-}
+    pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control, double value,
+                                   double glide, int64_t frame)
+    {
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              if (!isControl(control))
+                                  return fail(PACINI_INVALID, "control: must be a pacini_control");
+                              return finish(entry.engine->setGroup(group, static_cast<LiveControl>(control), value,
+                                                                   glideOf(glide), frame));
+                          });
+    }
+
+    pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame)
+    {
+        return withEngine(engine, [&](EngineEntry& entry)
+                          { return finish(entry.engine->stopGroup(group, glideOf(fade), frame)); });
+    }
 } // extern "C"

@@ -19,10 +19,10 @@ namespace
 {
 /// A clip as people write it.
 const std::string hum = R"({"format": "pacini.clip", "version": 1, "name": "hum", "duration": 1,
- "bands": [{"low": 90, "centre": 100, "high": 110, "amplitude": [[0, 0.5], [1, 0.5]]}],
+ "bands": [{"lowFrequency": 90, "centreFrequency": 100, "highFrequency": 110, "amplitude": [{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}]}],
  "transients": [{"time": 0.25, "amplitude": 0.9, "sharpness": 0.5}]})";
 const std::string faintHum = R"({"format": "pacini.clip", "version": 1, "name": "faint", "duration": 1,
- "bands": [{"low": 90, "centre": 100, "high": 110, "amplitude": [[0, 0.1], [1, 0.1]]}]})";
+ "bands": [{"lowFrequency": 90, "centreFrequency": 100, "highFrequency": 110, "amplitude": [{"time": 0, "amplitude": 0.1}, {"time": 1, "amplitude": 0.1}]}]})";
 
 std::string lastError()
 {

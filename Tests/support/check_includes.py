@@ -35,6 +35,7 @@ SOURCE = {
     "cli": ({"io", "devices", "cli"}, NO_JUCE),
     "document": ({"io", "document"}, NO_JUCE),
     "devices": ({"devices"}, NO_JUCE),
+    "library": ({"io", "document", "devices", "library"}, NO_JUCE),
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
     "editor": ({"io", "document", "devices", "editor"}, ()),

@@ -48,231 +48,236 @@
 #endif
 
 #ifdef __cplusplus
-extern "C" {
+extern "C"
+{
 #endif
 
 /* Version of this header. A library of the same major version and at least this minor one can be used with it. */
 #define PACINI_API_MAJOR 1
 #define PACINI_API_MINOR 0
 
-/* The library's: major * 1000 + minor. [any thread] */
-PACINI_API uint32_t pacini_api_version(void);
+    /* The library's: major * 1000 + minor. [any thread] */
+    PACINI_API uint32_t pacini_api_version(void);
 
-typedef enum pacini_result
-{
-    PACINI_OK = 0,
-    PACINI_INVALID = 1,    /* an argument is out of its range */
-    PACINI_STALE = 2,      /* a handle is not in use (any more) */
-    PACINI_BAD_DATA = 3,   /* bytes are no clip, scene or profile */
-    PACINI_NEWER = 4,      /* they were written by a newer version */
-    PACINI_TOO_MANY = 5,   /* of plays, commands, clips or engines; or too large */
-    PACINI_IO = 6,         /* a file cannot be read */
-    PACINI_NO_MEMORY = 7,
-    PACINI_INTERNAL = 8    /* a defect of Pacini: please report it */
-} pacini_result;
+    typedef enum pacini_result
+    {
+        PACINI_OK = 0,
+        PACINI_INVALID = 1,  /* an argument is out of its range */
+        PACINI_STALE = 2,    /* a handle is not in use (any more) */
+        PACINI_BAD_DATA = 3, /* bytes are no clip, scene or profile */
+        PACINI_NEWER = 4,    /* they were written by a newer version */
+        PACINI_TOO_MANY = 5, /* of plays, commands, clips or engines; or too large */
+        PACINI_IO = 6,       /* a file cannot be read */
+        PACINI_NO_MEMORY = 7,
+        PACINI_INTERNAL = 8 /* a defect of Pacini: please report it */
+    } pacini_result;
 
-/* A few words; never NULL. [any thread] */
-PACINI_API const char* pacini_result_text(pacini_result result);
+    /* A few words; never NULL. [any thread] */
+    PACINI_API const char* pacini_result_text(pacini_result result);
 
-/* What the last call of this thread that failed said, such as "loop: is longer than the clip". Writes at most `size`
- * bytes with a 0 at the end and returns how many the whole text needs. [any thread] */
-PACINI_API size_t pacini_last_error(char* text, size_t size);
+    /* What the last call of this thread that failed said, such as "loop: is longer than the clip". Writes at most
+     * `size` bytes with a 0 at the end and returns how many the whole text needs. [any thread] */
+    PACINI_API size_t pacini_last_error(char* text, size_t size);
 
-typedef uint64_t pacini_clip;
-typedef uint64_t pacini_engine;
-typedef uint64_t pacini_play;
+    typedef uint64_t pacini_clip;
+    typedef uint64_t pacini_engine;
+    typedef uint64_t pacini_play;
 
-/* ---- Clips ------------------------------------------------------------------------------------------------------- */
+    /* ---- Clips
+     * ------------------------------------------------------------------------------------------------------- */
 
-typedef struct pacini_clip_info
-{
-    uint32_t struct_size;
-    uint32_t events;  /* transients */
-    double duration;  /* s */
-    uint64_t bytes;   /* that it takes in memory */
-    char name[64];    /* cut if it is longer */
-} pacini_clip_info;
+    typedef struct pacini_clip_info
+    {
+        uint32_t struct_size;
+        uint32_t events; /* transients */
+        double duration; /* s */
+        uint64_t bytes;  /* that it takes in memory */
+        char name[64];   /* cut if it is longer */
+    } pacini_clip_info;
 
-/* Loads a clip of any format that Pacini reads (.pacb, .json, .haptic, .ahap, .hjif, ...) from memory, which it copies.
- * A clip can play as often as one likes, on any engine. [any thread but audio] */
-PACINI_API pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip);
+    /* Loads a clip of any format that Pacini reads (.pacb, .json, .haptic, .ahap, .hjif, ...) from memory, which it
+     * copies. A clip can play as often as one likes, on any engine. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_load(const void* bytes, size_t size, pacini_clip* clip);
 
-/* The same from a file; the path is UTF-8. [any thread but audio] */
-PACINI_API pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
+    /* The same from a file; the path is UTF-8. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_load_file(const char* path, pacini_clip* clip);
 
-/* Puts other content in the place of a clip. What plays of it goes on with the new content, faded over. [any thread but
- * audio] */
-PACINI_API pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size);
+    /* Puts other content in the place of a clip. What plays of it goes on with the new content, faded over. [any thread
+     * but audio] */
+    PACINI_API pacini_result pacini_clip_reload(pacini_clip clip, const void* bytes, size_t size);
 
-PACINI_API void pacini_clip_info_init(pacini_clip_info* info);
-PACINI_API pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info);
+    PACINI_API void pacini_clip_info_init(pacini_clip_info* info);
+    PACINI_API pacini_result pacini_clip_get_info(pacini_clip clip, pacini_clip_info* info);
 
-/* What plays of it goes on to its end. [any thread but audio] */
-PACINI_API pacini_result pacini_clip_release(pacini_clip clip);
+    /* What plays of it goes on to its end. [any thread but audio] */
+    PACINI_API pacini_result pacini_clip_release(pacini_clip clip);
 
-/* ---- Engines ----------------------------------------------------------------------------------------------------- */
+    /* ---- Engines
+     * ----------------------------------------------------------------------------------------------------- */
 
-enum
-{
-    PACINI_MAX_ACTUATORS = 16,
-    PACINI_GROUPS = 32
-};
+    enum
+    {
+        PACINI_MAX_ACTUATORS = 16,
+        PACINI_GROUPS = 32
+    };
 
-typedef enum pacini_pan_law
-{
-    PACINI_PAN_POWER = 0, /* by level between the two nearest actuators; the power stays */
-    PACINI_PAN_DELAY = 1, /* by time: the farther an actuator the later */
-    PACINI_PAN_BOTH = 2
-} pacini_pan_law;
+    typedef enum pacini_pan_law
+    {
+        PACINI_PAN_POWER = 0, /* by level between the two nearest actuators; the power stays */
+        PACINI_PAN_DELAY = 1, /* by time: the farther an actuator the later */
+        PACINI_PAN_BOTH = 2
+    } pacini_pan_law;
 
-typedef struct pacini_actuator
-{
-    const char* profile; /* name of one that comes with Pacini ("lra-175"), or the text of a profile in JSON;
-                            NULL: the drive signal as it is, within full drive */
-    double gain;         /* linear, 0 to 1, behind the protection */
-    double delay;        /* s, 0 to 1, to line actuators up */
-} pacini_actuator;
+    typedef struct pacini_actuator
+    {
+        const char* profile; /* name of one that comes with Pacini ("lra-175"), or the text of a profile in JSON;
+                                NULL: the drive signal as it is, within full drive */
+        double gain;         /* linear, 0 to 1, behind the protection */
+        double delay;        /* s, 0 to 1, to line actuators up */
+    } pacini_actuator;
 
-typedef struct pacini_engine_config
-{
-    uint32_t struct_size;
-    uint32_t actuator_count; /* 1 to 16, in a row from pan 0 to pan 1 */
-    double sample_rate;      /* Hz, 2000 to 768000 */
-    pacini_actuator actuators[PACINI_MAX_ACTUATORS];
-    int32_t pan_law;         /* pacini_pan_law */
-    int32_t protect;         /* 1: keep within full drive and the limits of the profile */
-    double pan_delay;        /* s for the whole row, 0 to 0.1 */
-    double longest_delay;    /* s that a play may be delayed by, 0 to 1 */
-    double strength;         /* 0 (as flat as can be) to 1 (as strong as can be) */
-    uint32_t max_plays;      /* at a time, 1 to 10000 */
-    uint32_t max_commands;   /* that wait, 16 to 1000000 */
-    double budget;           /* microseconds for a block of `budget_frames` that plays may take, by prediction; 0: all */
-    uint32_t budget_frames;  /* frames of that block */
-    uint32_t budget_voices;  /* plays that sound at a time; 0: all */
-} pacini_engine_config;
+    typedef struct pacini_engine_config
+    {
+        uint32_t struct_size;
+        uint32_t actuator_count; /* 1 to 16, in a row from pan 0 to pan 1 */
+        double sample_rate;      /* Hz, 2000 to 768000 */
+        pacini_actuator actuators[PACINI_MAX_ACTUATORS];
+        int32_t pan_law;       /* pacini_pan_law */
+        int32_t protect;       /* 1: keep within full drive and the limits of the profile */
+        double pan_delay;      /* s for the whole row, 0 to 0.1 */
+        double longest_delay;  /* s that a play may be delayed by, 0 to 1 */
+        double strength;       /* 0 (as flat as can be) to 1 (as strong as can be) */
+        uint32_t max_plays;    /* at a time, 1 to 10000 */
+        uint32_t max_commands; /* that wait, 16 to 1000000 */
+        double budget; /* microseconds for a block of `budget_frames` that plays may take, by prediction; 0: all */
+        uint32_t budget_frames; /* frames of that block */
+        uint32_t budget_voices; /* plays that sound at a time; 0: all */
+    } pacini_engine_config;
 
-/* One plain actuator at 48 kHz, protected, 256 plays. */
-PACINI_API void pacini_engine_config_init(pacini_engine_config* config);
+    /* One plain actuator at 48 kHz, protected, 256 plays. */
+    PACINI_API void pacini_engine_config_init(pacini_engine_config* config);
 
-/* [any thread but audio] */
-PACINI_API pacini_result pacini_engine_create(const pacini_engine_config* config, pacini_engine* engine);
+    /* [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_create(const pacini_engine_config* config, pacini_engine* engine);
 
-/* An engine that plays a scene file by itself from frame 0 on, sample for sample as `pacini render` renders it, and
- * whatever is started beside it. The scene must be made for as many actuators. [any thread but audio] */
-PACINI_API pacini_result pacini_engine_create_scene(const pacini_engine_config* config, const char* scene_path,
-                                                    pacini_engine* engine);
+    /* An engine that plays a scene file by itself from frame 0 on, sample for sample as `pacini render` renders it, and
+     * whatever is started beside it. The scene must be made for as many actuators. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_create_scene(const pacini_engine_config* config, const char* scene_path,
+                                                        pacini_engine* engine);
 
-/* Ends the engine and all its plays; waits for a block that is being rendered. [any thread but audio] */
-PACINI_API pacini_result pacini_engine_destroy(pacini_engine engine);
+    /* Ends the engine and all its plays; waits for a block that is being rendered. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_destroy(pacini_engine engine);
 
-/* The next `frames` frames of each actuator, into `channels[actuator]`; channels that an engine does not have are
- * silent. A stale engine is silence and PACINI_STALE. [audio] */
-PACINI_API pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count,
-                                       uint32_t frames);
+    /* The next `frames` frames of each actuator, into `channels[actuator]`; channels that an engine does not have are
+     * silent. A stale engine is silence and PACINI_STALE. [audio] */
+    PACINI_API pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count,
+                                           uint32_t frames);
 
-/* The same, frame by frame: samples[frame * channel_count + channel]. [audio] */
-PACINI_API pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count,
-                                                   uint32_t frames);
+    /* The same, frame by frame: samples[frame * channel_count + channel]. [audio] */
+    PACINI_API pacini_result pacini_render_interleaved(pacini_engine engine, float* samples, uint32_t channel_count,
+                                                       uint32_t frames);
 
-typedef struct pacini_engine_info
-{
-    uint32_t struct_size;
-    uint32_t latency;        /* frames that a command must come ahead to be exact */
-    int64_t frame;           /* frames rendered so far */
-    uint32_t playing;        /* plays that sound */
-    uint32_t left_out;       /* plays for which there is no time or voice */
-    double cost;             /* microseconds that a block of `budget_frames` is predicted to take */
-    double left_out_error;   /* dB: energy left out so far, below all that was to play; -1000 for none */
-    double gain_reduction;   /* dB that the protection of any actuator took in the last block */
-} pacini_engine_info;
+    typedef struct pacini_engine_info
+    {
+        uint32_t struct_size;
+        uint32_t latency;      /* frames that a command must come ahead to be exact */
+        int64_t frame;         /* frames rendered so far */
+        uint32_t playing;      /* plays that sound */
+        uint32_t left_out;     /* plays for which there is no time or voice */
+        double cost;           /* microseconds that a block of `budget_frames` is predicted to take */
+        double left_out_error; /* dB: energy left out so far, below all that was to play; -1000 for none */
+        double gain_reduction; /* dB that the protection of any actuator took in the last block */
+    } pacini_engine_info;
 
-PACINI_API void pacini_engine_info_init(pacini_engine_info* info);
-PACINI_API pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info);
+    PACINI_API void pacini_engine_info_init(pacini_engine_info* info);
+    PACINI_API pacini_result pacini_engine_get_info(pacini_engine engine, pacini_engine_info* info);
 
-/* What may play at a time from the next block on: see pacini_engine_config. [any thread but audio] */
-PACINI_API pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames,
-                                                  uint32_t voices);
+    /* What may play at a time from the next block on: see pacini_engine_config. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_set_budget(pacini_engine engine, double microseconds, uint32_t frames,
+                                                      uint32_t voices);
 
-/* Gain of an actuator behind its protection, 0 to 1. [any thread but audio] */
-PACINI_API pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain,
-                                                         double glide, int64_t frame);
+    /* Gain of an actuator behind its protection, 0 to 1. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_set_actuator_gain(pacini_engine engine, uint32_t actuator, double gain,
+                                                             double glide, int64_t frame);
 
-/* ---- Plays ------------------------------------------------------------------------------------------------------- */
+    /* ---- Plays
+     * ------------------------------------------------------------------------------------------------------- */
 
-typedef enum pacini_control
-{
-    PACINI_GAIN = 0,          /* linear, 0 to 1000 */
-    PACINI_INTENSITY = 1,     /* 0 to 1, beside the gain */
-    PACINI_PAN = 2,           /* 0 = first actuator, 1 = last */
-    PACINI_DELAY = 3,         /* s, 0 to pacini_engine_config.longest_delay */
-    PACINI_TRANSPOSITION = 4, /* semitones, -96 to 96; steps */
-    PACINI_SPEED = 5,         /* 0.01 to 100, pitches stay; steps */
-    PACINI_PRIORITY = 6       /* whole numbers; 0 is kept longest; steps */
-} pacini_control;
+    typedef enum pacini_control
+    {
+        PACINI_GAIN = 0,          /* linear, 0 to 1000 */
+        PACINI_INTENSITY = 1,     /* 0 to 1, beside the gain */
+        PACINI_PAN = 2,           /* 0 = first actuator, 1 = last */
+        PACINI_DELAY = 3,         /* s, 0 to pacini_engine_config.longest_delay */
+        PACINI_TRANSPOSITION = 4, /* semitones, -96 to 96; steps */
+        PACINI_SPEED = 5,         /* 0.01 to 100, pitches stay; steps */
+        PACINI_PRIORITY = 6       /* whole numbers; 0 is kept longest; steps */
+    } pacini_control;
 
-typedef struct pacini_play_settings
-{
-    uint32_t struct_size;
-    uint32_t group;       /* 0 to 31 */
-    int64_t frame;        /* at which it begins */
-    double gain, intensity, pan, delay, transposition, speed; /* as the controls */
-    double from;          /* s of the clip at which it begins */
-    double loop;          /* s of the clip that are repeated, 0.005 or more; 0: play once; -1: the whole clip */
-    uint32_t passes;      /* of a loop; 0: until it is stopped */
-    int32_t priority;     /* 0 is kept longest */
-    double headroom;      /* semitones by which it may be transposed up later without loss, 0 to 48 */
-    double fade_in;       /* s */
-    double variation;     /* 0 to 1: amplitudes vary at random, from pass to pass */
-    uint64_t seed;        /* of the variation */
-} pacini_play_settings;
+    typedef struct pacini_play_settings
+    {
+        uint32_t struct_size;
+        uint32_t group;                                           /* 0 to 31 */
+        int64_t frame;                                            /* at which it begins */
+        double gain, intensity, pan, delay, transposition, speed; /* as the controls */
+        double from;                                              /* s of the clip at which it begins */
+        double loop;      /* s of the clip that are repeated, 0.005 or more; 0: play once; -1: the whole clip */
+        uint32_t passes;  /* of a loop; 0: until it is stopped */
+        int32_t priority; /* 0 is kept longest */
+        double headroom;  /* semitones by which it may be transposed up later without loss, 0 to 48 */
+        double fade_in;   /* s */
+        double variation; /* 0 to 1: amplitudes vary at random, from pass to pass */
+        uint64_t seed;    /* of the variation */
+    } pacini_play_settings;
 
-/* Once, now, in the middle, as it is. */
-PACINI_API void pacini_play_settings_init(pacini_play_settings* settings);
+    /* Once, now, in the middle, as it is. */
+    PACINI_API void pacini_play_settings_init(pacini_play_settings* settings);
 
-/* NULL settings: as pacini_play_settings_init(). `play` may be NULL. [any thread but audio] */
-PACINI_API pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip, const pacini_play_settings* settings,
-                                           pacini_play* play);
+    /* NULL settings: as pacini_play_settings_init(). `play` may be NULL. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip,
+                                               const pacini_play_settings* settings, pacini_play* play);
 
-/* Glides (s) in a straight line, from `frame` on. [any thread but audio] */
-PACINI_API pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide,
-                                         int64_t frame);
+    /* Glides (s) in a straight line, from `frame` on. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide,
+                                             int64_t frame);
 
-/* Fades (s) out and ends. [any thread but audio] */
-PACINI_API pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame);
+    /* Fades (s) out and ends. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_stop(pacini_play play, double fade, int64_t frame);
 
-/* Fades (s) out and waits where it is; resume goes on. [any thread but audio] */
-PACINI_API pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame);
-PACINI_API pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame);
+    /* Fades (s) out and waits where it is; resume goes on. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_pause(pacini_play play, double fade, int64_t frame);
+    PACINI_API pacini_result pacini_play_resume(pacini_play play, double fade, int64_t frame);
 
-/* Goes on at another second of the clip. [any thread but audio] */
-PACINI_API pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame);
+    /* Goes on at another second of the clip. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_seek(pacini_play play, double position, int64_t frame);
 
-typedef enum pacini_play_state
-{
-    PACINI_ENDED = 0,
-    PACINI_WAITING = 1, /* for its frame */
-    PACINI_PLAYING = 2,
-    PACINI_PAUSED = 3,
-    PACINI_LEFT_OUT = 4 /* there is no time or voice for it */
-} pacini_play_state;
+    typedef enum pacini_play_state
+    {
+        PACINI_ENDED = 0,
+        PACINI_WAITING = 1, /* for its frame */
+        PACINI_PLAYING = 2,
+        PACINI_PAUSED = 3,
+        PACINI_LEFT_OUT = 4 /* there is no time or voice for it */
+    } pacini_play_state;
 
-typedef struct pacini_play_info
-{
-    uint32_t struct_size;
-    int32_t state;    /* pacini_play_state */
-    double position;  /* s of the clip */
-} pacini_play_info;
+    typedef struct pacini_play_info
+    {
+        uint32_t struct_size;
+        int32_t state;   /* pacini_play_state */
+        double position; /* s of the clip */
+    } pacini_play_info;
 
-PACINI_API void pacini_play_info_init(pacini_play_info* info);
+    PACINI_API void pacini_play_info_init(pacini_play_info* info);
 
-/* A play that has ended is PACINI_OK with the state PACINI_ENDED as long as its engine lives. [any thread but audio] */
-PACINI_API pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info);
+    /* A play that has ended is PACINI_OK with the state PACINI_ENDED as long as its engine lives. [any thread but
+     * audio] */
+    PACINI_API pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info);
 
-/* Sets a control of all plays of a group. The gain of a group is a fader of its own, which plays to come are under too.
- * [any thread but audio] */
-PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control, double value,
-                                          double glide, int64_t frame);
-PACINI_API pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);
+    /* Sets a control of all plays of a group. The gain of a group is a fader of its own, which plays to come are under
+     * too. [any thread but audio] */
+    PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control,
+                                              double value, double glide, int64_t frame);
+    PACINI_API pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);
 
 #ifdef __cplusplus
 }
