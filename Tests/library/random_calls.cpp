@@ -76,8 +76,14 @@ struct Handles
             return;
         auto& some = known[kind];
         some.push_back(handle);
-        if (some.size() > 12)
-            some.erase(some.begin() + 1 + static_cast<std::ptrdiff_t>(next() % 11));
+        if (some.size() <= 12)
+            return;
+        const auto old = some.begin() + 1 + static_cast<std::ptrdiff_t>(next() % 11);
+        if (kind == engines) // there are 64 at most
+            pacini_engine_destroy(*old);
+        if (kind == clips)
+            pacini_clip_release(*old);
+        some.erase(old);
     }
 };
 
