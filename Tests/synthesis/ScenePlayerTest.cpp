@@ -254,6 +254,48 @@ TEST_CASE("Live gains end at 60 dB, and go to the play that is meant", "[scene]"
     CHECK_FALSE(changed(1)[1] == plain[1]);
 }
 
+TEST_CASE("A play of a scene is moved over the actuators and delayed while it plays, whatever the scene has", "[scene]")
+{
+    Scene scene = playerScene(2, 0.2);
+    scene.actuators = 3;
+    scene.plays[0].pan = 0.0;
+    scene.plays[0].gain = -6.0;
+    scene.plays[1].pan = 1.0;
+    scene.plays[1].start = 0.3; // after the first
+    ScenePlayerParams params = playingAt(8000.0);
+    params.protect = false;
+    params.liveDelay = Seconds(0.1);
+    const RenderPlan plan = planOf(scene);
+    const auto with = [&](auto&& change)
+    {
+        ScenePlayer player(plan, params);
+        change(player);
+        return nextFrames(player, 3, 4000, 64);
+    };
+    const auto plain = with([](ScenePlayer&) {});
+    const double bad = std::numeric_limits<double>::quiet_NaN();
+    CHECK(with([&](ScenePlayer& p) { p.setPan(0, bad); }) == plain);
+    CHECK(with([&](ScenePlayer& p) { p.setDelay(0, Seconds(bad)); }) == plain);
+    CHECK(with([&](ScenePlayer& p) { p.setPan(2, 1.0); }) == plain);
+    // The whole of the first play on the last actuator, with the scene's level; the other stays.
+    const auto moved = with([](ScenePlayer& p) { p.setPan(0, 7.0); });
+    for (std::size_t n = 0; n < 4000; ++n)
+    {
+        REQUIRE(moved[0][n] == 0.0f);
+        REQUIRE(moved[1][n] == 0.0f);
+        REQUIRE(static_cast<double>(moved[2][n]) ==
+                Approx(static_cast<double>(n < 2000 ? plain[0][n] : plain[2][n])).margin(1e-7));
+    }
+    const auto late = with([](ScenePlayer& p) { p.setDelay(0, Seconds(0.01), Seconds(0.0)); });
+    for (std::size_t n = 0; n < 2000; ++n)
+        REQUIRE(static_cast<double>(late[0][n]) ==
+                Approx(n < 80 ? 0.0 : static_cast<double>(plain[0][n - 80])).margin(1e-7));
+    CHECK(late[2] == plain[2]);
+    // No longer than there is room for.
+    CHECK(with([](ScenePlayer& p) { p.setDelay(0, Seconds(5.0), Seconds(0.0)); }) ==
+          with([](ScenePlayer& p) { p.setDelay(0, Seconds(0.1), Seconds(0.0)); }));
+}
+
 TEST_CASE("The output of an actuator has what its plan asks for", "[scene]")
 {
     const ProcessSpec spec{8000.0, 256};
