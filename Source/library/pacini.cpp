@@ -161,13 +161,18 @@ pacini_result writeStruct(Struct& from, Struct* to)
     return PACINI_OK;
 }
 
+std::span<const std::byte> bytesOf(std::string_view text)
+{
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
 Result<std::shared_ptr<const LoadedClip>> loadClip(std::string_view bytes, std::string_view extension)
 {
     const ClipFormat* format = clipFormatOf(extension, bytes);
     if (format == nullptr || !format->isRead())
         return Error{ErrorCode::invalidData, "", "is not a clip that Pacini reads"};
     if (format == &packedFormat())
-        return LoadedClip::ofPacked(std::as_bytes(std::span(bytes)));
+        return LoadedClip::ofPacked(bytesOf(bytes));
     auto read = format->read(bytes);
     if (!read)
         return read.error();
@@ -389,9 +394,8 @@ extern "C"
                 auto read = readClip(std::filesystem::path(std::u8string_view(utf8)));
                 if (!read)
                     return fail(read.error(), path);
-                const auto loaded = read->format == &packedFormat()
-                                        ? LoadedClip::ofPacked(std::as_bytes(std::span(read->bytes)))
-                                        : LoadedClip::ofClip(read->clip);
+                const auto loaded = read->format == &packedFormat() ? LoadedClip::ofPacked(bytesOf(read->bytes))
+                                                                    : LoadedClip::ofClip(read->clip);
                 return loaded ? addClip(*loaded, clip) : fail(loaded.error(), path);
             });
     }

@@ -137,7 +137,8 @@ concept DspBank = requires(B bank, ProcessSpec spec, typename B::Params params, 
 [[nodiscard]] inline float passedSample(float x) noexcept
 {
     const float size = std::abs(x);
-    return (size >= 1e-30f) & (size <= std::numeric_limits<float>::max()) ? x : 0.0f;
+    const bool passes = (size >= 1e-30f) & (size <= std::numeric_limits<float>::max()); // no branch
+    return passes ? x : 0.0f;
 }
 
 /// Sets a state variable that has decayed below anything audible to 0, at the end of each process() call and every
