@@ -22,8 +22,8 @@ CORE = {
     "hearing": {"foundation"},
     "evaluate": {"foundation", "filters", "hearing"},
 }
+CORE["runtime"] = {"foundation", "clip", "actuator", "synthesis"}
 CORE["realtime"] = set(CORE)
-CORE["runtime"] = set(CORE) - {"realtime"}
 ALL = set(CORE)
 
 # room of Source, a folder or one in it -> (rooms of Source that it may include, modules of JUCE that it may not).
