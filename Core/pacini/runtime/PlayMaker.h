@@ -190,8 +190,11 @@ private:
                              "unroll to too many breakpoints (2 million are the most); make them fewer or endless"};
             clip = unrollLoop(fitted, settings.loop, static_cast<std::size_t>(passes), settings.variation);
             if (settings.passes == 0)
-                clip = trimClip(std::move(clip), {0.0, std::min(clip.duration, stretch + 2.0 * PlayContent::joint *
-                                                                                             settings.controls.speed)});
+            {
+                const double needed = stretch + 2.0 * PlayContent::joint * settings.controls.speed;
+                const TimeRange kept{0.0, std::min(clip.duration, needed)};
+                clip = trimClip(std::move(clip), kept);
+            }
         }
         else
             clip = vary(offset > 0.0 ? trimClip(fitted, {std::min(offset, fitted.duration), fitted.duration}) : fitted,

@@ -47,6 +47,7 @@
 #define PACINI_API
 #endif
 
+/* NOLINTBEGIN(modernize-use-using): this is C. */
 #ifdef __cplusplus
 extern "C"
 {
@@ -282,5 +283,6 @@ extern "C"
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-use-using) */
 
 #endif
