@@ -312,7 +312,7 @@ pacini_result finish(const Result<void>& done)
     return done.error().where == "play" ? fail(PACINI_STALE, "play: has ended") : fail(done.error());
 }
 
-bool isControl(pacini_control control)
+bool isControl(std::int32_t control)
 {
     return control >= PACINI_GAIN && control <= PACINI_PRIORITY;
 }
@@ -672,7 +672,7 @@ extern "C"
             });
     }
 
-    pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide, int64_t frame)
+    pacini_result pacini_play_set(pacini_play play, std::int32_t control, double value, double glide, int64_t frame)
     {
         return withPlay(play,
                         [&](Engine& engine, PlayId id)
@@ -727,7 +727,7 @@ extern "C"
                         });
     }
 
-    pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control, double value,
+    pacini_result pacini_group_set(pacini_engine engine, uint32_t group, std::int32_t control, double value,
                                    double glide, int64_t frame)
     {
         return withEngine(engine,

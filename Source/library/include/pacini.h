@@ -238,8 +238,8 @@ extern "C"
     PACINI_API pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip,
                                                const pacini_play_settings* settings, pacini_play* play);
 
-    /* Glides (s) in a straight line, from `frame` on. [any thread but audio] */
-    PACINI_API pacini_result pacini_play_set(pacini_play play, pacini_control control, double value, double glide,
+    /* `control`: a pacini_control. Glides (s) in a straight line, from `frame` on. [any thread but audio] */
+    PACINI_API pacini_result pacini_play_set(pacini_play play, int32_t control, double value, double glide,
                                              int64_t frame);
 
     /* Fades (s) out and ends. [any thread but audio] */
@@ -276,8 +276,8 @@ extern "C"
 
     /* Sets a control of all plays of a group. The gain of a group is a fader of its own, which plays to come are under
      * too. [any thread but audio] */
-    PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, pacini_control control,
-                                              double value, double glide, int64_t frame);
+    PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, int32_t control, double value,
+                                              double glide, int64_t frame);
     PACINI_API pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);
 
 #ifdef __cplusplus
