@@ -25,17 +25,18 @@ TEST_CASE("Bright events are felt at half their level, and never above full driv
     CHECK(transientsFrom(std::vector<Onset>{{0.0, 1.0, 1.0, 0.0, 2.0}}, 5.0)[0].amplitude == 1.0);
 }
 
-TEST_CASE("The envelope is held down between close events and left alone elsewhere", "[analysis]")
+TEST_CASE("The envelope is held down between the hits of a train and left alone elsewhere", "[analysis]")
 {
-    // Frames of 5 ms; events at 20, 50 and 80 ms and at 300 ms.
+    // Frames of 5 ms; a train at 20, 50 and 80 ms, and two close hits that are none, at 300 and 330 ms.
     std::vector<float> envelope(80, 0.5f);
+    envelope[62] = 0.3f;
     envelope[4] = 1.0f;
     envelope[6] = 0.2f;
     envelope[12] = 0.1f;
     const std::vector<float> before = envelope;
     const std::vector<Onset> onsets = {
-        {0.020, 1, 1, 0, 2}, {0.050, 1, 1, 0, 2}, {0.080, 1, 1, 0, 2}, {0.3, 1, 1, 0, 2}};
-    holdDownBetween(onsets, 0.045, 0.005, envelope);
+        {0.020, 1, 1, 0, 2}, {0.050, 1, 1, 0, 2}, {0.080, 1, 1, 0, 2}, {0.3, 1, 1, 0, 2}, {0.33, 1, 1, 0, 2}};
+    holdDownBetween(onsets, std::vector<TrainSpan>{{0.02, 0.08}}, 0.005, envelope);
     for (std::size_t i = 3; i < 9; ++i)
         CHECK(envelope[i] == 0.2f);
     for (std::size_t i = 9; i < 15; ++i)
@@ -48,11 +49,13 @@ TEST_CASE("The envelope is held down between close events and left alone elsewhe
 TEST_CASE("Events at the ends of the envelope stay inside it", "[analysis]")
 {
     std::vector<float> envelope(4, 1.0f);
-    holdDownBetween(std::vector<Onset>{{0.0, 1, 1, 0, 2}, {0.019, 1, 1, 0, 2}, {0.04, 1, 1, 0, 2}}, 0.045, 0.005,
-                    envelope);
+    holdDownBetween(std::vector<Onset>{{0.0, 1, 1, 0, 2}, {0.019, 1, 1, 0, 2}, {0.04, 1, 1, 0, 2}},
+                    std::vector<TrainSpan>{{0.0, 0.04}}, 0.005, envelope);
     CHECK(envelope.size() == 4);
-    holdDownBetween({}, 0.045, 0.005, envelope);
+    holdDownBetween({}, {}, 0.005, envelope);
+    holdDownBetween({}, std::vector<TrainSpan>{{0.0, 0.04}}, 0.005, envelope);
     std::vector<float> none;
-    holdDownBetween(std::vector<Onset>{{0.0, 1, 1, 0, 2}, {0.01, 1, 1, 0, 2}}, 0.045, 0.005, none);
+    holdDownBetween(std::vector<Onset>{{0.0, 1, 1, 0, 2}, {0.01, 1, 1, 0, 2}}, std::vector<TrainSpan>{{0.0, 0.01}},
+                    0.005, none);
     CHECK(none.empty());
 }

@@ -51,20 +51,24 @@ namespace pacini
     return transients;
 }
 
-/// Events that follow each other faster than the skin's and the actuator's memory stay apart only when nothing sounds
-/// between them: wherever two `onsets` are less than `reach` s apart, `envelope` (a frame every `step` s) is held down
-/// to its valley between them, and the pulses of the events carry what is above it. Not so far as loudness drives the
-/// level: `heardShare` (0-1 of each frame, or none).
-inline void holdDownBetween(std::span<const Onset> onsets, double reach, double step, std::span<float> envelope,
-                            std::span<const float> heardShare = {})
+/// The hits of an even train stay apart only when nothing sounds between them: within `trains`, `envelope` (a frame
+/// every `step` s) is held down to its valley between each two `onsets`, and the pulses of the events carry what is
+/// above it. Where hits come unevenly, some have no event of their own, and the envelope alone carries those.
+inline void holdDownBetween(std::span<const Onset> onsets, std::span<const TrainSpan> trains, double step,
+                            std::span<float> envelope)
 {
     const auto frameOf = [&](double time)
     {
         return std::min(envelope.size(), static_cast<std::size_t>(std::max(0.0, std::ceil(time / step))));
     };
+    auto train = trains.begin();
     for (std::size_t i = 0; i + 1 < onsets.size(); ++i)
     {
-        if (onsets[i + 1].time - onsets[i].time >= reach)
+        while (train != trains.end() && train->last <= onsets[i].time)
+            ++train;
+        if (train == trains.end())
+            return;
+        if (onsets[i].time < train->first)
             continue;
         // The envelope's window of two steps sees an event one step early.
         const std::size_t first = frameOf(onsets[i].time - step);
@@ -73,7 +77,7 @@ inline void holdDownBetween(std::span<const Onset> onsets, double reach, double 
         for (std::size_t f = first; f < end; ++f)
             valley = std::min(valley, envelope[f]);
         for (std::size_t f = first; f < end; ++f)
-            envelope[f] = heardShare.empty() ? valley : valley + heardShare[f] * (envelope[f] - valley);
+            envelope[f] = valley;
     }
 }
 
@@ -259,33 +263,34 @@ private:
     void addSection(BandAnalysisResult& found, const SoundScale& scale, std::span<const Onset> onsets)
     {
         const auto ahead = onsetsFrom(onsets, sectionStart());
+        const auto trains = evenTrains(ahead, trainGapSeconds);
         if (heard)
         {
             heard->blend.next(found, heard->level.found().first(SoundSection::framesSeen), SoundSection::frames + 1,
-                              evenTrains(ahead, trainGapSeconds), scale);
+                              trains, scale);
             heard->level.drop(SoundSection::frames);
         }
-        fit(found.takeFirst(SoundSection::seconds), scale.peak, ahead);
+        fit(found.takeFirst(SoundSection::seconds), scale.peak, ahead, trains);
         ++sections;
     }
 
     void addRest(BandAnalysisResult found, const SoundScale& scale, std::span<const Onset> onsets)
     {
         const auto ahead = onsetsFrom(onsets, sectionStart());
+        const auto trains = evenTrains(ahead, trainGapSeconds);
         if (heard)
-            heard->blend.next(found, heard->level.found(), heard->level.found().size(),
-                              evenTrains(ahead, trainGapSeconds), scale);
+            heard->blend.next(found, heard->level.found(), heard->level.found().size(), trains, scale);
         heard.reset(); // before curves are fitted, which takes memory too
-        fit(std::move(found), scale.peak, ahead);
+        fit(std::move(found), scale.peak, ahead, trains);
     }
 
     [[nodiscard]] double sectionStart() const noexcept { return SoundSection::seconds * static_cast<double>(sections); }
 
-    void fit(BandAnalysisResult found, double peak, std::span<const Onset> onsets)
+    void fit(BandAnalysisResult found, double peak, std::span<const Onset> onsets, std::span<const TrainSpan> trains)
     {
         if (peak <= silence)
             return;
-        holdDownBetween(onsets, trainGapSeconds, BandAnalysisResult::envelopeStep, found.envelope, found.heardShare);
+        holdDownBetween(onsets, trains, BandAnalysisResult::envelopeStep, found.envelope);
         fitter.add(clip, found, gainFor(peak), sectionStart());
     }
 
