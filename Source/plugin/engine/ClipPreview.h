@@ -14,7 +14,8 @@
 namespace pacini::plugin
 {
 
-/// The live drive fades out and in again within 10 ms; the sound of the clip is added to the main output.
+/// The live drives fade out and in again within 10 ms; the sound of the clip is added to the main output, its drive to
+/// the first one. Other actuators rest meanwhile: the clip is made for the one that its editor shows.
 class ClipPreview
 {
 public:
@@ -27,7 +28,8 @@ public:
     }
 
     /// At most `pieceFrames` frames. [audio]
-    void process(HostedProject& clips, std::span<float> drive, std::span<const std::span<float>> main) noexcept
+    void process(HostedProject& clips, std::span<float> drive, std::span<const std::span<float>> others,
+                 std::span<const std::span<float>> main) noexcept
     {
         const std::array<std::span<float>, 2> beside{std::span(left).first(drive.size()),
                                                      std::span(right).first(drive.size())};
@@ -41,6 +43,12 @@ public:
                 std::transform(main[c].begin(), main[c].end(), beside[c % 2].begin(), main[c].begin(), std::plus<>());
         else
             std::fill(signal.begin(), signal.end(), 0.0f);
+        for (const auto& other : others)
+        {
+            GainRamp fade = share;
+            for (float& sample : other)
+                sample *= 1.0f - fade.next();
+        }
         for (std::size_t i = 0; i < drive.size(); ++i)
             drive[i] = (1.0f - share.next()) * drive[i] + signal[i];
     }

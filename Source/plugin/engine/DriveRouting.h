@@ -13,8 +13,9 @@
 namespace pacini::plugin
 {
 
-/// Writes the drive to the haptic output, all of its channels alike, and, as the output mode says, into the main
-/// output. Bypass fades the drive out, and the sound in again, within 10 ms.
+/// Writes the drives to the haptic output and, as the output mode says, into the main output: that of the first
+/// channel, or all of them where they take the place of the sound. Bypass fades them out, and the sound in again,
+/// within 10 ms.
 class DriveRouting
 {
 public:
@@ -36,9 +37,10 @@ public:
         begun = true;
     }
 
-    /// `main` holds the sound, as late as the drive; all of one length. `drive` is scratch afterwards.
+    /// `main` holds the sound, as late as the drives; all of one length, with a drive for each of `haptic` and one at
+    /// least. `drives` are scratch afterwards.
     void process(std::span<const std::span<float>> main, std::span<const std::span<float>> haptic,
-                 std::span<float> drive) noexcept
+                 std::span<const std::span<float>> drives) noexcept
     {
         if (active.atRest() && active.value() == 0.0f)
         {
@@ -46,19 +48,24 @@ public:
                 std::fill(channel.begin(), channel.end(), 0.0f);
             return;
         }
-        GainRamp gain = active;
+        const GainRamp gain = active;
         if (!active.atRest())
-            for (float& sample : drive)
-                sample *= active.next();
-        for (const auto& channel : haptic)
-            std::copy(drive.begin(), drive.end(), channel.begin());
+            for (const auto& drive : drives)
+            {
+                active = gain;
+                for (float& sample : drive)
+                    sample *= active.next();
+            }
+        for (std::size_t c = 0; c < haptic.size(); ++c)
+            std::copy(drives[c].begin(), drives[c].end(), haptic[c].begin());
+        const auto first = drives[0];
         switch (mode)
         {
         case OutputMode::separate:
             break;
         case OutputMode::replaceMain:
-            for (const auto& channel : main)
-                put(channel, drive, gain);
+            for (std::size_t c = 0; c < main.size(); ++c)
+                put(main[c], c < drives.size() ? drives[c] : first, gain);
             break;
         case OutputMode::monoAndHaptic:
             if (main.size() >= 2)
@@ -66,12 +73,12 @@ public:
             [[fallthrough]];
         case OutputMode::rightHaptic:
             if (main.size() >= 2)
-                put(main[1], drive, gain);
+                put(main[1], first, gain);
             break;
         case OutputMode::addToChannel:
             if (chosen < main.size())
-                for (std::size_t i = 0; i < drive.size(); ++i)
-                    main[chosen][i] += drive[i];
+                for (std::size_t i = 0; i < first.size(); ++i)
+                    main[chosen][i] += first[i];
             break;
         }
     }

@@ -3,18 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pacini::plugin
 {
 
-void LiveEngine::prepare(double sampleRate, std::size_t mainChannels)
+LiveEngine::LiveEngine()
+{
+    voices[0].translator = std::make_unique<Translator>();
+}
+
+void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels)
 {
     fs.store(sampleRate, std::memory_order_relaxed);
-    translator.prepare({sampleRate, pieceFrames});
+    for (Voice& voice : voices)
+        if (voice.translator)
+            voice.translator->prepare({sampleRate, pieceFrames});
     mix.prepare(sampleRate);
+    row.prepare(sampleRate, std::max(hapticChannels, mainChannels));
     routing.prepare(sampleRate);
     preview.prepare(sampleRate);
-    delay.prepare(std::min(mainChannels, maxMainChannels), translator.latencyFrames());
+    delay.prepare(std::min(mainChannels, maxMainChannels), latencyFrames());
     const auto ringFrames = static_cast<std::size_t>(captureSeconds * std::min(sampleRate, 96000.0));
     if (ring.capacityFrames() == ringFrames)
         ring.reset();
@@ -25,25 +34,57 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels)
 
 void LiveEngine::reset() noexcept
 {
-    translator.reset();
+    for (Voice& voice : voices)
+        voice.plays = false;
+    for (std::size_t c = 0; c < playing.size(); ++c)
+    {
+        playing[c] = sources[c].load(std::memory_order_acquire);
+        Voice& voice = voices[playing[c]];
+        if (!std::exchange(voice.plays, true))
+            voice.translator->reset();
+    }
     mix.reset();
+    row.reset();
     routing.reset();
     delay.reset();
 }
 
+void LiveEngine::setSetup(std::size_t channel, const TranslatorSetup& setup)
+{
+    Voice& voice = voices[channel];
+    if (voice.translator)
+        voice.translator->setSetup(setup);
+    else
+    {
+        auto made = std::make_unique<Translator>();
+        made->setSetup(setup);
+        made->prepare({sampleRate(), pieceFrames});
+        voice.translator = std::move(made);
+    }
+    // The audio thread sees the translator no earlier than this.
+    sources[channel].store(channel, std::memory_order_release);
+}
+
 void LiveEngine::process(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept
 {
-    translator.setParams(values.translator());
-    mix.aim(static_cast<SourceChoice>(values.index(ParameterId::source)), values[ParameterId::sourceMix]);
-    routing.aim(static_cast<OutputMode>(values.index(ParameterId::outputMode)),
-                values.index(ParameterId::outputChannel) - 1, bypassed || values.isOn(ParameterId::bypass));
+    params = values.translator();
+    const auto choice = static_cast<SourceChoice>(values.index(ParameterId::source));
+    mix.aim(choice, values[ParameterId::sourceMix]);
+    hearsSidechain = choice == SourceChoice::sidechain;
+    const auto mode = static_cast<OutputMode>(values.index(ParameterId::outputMode));
+    routing.aim(mode, values.index(ParameterId::outputChannel) - 1, bypassed || values.isOn(ParameterId::bypass));
+    // Where the drives take the place of the sound, each of its channels has one.
+    const std::size_t wanted = std::max(block.haptic.size(), mode == OutputMode::replaceMain ? block.main.size() : 1);
+    channels = std::clamp<std::size_t>(wanted, 1, row.channels());
+    inUse.store(channels, std::memory_order_relaxed);
+    row.aim(values, channels);
 
     std::array<std::span<float>, maxMainChannels> main;
     std::array<std::span<const float>, maxSidechainChannels> sidechain;
     std::array<std::span<float>, maxHapticChannels> haptic;
     const std::size_t mains = std::min(block.main.size(), main.size());
     const std::size_t sides = std::min(block.sidechain.size(), sidechain.size());
-    const std::size_t haptics = std::min(block.haptic.size(), haptic.size());
+    const std::size_t haptics = std::min(block.haptic.size(), channels);
     for (std::size_t done = 0; done < block.frames; done += pieceFrames)
     {
         const std::size_t n = std::min(pieceFrames, block.frames - done);
@@ -61,7 +102,6 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
                        std::span<const std::span<float>> haptic, std::size_t frames) noexcept
 {
     const auto in = std::span(source).first(frames);
-    const auto out = std::span(drive).first(frames);
     mix.process(main, sidechain, in);
     float peak = 0.0f;
     for (const float x : in)
@@ -69,11 +109,76 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
     if (peak > inputPeak.load(std::memory_order_relaxed))
         inputPeak.store(peak, std::memory_order_relaxed);
     ring.push(in);
-    translator.process(in, out);
+    followSources();
+    translate(in);
     delay.process(main);
+
+    std::array<std::span<float>, maxHapticChannels> others;
+    std::size_t otherCount = 0;
+    for (std::size_t v = 1; v < voices.size(); ++v)
+        if (voices[v].plays)
+            others[otherCount++] = std::span(voices[v].drive).first(frames);
     if (clips != nullptr)
-        preview.process(*clips, out, main);
-    routing.process(main, haptic, out);
+        preview.process(*clips, std::span(voices[0].drive).first(frames), std::span(others).first(otherCount), main);
+
+    std::array<std::span<const float>, maxHapticChannels> from;
+    std::array<std::span<float>, maxHapticChannels> to;
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+        from[c] = std::span(voices[playing[c]].drive).first(frames);
+        to[c] = std::span(drives[c]).first(frames);
+    }
+    std::span<const float> left, right;
+    if (hearsSidechain && sidechain.size() >= 2)
+        left = sidechain[0], right = sidechain[1];
+    else if (main.size() >= 2)
+        left = main[0], right = main[1];
+    row.process(std::span(from).first(channels), left, right, std::span(to).first(channels));
+    routing.process(main, haptic, std::span(to).first(channels));
+    meterPeaks(frames);
+}
+
+/// A channel that is to play another voice fades out before it does.
+void LiveEngine::followSources() noexcept
+{
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+        const std::size_t wanted = sources[c].load(std::memory_order_acquire);
+        if (wanted != playing[c] && row.silent(c))
+            playing[c] = wanted;
+        row.setMuted(c, wanted != playing[c]);
+    }
+}
+
+/// Every voice that a channel plays; others cost nothing. The first one is always there: the window shows its bands.
+void LiveEngine::translate(std::span<const float> in) noexcept
+{
+    for (std::size_t v = 0; v < voices.size(); ++v)
+    {
+        Voice& voice = voices[v];
+        const auto used = std::span(playing).first(channels);
+        const bool plays = v == 0 || std::find(used.begin(), used.end(), v) != used.end();
+        if (plays)
+        {
+            voice.translator->setParams(params);
+            if (!voice.plays)
+                voice.translator->reset();
+            voice.translator->process(in, std::span(voice.drive).first(in.size()));
+        }
+        voice.plays = plays;
+    }
+}
+
+void LiveEngine::meterPeaks(std::size_t frames) noexcept
+{
+    for (std::size_t c = 0; c < channels; ++c)
+    {
+        float peak = 0.0f;
+        for (const float x : std::span(drives[c]).first(frames))
+            peak = std::abs(x) > peak ? std::abs(x) : peak;
+        if (peak > peaks[c].load(std::memory_order_relaxed))
+            peaks[c].store(peak, std::memory_order_relaxed);
+    }
 }
 
 Capture LiveEngine::capture(double seconds) const

@@ -5,6 +5,7 @@
 
 #include "plugin/engine/ClipPreview.h"
 #include "plugin/engine/DriveRouting.h"
+#include "plugin/engine/HapticRow.h"
 #include "plugin/engine/MainDelay.h"
 #include "plugin/engine/ParameterValues.h"
 #include "plugin/engine/SourceMix.h"
@@ -15,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,7 +25,6 @@ namespace pacini::plugin
 
 inline constexpr std::size_t maxMainChannels = 16;
 inline constexpr std::size_t maxSidechainChannels = 8;
-inline constexpr std::size_t maxHapticChannels = 8;
 inline constexpr double captureSeconds = 30.0;
 
 /// The channels of one block. Main goes in and comes out in place. A haptic channel may lie in the memory of a
@@ -36,11 +37,15 @@ struct EngineBlock
     std::size_t frames = 0;
 };
 
+/// Translates the sound for each actuator that is in use, once for all channels that share one, and hands the drives
+/// to the haptic channels.
 class LiveEngine
 {
 public:
+    LiveEngine();
+
     /// Allocates. [message], while no block is processed
-    void prepare(double sampleRate, std::size_t mainChannels);
+    void prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels);
 
     /// Whose clips are heard in the place of the drive while they play; null: nobody's. [message], before prepare()
     void setClips(HostedProject* wanted) noexcept { clips = wanted; }
@@ -51,13 +56,30 @@ public:
     /// Any number of frames. [audio]
     void process(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept;
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return translator.latencyFrames(); }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return voices[0].translator->latencyFrames(); }
     [[nodiscard]] double sampleRate() const noexcept { return fs.load(std::memory_order_relaxed); }
 
-    /// The set-up of the translator: one thread at a time, and not while prepare() runs. [message]
-    void setSetup(const TranslatorSetup& setup) { translator.setSetup(setup); }
+    /// The actuator of a channel: one thread at a time, and not while prepare() runs. The channel has a translation of
+    /// its own from then on. [message]
+    void setSetup(std::size_t channel, const TranslatorSetup& setup);
+    /// A channel plays what is translated for one before it, which has a set-up. [message]
+    void share(std::size_t channel, std::size_t other) noexcept
+    {
+        sources[channel].store(other, std::memory_order_release);
+    }
 
-    [[nodiscard]] TranslatorMeterReading readMeters() const noexcept { return translator.meters().read(); }
+    /// Of the translation that a channel plays.
+    [[nodiscard]] TranslatorMeterReading readMeters(std::size_t channel = 0) const noexcept
+    {
+        return voices[sources[channel].load(std::memory_order_acquire)].translator->meters().read();
+    }
+    /// The largest sample of a channel since the last call, 0 where there is no such channel. [message]
+    [[nodiscard]] float takePeak(std::size_t channel) noexcept
+    {
+        return peaks[channel].exchange(0.0f, std::memory_order_relaxed);
+    }
+    /// Haptic channels that were played last. [any thread]
+    [[nodiscard]] std::size_t channelsInUse() const noexcept { return inUse.load(std::memory_order_relaxed); }
     /// The largest sample of the source since the last call. [message]
     [[nodiscard]] float takeInputPeak() noexcept { return inputPeak.exchange(0.0f, std::memory_order_relaxed); }
     /// The newest of the source. [message]
@@ -69,17 +91,37 @@ private:
     void piece(std::span<const std::span<float>> main, std::span<const std::span<const float>> sidechain,
                std::span<const std::span<float>> haptic, std::size_t frames) noexcept;
 
+    /// One translation.
+    struct Voice
+    {
+        std::unique_ptr<Translator> translator; ///< null until a channel wants it
+        bool plays = false;                     ///< some channel listened to it in the last piece
+        std::array<float, pieceFrames> drive{};
+    };
+
+    void followSources() noexcept;
+    void translate(std::span<const float> in) noexcept;
+    void meterPeaks(std::size_t frames) noexcept;
+
     std::atomic<double> fs{48000.0};
-    Translator translator;
+    std::array<Voice, maxHapticChannels> voices;
+    std::array<std::atomic<std::size_t>, maxHapticChannels> sources{}; ///< the voice that each channel shall play
+    std::array<std::size_t, maxHapticChannels> playing{};              ///< that it does
     SourceMix mix;
     MainDelay delay;
     ClipPreview preview;
     HostedProject* clips = nullptr;
+    HapticRow row;
     DriveRouting routing;
     CaptureRing ring;
+    TranslatorParams params;
+    std::size_t channels = 1; ///< in use
+    bool hearsSidechain = false;
+    std::atomic<std::size_t> inUse{1};
     std::atomic<float> inputPeak{0.0f};
+    std::array<std::atomic<float>, maxHapticChannels> peaks{};
     std::array<float, pieceFrames> source{};
-    std::array<float, pieceFrames> drive{};
+    std::array<std::array<float, pieceFrames>, maxHapticChannels> drives{};
 };
 
 } // namespace pacini::plugin

@@ -41,10 +41,34 @@ enum class ParameterId : std::size_t
     bypass,
     audible,
     strength,
-    count
+    pan,
+    position,
+    panLaw,
+    places,
+    firstChannel, ///< see channelParameter()
+    count = firstChannel + 31
 };
 
 inline constexpr std::size_t parameterCount = static_cast<std::size_t>(ParameterId::count);
+
+inline constexpr std::size_t maxHapticChannels = 8;
+
+/// What each haptic channel has for itself.
+enum class ChannelSetting : std::size_t
+{
+    actuator,
+    gain,
+    delay,
+    place
+};
+
+/// The parameter of a haptic channel, counted from 0. The actuator of the first one is that of the plugin.
+[[nodiscard]] constexpr ParameterId channelParameter(std::size_t channel, ChannelSetting setting) noexcept
+{
+    const std::size_t at = 4 * channel + static_cast<std::size_t>(setting);
+    return at == 0 ? ParameterId::profile
+                   : static_cast<ParameterId>(static_cast<std::size_t>(ParameterId::firstChannel) + at - 1);
+}
 
 enum class ParameterUnit
 {
@@ -74,6 +98,14 @@ enum class OutputMode
     addToChannel   ///< the drive is added to one channel
 };
 
+/// What moves the touch over the haptic channels.
+enum class PanChoice
+{
+    off,      ///< every channel carries all of it
+    position, ///< the parameter `position`
+    panorama  ///< where the sound is between its first two channels
+};
+
 /// Places for profiles: automation names them by number, so numbers never change their meaning and new profiles take
 /// free ones.
 inline constexpr std::size_t profileSlots = 32;
@@ -89,6 +121,18 @@ inline constexpr std::array<std::string_view, profileSlots> profileChoices{
     "Free 14",    "Free 15",          "Free 16",     "Free 17",    "Free 18",          "Free 19",  "Free 20",
     "Free 21",    "Free 22",          "Free 23",     "Free 24",    "Free 25",          "Free 26",  "Free 27",
     "Free 28",    "Free 29",          "Free 30",     "Own file"};
+
+inline constexpr std::array<std::string_view, 3> panChoices{"Off", "Position", "Panorama of the sound"};
+inline constexpr std::array<std::string_view, 3> panLawChoices{"Level", "Delay", "Level and delay"};
+inline constexpr std::array<std::string_view, 2> placesChoices{"Even row", "As set"};
+/// Of the channels behind the first: its actuator, or that of a slot, one number higher.
+inline constexpr auto furtherProfileChoices = []
+{
+    std::array<std::string_view, profileSlots + 1> choices{"As channel 1"};
+    for (std::size_t i = 0; i < profileSlots; ++i)
+        choices[i + 1] = profileChoices[i];
+    return choices;
+}();
 
 struct ParameterRow
 {
@@ -157,6 +201,76 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      "How far loudness drives what is heard above the range of touch: 100 % for effects, 0 % for music with a beat"},
     {ParameterId::strength, "strength", 2, "Strength", ParameterUnit::percent, 0, 1, standardStrength, 0, {},
      "Likeness against felt level: 0 % is as flat as can be, 100 % plays all on the actuator's resonance"},
+    {ParameterId::pan, "pan", 3, "Pan", ParameterUnit::choice, 0, 2, 0, 0, panChoices,
+     "What moves the touch over the haptic channels; off: each carries all of it"},
+    {ParameterId::position, "position", 3, "Position", ParameterUnit::percent, 0, 1, 0.5, 0, {},
+     "Where the touch is between the first place and the last, with the pan Position"},
+    {ParameterId::panLaw, "panLaw", 3, "Pan law", ParameterUnit::choice, 0, 2, 0, 0, panLawChoices,
+     "Whether the touch moves by level, by delay (10 ms from end to end) or both"},
+    {ParameterId::places, "places", 3, "Places", ParameterUnit::choice, 0, 1, 0, 0, placesChoices,
+     "Where the channels are: in an even row in their order, or where each is set"},
+    {channelParameter(0, ChannelSetting::gain), "gain1", 3, "Gain 1", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 1, behind the protection of its actuator"},
+    {channelParameter(0, ChannelSetting::delay), "delay1", 3, "Delay 1", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 1, to line actuators up"},
+    {channelParameter(0, ChannelSetting::place), "place1", 3, "Place 1", ParameterUnit::percent, 0, 1, 0.0, 0, {},
+     "Where haptic channel 1 is, with the places As set"},
+    {channelParameter(1, ChannelSetting::actuator), "actuator2", 3, "Actuator 2", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 2"},
+    {channelParameter(1, ChannelSetting::gain), "gain2", 3, "Gain 2", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 2, behind the protection of its actuator"},
+    {channelParameter(1, ChannelSetting::delay), "delay2", 3, "Delay 2", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 2, to line actuators up"},
+    {channelParameter(1, ChannelSetting::place), "place2", 3, "Place 2", ParameterUnit::percent, 0, 1, 0.1429, 0, {},
+     "Where haptic channel 2 is, with the places As set"},
+    {channelParameter(2, ChannelSetting::actuator), "actuator3", 3, "Actuator 3", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 3"},
+    {channelParameter(2, ChannelSetting::gain), "gain3", 3, "Gain 3", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 3, behind the protection of its actuator"},
+    {channelParameter(2, ChannelSetting::delay), "delay3", 3, "Delay 3", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 3, to line actuators up"},
+    {channelParameter(2, ChannelSetting::place), "place3", 3, "Place 3", ParameterUnit::percent, 0, 1, 0.2857, 0, {},
+     "Where haptic channel 3 is, with the places As set"},
+    {channelParameter(3, ChannelSetting::actuator), "actuator4", 3, "Actuator 4", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 4"},
+    {channelParameter(3, ChannelSetting::gain), "gain4", 3, "Gain 4", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 4, behind the protection of its actuator"},
+    {channelParameter(3, ChannelSetting::delay), "delay4", 3, "Delay 4", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 4, to line actuators up"},
+    {channelParameter(3, ChannelSetting::place), "place4", 3, "Place 4", ParameterUnit::percent, 0, 1, 0.4286, 0, {},
+     "Where haptic channel 4 is, with the places As set"},
+    {channelParameter(4, ChannelSetting::actuator), "actuator5", 3, "Actuator 5", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 5"},
+    {channelParameter(4, ChannelSetting::gain), "gain5", 3, "Gain 5", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 5, behind the protection of its actuator"},
+    {channelParameter(4, ChannelSetting::delay), "delay5", 3, "Delay 5", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 5, to line actuators up"},
+    {channelParameter(4, ChannelSetting::place), "place5", 3, "Place 5", ParameterUnit::percent, 0, 1, 0.5714, 0, {},
+     "Where haptic channel 5 is, with the places As set"},
+    {channelParameter(5, ChannelSetting::actuator), "actuator6", 3, "Actuator 6", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 6"},
+    {channelParameter(5, ChannelSetting::gain), "gain6", 3, "Gain 6", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 6, behind the protection of its actuator"},
+    {channelParameter(5, ChannelSetting::delay), "delay6", 3, "Delay 6", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 6, to line actuators up"},
+    {channelParameter(5, ChannelSetting::place), "place6", 3, "Place 6", ParameterUnit::percent, 0, 1, 0.7143, 0, {},
+     "Where haptic channel 6 is, with the places As set"},
+    {channelParameter(6, ChannelSetting::actuator), "actuator7", 3, "Actuator 7", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 7"},
+    {channelParameter(6, ChannelSetting::gain), "gain7", 3, "Gain 7", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 7, behind the protection of its actuator"},
+    {channelParameter(6, ChannelSetting::delay), "delay7", 3, "Delay 7", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 7, to line actuators up"},
+    {channelParameter(6, ChannelSetting::place), "place7", 3, "Place 7", ParameterUnit::percent, 0, 1, 0.8571, 0, {},
+     "Where haptic channel 7 is, with the places As set"},
+    {channelParameter(7, ChannelSetting::actuator), "actuator8", 3, "Actuator 8", ParameterUnit::choice, 0, profileSlots, 0, 0,
+     furtherProfileChoices, "The actuator of haptic channel 8"},
+    {channelParameter(7, ChannelSetting::gain), "gain8", 3, "Gain 8", ParameterUnit::decibels, -60, 0, 0, -12, {},
+     "Gain of haptic channel 8, behind the protection of its actuator"},
+    {channelParameter(7, ChannelSetting::delay), "delay8", 3, "Delay 8", ParameterUnit::milliseconds, 0, 100, 0, 20, {},
+     "Delay of haptic channel 8, to line actuators up"},
+    {channelParameter(7, ChannelSetting::place), "place8", 3, "Place 8", ParameterUnit::percent, 0, 1, 1.0, 0, {},
+     "Where haptic channel 8 is, with the places As set"},
 }};
 // clang-format on
 

@@ -22,6 +22,14 @@ using Layout = juce::AudioChannelSet;
 constexpr int mainBus = 0;
 constexpr int sidechainBus = 1;
 constexpr int hapticBus = 1;
+
+TranslatorSetup setupOf(const std::optional<Profile>& profile, double strength)
+{
+    TranslatorSetup setup;
+    setup.profile = profile;
+    setup.strength = strength;
+    return setup;
+}
 } // namespace
 
 // The sidechain is there from the start and its silence counts as none: hosts differ in what they hand to a bus that is
@@ -39,10 +47,10 @@ PluginProcessor::PluginProcessor()
         table[static_cast<std::size_t>(row.parameter)] = made.get();
         addParameter(made.release());
     }
-    applied = builtInProfile(0);
+    for (ChannelActuator& actuator : actuators)
+        actuator.profile = builtInProfile(0);
     appliedStrength = parameter(ParameterId::strength).value();
-    tradesNow = applied && tradesStrength(*applied);
-    engine.setSetup(setupNow());
+    engine.setSetup(0, setupOf(actuators[0].profile, appliedStrength));
     engine.setClips(&clips);
     worker->add(*this);
 }
@@ -70,7 +78,8 @@ void PluginProcessor::prepareToPlay(double newRate, int)
     {
         const juce::ScopedLock lock(setupLock);
         catchUp();
-        engine.prepare(newRate, static_cast<std::size_t>(std::max(getMainBusNumInputChannels(), 1)));
+        engine.prepare(newRate, static_cast<std::size_t>(std::max(getMainBusNumInputChannels(), 1)),
+                       static_cast<std::size_t>(std::max(getChannelCountOfBus(false, hapticBus), 1)));
     }
     clips.prepare(newRate);
     setLatencySamples(static_cast<int>(engine.latencyFrames()));
@@ -135,38 +144,61 @@ void PluginProcessor::setValues(const ParameterValues& wanted)
         each->setPlainNotifyingHost(wanted[each->row().parameter]);
 }
 
-std::size_t PluginProcessor::wantedSlot() const noexcept
+bool PluginProcessor::followsFirst(std::size_t channel) const noexcept
 {
-    return static_cast<std::size_t>(parameter(ParameterId::profile).value() + 0.5);
+    return channel > 0 && parameter(channelParameter(channel, ChannelSetting::actuator)).value() < 0.5;
 }
 
-TranslatorSetup PluginProcessor::setupNow() const
+std::size_t PluginProcessor::wantedSlot(std::size_t channel) const noexcept
 {
-    TranslatorSetup setup;
-    setup.profile = applied;
-    setup.strength = appliedStrength;
-    return setup;
+    const double first = parameter(ParameterId::profile).value();
+    if (channel == 0 || followsFirst(channel))
+        return static_cast<std::size_t>(first + 0.5);
+    return static_cast<std::size_t>(parameter(channelParameter(channel, ChannelSetting::actuator)).value() - 0.5);
 }
 
-/// Hands the chosen actuator and the strength to the translator. [worker], [message]
+/// Hands the chosen actuators and the strength to the translators. [worker], [message]
 void PluginProcessor::catchUp()
 {
     const juce::ScopedLock lock(setupLock);
-    const std::size_t slot = wantedSlot();
     const double strength = parameter(ParameterId::strength).value();
-    const bool sameActuator = slot == appliedSlot;
-    if (sameActuator && strength == appliedStrength)
-        return;
+    const bool strengthMoved = strength != appliedStrength;
     appliedStrength = strength;
+    for (std::size_t c = 0; c < actuators.size(); ++c)
+        adoptActuator(c, strengthMoved);
+}
+
+/// Those of the channels before it are adopted already.
+void PluginProcessor::adoptActuator(std::size_t channel, bool strengthMoved)
+{
+    ChannelActuator& actuator = actuators[channel];
+    const std::size_t slot = wantedSlot(channel);
+    std::size_t plays = followsFirst(channel) ? 0 : channel;
+    for (std::size_t c = 0; c < channel && plays == channel && slot != ownProfileSlot; ++c)
+        if (actuators[c].slot == slot && actuators[c].plays == c)
+            plays = c;
+    if (plays != channel)
+    {
+        actuator.slot = slot;
+        actuator.profile = actuators[plays].profile;
+        actuator.trades = actuators[plays].trades;
+        if (actuator.plays != plays)
+            engine.share(channel, plays);
+        actuator.plays = plays;
+        return;
+    }
+    const bool sameActuator = slot == actuator.slot && actuator.plays == channel && !actuator.stale;
+    if (sameActuator && !(strengthMoved && actuator.trades))
+        return; // each new set-up fades out and in
     if (!sameActuator)
     {
-        appliedSlot = slot;
-        applied = slot == ownProfileSlot ? ownProfile : builtInProfile(slot);
-        tradesNow = applied && tradesStrength(*applied);
+        actuator.slot = slot;
+        actuator.plays = channel;
+        actuator.stale = false;
+        actuator.profile = slot == ownProfileSlot ? actuator.own : builtInProfile(slot);
+        actuator.trades = actuator.profile && tradesStrength(*actuator.profile);
     }
-    else if (!tradesNow)
-        return; // each new set-up fades out and in
-    engine.setSetup(setupNow());
+    engine.setSetup(channel, setupOf(actuator.profile, appliedStrength));
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
@@ -175,7 +207,10 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
     {
         const juce::ScopedLock lock(setupLock);
         catchUp();
-        state.profile = applied;
+        state.profile = actuators[0].profile;
+        for (std::size_t c = 1; c < actuators.size(); ++c)
+            if (!followsFirst(c))
+                state.furtherProfiles[c - 1] = actuators[c].profile;
     }
     state.values = values();
     state.program = program.load();
@@ -200,19 +235,10 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     juce::String noted = read->note;
     {
         const juce::ScopedLock lock(setupLock);
-        const std::size_t slot = state.values.index(ParameterId::profile);
-        if (state.profile && slot != ownProfileSlot && state.profile != builtInProfile(slot))
-        {
-            // A session keeps the actuator that it was made with.
-            state.values.set(ParameterId::profile, static_cast<double>(ownProfileSlot));
-            noted += (noted.isEmpty() ? "" : "; ") + juce::String("the session's own version of the actuator is used");
-        }
-        if (state.values.index(ParameterId::profile) == ownProfileSlot)
-        {
-            if (ownProfile != state.profile)
-                appliedSlot = profileSlots; // not what is wanted, whatever it is
-            ownProfile = state.profile;
-        }
+        for (std::size_t c = 0; c < actuators.size(); ++c)
+            if (const auto note =
+                    restoreActuator(state.values, c, c == 0 ? state.profile : state.furtherProfiles[c - 1]))
+                noted += (noted.isEmpty() ? "" : "; ") + *note;
     }
     setValues(state.values); // the host may wait for another thread of ours here: no lock
     catchUp();
@@ -224,6 +250,30 @@ void PluginProcessor::setStateInformation(const void* data, int size)
                  juce::String(restored.error().text());
     say(noted);
     updateHostDisplay(ChangeDetails().withProgramChanged(true));
+}
+
+/// A session keeps the actuator that it was made with; says so where that is not the one that is built in.
+std::optional<juce::String> PluginProcessor::restoreActuator(ParameterValues& values, std::size_t channel,
+                                                             const std::optional<Profile>& profile)
+{
+    const ParameterId id = channelParameter(channel, ChannelSetting::actuator);
+    const std::size_t first = channel == 0 ? 0 : 1; // the number of slot 0
+    std::optional<juce::String> note;
+    if (values.index(id) < first)
+        return note;
+    const std::size_t slot = values.index(id) - first;
+    if (profile && slot != ownProfileSlot && profile != builtInProfile(slot))
+    {
+        values.set(id, static_cast<double>(ownProfileSlot + first));
+        note = channel == 0 ? juce::String("the session's own version of the actuator is used")
+                            : "the session's own version of actuator " + juce::String(channel + 1) + " is used";
+    }
+    if (values.index(id) == ownProfileSlot + first)
+    {
+        actuators[channel].stale = actuators[channel].own != profile;
+        actuators[channel].own = profile;
+    }
+    return note;
 }
 
 int PluginProcessor::getNumPrograms()
@@ -267,29 +317,36 @@ Capture PluginProcessor::capture(double seconds) const
     return engine.capture(seconds);
 }
 
-juce::String PluginProcessor::actuatorName() const
+double PluginProcessor::gainReduction(std::size_t channel) const
+{
+    return engine.readMeters(channel).gainReduction;
+}
+
+juce::String PluginProcessor::actuatorName(std::size_t channel) const
 {
     const juce::ScopedLock lock(setupLock);
-    return applied ? juce::String::fromUTF8(applied->name.c_str()) : juce::String("None");
+    const auto& profile = actuators[channel].profile;
+    return profile ? juce::String::fromUTF8(profile->name.c_str()) : juce::String("None");
 }
 
 bool PluginProcessor::strengthMatters() const
 {
     const juce::ScopedLock lock(setupLock);
-    return tradesNow;
+    return std::any_of(actuators.begin(), actuators.end(), [](const ChannelActuator& each) { return each.trades; });
 }
 
-Result<void> PluginProcessor::loadActuator(const juce::File& file)
+Result<void> PluginProcessor::loadActuator(const juce::File& file, std::size_t channel)
 {
     auto profile = readProfile(file.getFullPathName().toStdString());
     if (!profile)
         return profile.error();
     {
         const juce::ScopedLock lock(setupLock);
-        ownProfile = std::move(profile).value();
-        appliedSlot = profileSlots;
+        actuators[channel].own = std::move(profile).value();
+        actuators[channel].stale = true;
     }
-    parameter(ParameterId::profile).setPlainNotifyingHost(static_cast<double>(ownProfileSlot));
+    parameter(channelParameter(channel, ChannelSetting::actuator))
+        .setPlainNotifyingHost(static_cast<double>(ownProfileSlot + (channel == 0 ? 0 : 1)));
     catchUp();
     return {};
 }

@@ -19,9 +19,9 @@
 namespace pacini::plugin
 {
 
-/// Main input and output of 1 to 16 channels; a sidechain of up to 8 and a haptic output of 1 to 8 channels, both of
-/// which may be missing. The main output is the main input, late by the reported latency, unless the output mode says
-/// otherwise.
+/// Main input and output of 1 to 16 channels; a sidechain of up to 8 and a haptic output of 1 to 8 channels, one for
+/// each actuator, both of which may be missing. The main output is the main input, late by the reported latency, unless
+/// the output mode says otherwise.
 class PluginProcessor : public juce::AudioProcessor, private SetupWorker::Client
 {
 public:
@@ -75,12 +75,18 @@ public:
     [[nodiscard]] int latency() const { return getLatencySamples(); }
     /// The newest of the source, mono, all finite; at most `captureSeconds`.
     [[nodiscard]] Capture capture(double seconds) const;
-    /// The name of the actuator that the signal is made for now.
-    [[nodiscard]] juce::String actuatorName() const;
-    /// Whether that is played differently with another strength.
+    /// The largest sample of a haptic channel since the last call, linear.
+    [[nodiscard]] float takePeak(std::size_t channel) { return engine.takePeak(channel); }
+    /// dB that the limiter and protection of a channel's actuator take.
+    [[nodiscard]] double gainReduction(std::size_t channel) const;
+    /// Haptic channels that are played.
+    [[nodiscard]] std::size_t channelsInUse() const { return engine.channelsInUse(); }
+    /// The name of the actuator that a haptic channel is made for now.
+    [[nodiscard]] juce::String actuatorName(std::size_t channel = 0) const;
+    /// Whether any of them is played differently with another strength.
     [[nodiscard]] bool strengthMatters() const;
-    /// Takes an actuator from a profile file.
-    Result<void> loadActuator(const juce::File& file);
+    /// Takes the actuator of a haptic channel from a profile file.
+    Result<void> loadActuator(const juce::File& file, std::size_t channel = 0);
     /// What a session brought that could not be used; empty: nothing.
     [[nodiscard]] juce::String note() const;
 
@@ -93,8 +99,22 @@ private:
     void catchUp() override;
     void setValues(const ParameterValues& wanted);
     void say(const juce::String& text);
-    [[nodiscard]] std::size_t wantedSlot() const noexcept;
-    [[nodiscard]] TranslatorSetup setupNow() const;
+    /// What a haptic channel is played on.
+    struct ChannelActuator
+    {
+        std::size_t slot = 0;           ///< of the profile; of the first channel's for one that follows it
+        std::size_t plays = 0;          ///< the channel whose translation it plays
+        std::optional<Profile> profile; ///< in that slot
+        std::optional<Profile> own;     ///< from a file or a session
+        bool stale = false;             ///< `own` is another one now
+        bool trades = false;            ///< see tradesStrength()
+    };
+
+    [[nodiscard]] bool followsFirst(std::size_t channel) const noexcept;
+    [[nodiscard]] std::size_t wantedSlot(std::size_t channel) const noexcept;
+    void adoptActuator(std::size_t channel, bool strengthMoved);
+    std::optional<juce::String> restoreActuator(ParameterValues& values, std::size_t channel,
+                                                const std::optional<Profile>& profile);
 
     std::array<TableParameter*, parameterCount> table{}; // the base owns them
     HostedProject clips;
@@ -103,11 +123,8 @@ private:
     /// Guards what follows, and the preparation of the engine. Never taken by the audio thread, except when the host
     /// renders offline.
     mutable juce::CriticalSection setupLock;
-    std::size_t appliedSlot = 0;
-    std::optional<Profile> applied;
+    std::array<ChannelActuator, maxHapticChannels> actuators;
     double appliedStrength = 0.0;
-    bool tradesNow = false; ///< see tradesStrength()
-    std::optional<Profile> ownProfile;
     juce::String lastNote;
 
     std::atomic<int> program{0};

@@ -25,6 +25,12 @@ int sizeOf(const Json& tree, const char* name)
     return static_cast<int>(clampTo(found->get<double>(), 0.0, 10000.0));
 }
 
+/// Channels are counted from 1 for people.
+std::string channelName(std::size_t further)
+{
+    return std::to_string(further + 2);
+}
+
 void addNote(std::string& note, const std::string& more)
 {
     note += (note.empty() ? "" : "; ") + more;
@@ -64,6 +70,9 @@ std::string stateText(const PluginState& state)
     tree["program"] = state.program;
     if (state.profile)
         tree["profile"] = Json::parse(profileJson(*state.profile));
+    for (std::size_t i = 0; i < state.furtherProfiles.size(); ++i)
+        if (const auto& profile = state.furtherProfiles[i])
+            tree["furtherProfiles"][channelName(i)] = Json::parse(profileJson(*profile));
     if (state.windowWidth > 0 && state.windowHeight > 0)
         tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
     if (!state.clips.empty())
@@ -95,14 +104,22 @@ Result<ReadState> readState(std::string_view text)
     }
     if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
         read.state.clips = clips->dump();
-    if (const auto content = tree->find("profile"); content != tree->end() && !content->is_null())
+    const auto readContent = [&read](const Json& from, const std::string& name, const std::string& what)
     {
-        auto profile = readProfileJson(content->dump());
-        if (profile)
-            read.state.profile = std::move(profile).value();
+        std::optional<Profile> found;
+        const auto content = from.find(name);
+        if (content == from.end() || content->is_null())
+            return found;
+        if (auto profile = readProfileJson(content->dump()))
+            found = std::move(profile).value();
         else
-            addNote(read.note, "the actuator of the session cannot be read: " + profile.error().text());
-    }
+            addNote(read.note, what + " of the session cannot be read: " + profile.error().text());
+        return found;
+    };
+    read.state.profile = readContent(*tree, "profile", "the actuator");
+    if (const auto further = tree->find("furtherProfiles"); further != tree->end() && further->is_object())
+        for (std::size_t i = 0; i < read.state.furtherProfiles.size(); ++i)
+            read.state.furtherProfiles[i] = readContent(*further, channelName(i), "actuator " + channelName(i));
     return read;
 }
 

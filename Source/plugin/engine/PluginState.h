@@ -8,6 +8,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/foundation/Result.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ struct PluginState
 {
     ParameterValues values;
     std::optional<Profile> profile; ///< the content of the chosen one, so that a session sounds the same for ever
+    /// Likewise those of the haptic channels behind the first; none for one that follows that.
+    std::array<std::optional<Profile>, maxHapticChannels - 1> furtherProfiles;
     int program = 0;
     std::string clips;   ///< the project of the clip editor, as text; empty: none
     int windowWidth = 0; ///< 0: as it comes

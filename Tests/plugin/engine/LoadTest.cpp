@@ -100,3 +100,43 @@ TEST_CASE("What the plugin adds to its translator", "[.bench]")
     const double blocks = 48000.0 / frames;
     std::printf("a block of 256: translator %.2f us, plugin %.2f us\n", plain / blocks, wrapped / blocks);
 }
+
+TEST_CASE("What each further haptic channel takes", "[.bench]")
+{
+    constexpr int frames = 256;
+    const auto sound = liveSounds(2, 48000, 3);
+    const auto share = [&](int channels, int actuators, bool moving)
+    {
+        RigLayout layout;
+        layout.haptic = channels;
+        Rig rig(layout);
+        for (int c = 1; c < actuators; ++c)
+            rig.set(plugin::channelParameter(static_cast<std::size_t>(c), plugin::ChannelSetting::actuator), 1.0 + c);
+        rig.set(ParameterId::pan, moving ? 1.0 : 0.0);
+        rig.set(ParameterId::panLaw, 2.0);
+        rig.plugin.prepareToPlay(48000.0, frames);
+        juce::AudioBuffer<float> buffer(2 + std::max(channels, 1), frames);
+        juce::MidiBuffer midi;
+        double least = 1e9;
+        for (int repeat = 0; repeat < 40; ++repeat)
+        {
+            Clock::duration span{};
+            for (int block = 0; block < 187; ++block)
+            {
+                rig.set(ParameterId::position, 0.5 + 0.4 * std::sin(0.05 * block));
+                for (int c = 0; c < 2; ++c)
+                    buffer.copyFrom(c, 0, sound[static_cast<std::size_t>(c)].data() + block * frames, frames);
+                const auto begin = Clock::now();
+                rig.plugin.processBlock(buffer, midi);
+                span += Clock::now() - begin;
+            }
+            least = std::min(least, microseconds(span));
+        }
+        return 100.0 * least / (1e6 * 187 * frames / 48000.0); // % of one core
+    };
+    const double one = share(1, 1, false);
+    std::printf("one channel %.4f %% of one core; each further one: carries the same %.4f %%, moves by level and delay "
+                "%.4f %%, with an actuator of its own %.4f %%\n",
+                one, (share(8, 1, false) - one) / 7.0, (share(8, 1, true) - one) / 7.0,
+                (share(8, 8, false) - one) / 7.0);
+}
