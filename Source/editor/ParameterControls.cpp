@@ -94,7 +94,7 @@ void ParameterSlider::resized()
     if (shape == Shape::knob)
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else
-        title.setBounds(area.removeFromLeft(11 * grid - 2));
+        title.setBounds(area.removeFromLeft(title.getText().isEmpty() ? 0 : 11 * grid - 2));
     slider.setBounds(area);
 }
 

@@ -19,7 +19,7 @@ public:
     enum class Shape
     {
         knob, ///< name above, value below
-        bar   ///< name at the left, value at the right
+        bar   ///< name, if there is one, at the left, value at the right
     };
 
     /// `label` is what is shown, `name` what a screen reader says.

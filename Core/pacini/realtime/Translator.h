@@ -5,6 +5,7 @@
 #include <pacini/actuator/Protection.h>
 #include <pacini/filters/PolyphaseInterpolator.h>
 #include <pacini/foundation/DspBlock.h>
+#include <pacini/foundation/LargestMagnitude.h>
 #include <pacini/realtime/HandOver.h>
 #include <pacini/realtime/TranslatorDesign.h>
 #include <pacini/realtime/TranslatorEngine.h>
@@ -117,10 +118,7 @@ public:
         {
             const std::size_t n = std::min(longestPiece, in.size() - i);
             piece(in.subspan(i, n), out.subspan(i, n));
-            float largest = 0.0f;
-            for (const float y : out.subspan(i, n))
-                largest = std::abs(y) > largest ? std::abs(y) : largest;
-            peak = std::max(peak, static_cast<double>(largest));
+            peak = std::max(peak, static_cast<double>(largestMagnitude(out.subspan(i, n))));
             reduction = std::max(reduction, held->content.protection ? protection.gainReduction() : 0.0);
         }
         if (in.empty())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plugin/engine/LiveEngine.h"
 
+#include <pacini/foundation/LargestMagnitude.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -103,9 +105,7 @@ void LiveEngine::piece(std::span<const std::span<float>> main, std::span<const s
 {
     const auto in = std::span(source).first(frames);
     mix.process(main, sidechain, in);
-    float peak = 0.0f;
-    for (const float x : in)
-        peak = std::abs(x) > peak ? std::abs(x) : peak;
+    const float peak = largestMagnitude(in);
     if (peak > inputPeak.load(std::memory_order_relaxed))
         inputPeak.store(peak, std::memory_order_relaxed);
     ring.push(in);
@@ -173,9 +173,7 @@ void LiveEngine::meterPeaks(std::size_t frames) noexcept
 {
     for (std::size_t c = 0; c < channels; ++c)
     {
-        float peak = 0.0f;
-        for (const float x : std::span(drives[c]).first(frames))
-            peak = std::abs(x) > peak ? std::abs(x) : peak;
+        const float peak = largestMagnitude(std::span(drives[c]).first(frames));
         if (peak > peaks[c].load(std::memory_order_relaxed))
             peaks[c].store(peak, std::memory_order_relaxed);
     }

@@ -49,16 +49,6 @@ juce::String helpOf(ParameterId parameter)
     return rowOf(parameter).help;
 }
 
-/// The values that a menu offers: all but free slots.
-std::vector<int> offered(const ParameterRow& row)
-{
-    std::vector<int> values;
-    for (std::size_t i = 0; i < row.choices.size(); ++i)
-        if (row.parameter != ParameterId::profile || !profileNameOf(i).empty() || i == ownProfileSlot)
-            values.push_back(static_cast<int>(i));
-    return values;
-}
-
 bool systemIsDark()
 {
     return juce::Desktop::getInstance().isDarkModeActive();
@@ -107,15 +97,21 @@ PluginWindow::PluginWindow(Plugin& shown)
     actuator = choice(Id::profile);
     loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
     loadButton.setTitle("Load an actuator");
-    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this] { chooseActuator(); });
+    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this] { chooseActuator(0); });
     adopt(loadButton, nullptr);
     bypassToggle = toggle(Id::bypass, "Bypass");
+    actuatorsButton.setButtonText("Actuators");
+    actuatorsButton.setClickingTogglesState(true);
+    editor::prepareButton(actuatorsButton,
+                          "Several actuators: what each haptic channel plays, and what moves the touch over them",
+                          [this] { show(actuatorsButton.getToggleState() ? Page::actuators : Page::live); });
+    adopt(actuatorsButton, nullptr);
     clipsButton.setButtonText("Clips");
     clipsButton.setTitle("Clip editor");
     clipsButton.setClickingTogglesState(true);
     editor::prepareButton(clipsButton,
                           "Captured and opened clips, to see, edit and export; they are kept with the session",
-                          [this] { showClips(clipsButton.getToggleState()); });
+                          [this] { show(clipsButton.getToggleState() ? Page::clips : Page::live); });
     adopt(clipsButton, nullptr);
     editor::prepareButton(themeButton, "Light or dark", [this] { setDark(!look.isDark()); });
     adopt(themeButton, nullptr);
@@ -198,8 +194,8 @@ std::unique_ptr<editor::ParameterToggle> PluginWindow::toggle(ParameterId parame
 
 std::unique_ptr<editor::ParameterChoice> PluginWindow::choice(ParameterId parameter)
 {
-    auto made = std::make_unique<editor::ParameterChoice>(processor.parameter(parameter), offered(rowOf(parameter)),
-                                                          nameOf(parameter), helpOf(parameter));
+    auto made = std::make_unique<editor::ParameterChoice>(
+        processor.parameter(parameter), offeredValues(rowOf(parameter)), nameOf(parameter), helpOf(parameter));
     adopt(*made, made.get());
     return made;
 }
@@ -218,29 +214,43 @@ void PluginWindow::setDark(bool dark)
         onThemeChange();
 }
 
-void PluginWindow::showClips(bool wanted)
+void PluginWindow::show(Page wanted)
 {
-    if (wanted && !clipView)
+    if (wanted == Page::clips && !clipView)
     {
         clipView = std::make_unique<editor::EditorView>(processor.clips().session(), editor::HostServices{});
         clipView->setDark(look.isDark());
         clipView->setExplicitFocusOrder(++focusOrder);
         addChildComponent(*clipView);
     }
+    if (wanted == Page::actuators && !actuatorsPage)
+    {
+        actuatorsPage = std::make_unique<ActuatorsPage>(processor);
+        actuatorsPage->setExplicitFocusOrder(++focusOrder);
+        actuatorsPage->onLoad = [this](std::size_t channel)
+        {
+            chooseActuator(channel);
+        };
+        addChildComponent(*actuatorsPage);
+        actuatorsPage->sendLookAndFeelChange(); // it was made before it had this look
+    }
     // What is behind must not be reached by keys.
     for (juce::Component* child : getChildren())
         if (child->getY() >= headerHeight || child == &lamp)
-            child->setVisible(!wanted);
-    clipsButton.setToggleState(wanted, juce::dontSendNotification);
+            child->setVisible(wanted == Page::live);
+    actuatorsButton.setToggleState(wanted == Page::actuators, juce::dontSendNotification);
+    clipsButton.setToggleState(wanted == Page::clips, juce::dontSendNotification);
+    if (actuatorsPage)
+        actuatorsPage->setVisible(wanted == Page::actuators);
     if (clipView)
-        clipView->setVisible(wanted);
+        clipView->setVisible(wanted == Page::clips);
     resized();
     repaint();
 }
 
 void PluginWindow::editClip(const Clip& clip)
 {
-    showClips(true);
+    show(Page::clips);
     editor::Imported captured;
     captured.clip = clip;
     editor::Session& session = processor.clips().session();
@@ -259,6 +269,8 @@ void PluginWindow::refresh()
     const int program = processor.getCurrentProgram() + 1;
     if (programChoice.getSelectedId() != program)
         programChoice.setSelectedId(program, juce::dontSendNotification);
+    if (actuatorsPage && actuatorsPage->isVisible())
+        actuatorsPage->refresh();
     showMeters();
     showRouting();
     const juce::String text = statusText();
@@ -298,15 +310,15 @@ juce::String PluginWindow::statusText() const
     return processor.actuatorName() + ", latency " + juce::String(milliseconds, 2) + " ms";
 }
 
-void PluginWindow::chooseActuator()
+void PluginWindow::chooseActuator(std::size_t channel)
 {
     chooser = std::make_unique<juce::FileChooser>("Load an actuator", juce::File(), "*.json");
     chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                         [this](const juce::FileChooser& chosen)
+                         [this, channel](const juce::FileChooser& chosen)
                          {
                              if (chosen.getResult() == juce::File())
                                  return;
-                             const auto loaded = processor.loadActuator(chosen.getResult());
+                             const auto loaded = processor.loadActuator(chosen.getResult(), channel);
                              if (!loaded)
                                  juce::NativeMessageBox::showMessageBoxAsync(
                                      juce::MessageBoxIconType::WarningIcon, "Not a profile",
@@ -323,7 +335,7 @@ void PluginWindow::paint(juce::Graphics& g)
     g.setFont(editor::titleFont());
     g.drawText("Pacini", juce::Rectangle<int>(2 * grid, grid, 10 * grid, 4 * grid), juce::Justification::centredLeft,
                false);
-    if (clipView && clipView->isVisible())
+    if ((clipView && clipView->isVisible()) || (actuatorsPage && actuatorsPage->isVisible()))
         return;
     for (const Card& card : cards)
         editor::drawCard(g, card.area, card.name, palette);
@@ -339,6 +351,8 @@ void PluginWindow::resized()
         cards.push_back({area, name});
         return editor::insideOfCard(area);
     };
+    if (actuatorsPage)
+        actuatorsPage->setBounds(getLocalBounds().withTrimmedTop(headerHeight));
     if (clipView)
         clipView->setBounds(getLocalBounds().withTrimmedTop(headerHeight));
     auto area = getLocalBounds().reduced(grid);
@@ -409,6 +423,8 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     bypassToggle->setBounds(area.removeFromRight(9 * grid));
     area.removeFromRight(grid);
     clipsButton.setBounds(area.removeFromRight(8 * grid));
+    area.removeFromRight(grid);
+    actuatorsButton.setBounds(area.removeFromRight(10 * grid));
     area.removeFromRight(2 * grid);
     loadButton.setBounds(area.removeFromRight(9 * grid));
     area.removeFromRight(grid);

@@ -8,6 +8,7 @@
 #include "editor/ParameterControls.h"
 #include "editor/Theme.h"
 #include "editor/clip/EditorView.h"
+#include "plugin/window/ActuatorsPage.h"
 #include "plugin/window/CapturePanel.h"
 #include "plugin/window/Plugin.h"
 
@@ -33,8 +34,14 @@ public:
     /// Looks at everything that may have changed, as the timer does.
     void refresh();
     void setDark(bool dark);
-    /// The clip editor in the place of the live controls.
-    void showClips(bool wanted);
+    /// What is shown below the header.
+    enum class Page
+    {
+        live,
+        actuators,
+        clips
+    };
+    void show(Page wanted);
     [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
     std::function<void()> onThemeChange; ///< for what shares the look
 
@@ -47,7 +54,7 @@ private:
     std::unique_ptr<editor::ParameterToggle> toggle(ParameterId parameter, const juce::String& text);
     std::unique_ptr<editor::ParameterChoice> choice(ParameterId parameter);
     void adopt(juce::Component& component, editor::Refreshed* refreshed);
-    void chooseActuator();
+    void chooseActuator(std::size_t channel);
     void showMeters();
     void showRouting();
     void editClip(const Clip& clip);
@@ -63,7 +70,7 @@ private:
 
     juce::ComboBox programChoice;
     std::unique_ptr<editor::ParameterChoice> actuator;
-    juce::TextButton loadButton, themeButton, clipsButton;
+    juce::TextButton loadButton, themeButton, actuatorsButton, clipsButton;
     std::unique_ptr<editor::ParameterToggle> bypassToggle;
 
     std::unique_ptr<editor::ParameterChoice> sourceChoice;
@@ -84,7 +91,9 @@ private:
     std::unique_ptr<editor::ParameterSlider> sensitivity, sharpness, gateThreshold, gateRelease;
 
     CapturePanel capture;
-    std::unique_ptr<editor::EditorView> clipView; ///< made when it is shown for the first time
+    // Made when they are shown for the first time.
+    std::unique_ptr<ActuatorsPage> actuatorsPage;
+    std::unique_ptr<editor::EditorView> clipView;
     juce::Label status;
     std::unique_ptr<juce::FileChooser> chooser;
 

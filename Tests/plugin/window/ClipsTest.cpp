@@ -165,7 +165,7 @@ TEST_CASE("The window shows the clips in the place of the live controls and back
     };
     const int live = visible();
     CHECK(window.clipEditor() == nullptr);
-    window.showClips(true);
+    window.show(plugin::PluginWindow::Page::clips);
     REQUIRE(window.clipEditor() != nullptr);
     CHECK(window.clipEditor()->isVisible());
     CHECK(visible() < live);
@@ -173,6 +173,6 @@ TEST_CASE("The window shows the clips in the place of the live controls and back
     for (const auto* child : window.getChildren())
         if (child->isVisible() && child != window.clipEditor())
             CHECK(child->getBottom() <= window.clipEditor()->getY());
-    window.showClips(false);
+    window.show(plugin::PluginWindow::Page::live);
     CHECK(visible() == live);
 }

@@ -66,6 +66,41 @@ TEST_CASE("The window draws itself, light and dark, small and large, and its met
     CHECK(changed > 500);
 }
 
+TEST_CASE("The page of the actuators shows each haptic channel that there is, and its level")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    RigLayout layout;
+    layout.haptic = 3;
+    WindowRig rig(layout);
+    plugin::PluginWindow window(rig.plugin);
+    window.show(plugin::PluginWindow::Page::actuators);
+    rig.set(ParameterId::pan, 1.0);
+    rig.set(ParameterId::position, 0.0);
+    (void)rig.run(liveSounds(2, 24000, 3));
+    window.refresh();
+    CHECK(colours(window) > 20);
+    if (const char* picture = std::getenv("PACINI_PICTURE"))
+    {
+        window.setSize(1024, 648);
+        juce::File file(picture);
+        file.deleteFile();
+        juce::FileOutputStream stream(file);
+        juce::PNGImageFormat().writeImageToStream(window.createComponentSnapshot(window.getLocalBounds()), stream);
+    }
+    std::set<juce::String> enabled;
+    forEachChild(window,
+                 [&](juce::Component& child)
+                 {
+                     if (auto* box = dynamic_cast<juce::ComboBox*>(&child); box && box->isEnabled())
+                         enabled.insert(box->getTitle());
+                 });
+    CHECK(enabled.count("Actuator 2") == 1);
+    CHECK(enabled.count("Actuator 3") == 1);
+    CHECK(enabled.count("Actuator 4") == 0);
+    window.show(plugin::PluginWindow::Page::live);
+    CHECK(colours(window) > 20);
+}
+
 TEST_CASE("Every control has a name, a help text and a place that the keyboard reaches")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
