@@ -8,6 +8,7 @@
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace pacini::app
@@ -43,7 +44,11 @@ public:
         }
         if (choices.testSignal)
             routing.input = InputChoice::test;
-        routing.hapticOutput = choices.hapticOutput.value_or(routing.hapticOutput);
+        if (!choices.hapticOutputs.empty())
+        {
+            routing.hapticChannels = static_cast<int>(choices.hapticOutputs.size());
+            std::copy(choices.hapticOutputs.begin(), choices.hapticOutputs.end(), routing.hapticOutputs.begin());
+        }
         routing.mainOutput = choices.soundOutput.value_or(routing.mainOutput);
         rig->setRouting(routing);
         if (const auto error = rig->open(devices.get(), choices.deviceType); error.isNotEmpty())

@@ -32,6 +32,7 @@ juce::String AudioDevices::open(const juce::XmlElement* saved, const juce::Strin
 {
     const auto error = openDevice(manager, maxChannels, maxChannels, saved, deviceType);
     manager.addAudioCallback(this);
+    running = true;
     return error;
 }
 
@@ -54,19 +55,35 @@ Routing AudioDevices::routing() const noexcept
     now.mainInput = mainInput.load(std::memory_order_relaxed);
     now.sidechainInput = sidechainInput.load(std::memory_order_relaxed);
     now.mainOutput = mainOutput.load(std::memory_order_relaxed);
-    now.hapticOutput = hapticOutput.load(std::memory_order_relaxed);
-    now.hapticChannels = hapticChannels.load(std::memory_order_relaxed);
+    for (std::size_t c = 0; c < hapticOutputs.size(); ++c)
+        now.hapticOutputs[c] = hapticOutputs[c].load(std::memory_order_relaxed);
+    now.hapticChannels = hapticChannels;
     return now;
 }
 
-void AudioDevices::setRouting(const Routing& wanted) noexcept
+void AudioDevices::setRouting(const Routing& wanted)
 {
     input.store(wanted.input, std::memory_order_relaxed);
     mainInput.store(wanted.mainInput, std::memory_order_relaxed);
     sidechainInput.store(wanted.sidechainInput, std::memory_order_relaxed);
     mainOutput.store(wanted.mainOutput, std::memory_order_relaxed);
-    hapticOutput.store(wanted.hapticOutput, std::memory_order_relaxed);
-    hapticChannels.store(wanted.hapticChannels, std::memory_order_relaxed);
+    for (std::size_t c = 0; c < hapticOutputs.size(); ++c)
+        hapticOutputs[c].store(wanted.hapticOutputs[c], std::memory_order_relaxed);
+    setHapticChannels(std::clamp(wanted.hapticChannels, 1, static_cast<int>(plugin::maxHapticChannels)));
+}
+
+void AudioDevices::setHapticChannels(int count)
+{
+    if (count == hapticChannels)
+        return;
+    if (running)
+        manager.removeAudioCallback(this);
+    auto layout = processor.getBusesLayout();
+    layout.outputBuses.getReference(1) = juce::AudioChannelSet::canonicalChannelSet(count);
+    if (processor.setBusesLayout(layout))
+        hapticChannels = count;
+    if (running)
+        manager.addAudioCallback(this); // which prepares the processor
 }
 
 Result<void> AudioDevices::play(const juce::File& wanted)
@@ -177,7 +194,7 @@ void AudioDevices::audioDeviceIOCallbackWithContext(const float* const* in, int 
     for (int done = 0; done < frames; done += pieceFrames)
     {
         const int n = std::min(pieceFrames, frames - done);
-        buffer.setSize(3, n, false, false, true);
+        buffer.setSize(2 + std::max(now.hapticChannels, 1), n, false, false, true);
         fillInputs(now, in, ins, done, n);
         processor.processBlock(buffer, midi);
         if (now.mainOutput >= 0)
@@ -185,9 +202,8 @@ void AudioDevices::audioDeviceIOCallbackWithContext(const float* const* in, int 
             add(0, now.mainOutput, done, n);
             add(1, now.mainOutput + 1, done, n);
         }
-        if (now.hapticOutput >= 0)
-            for (int c = 0; c < now.hapticChannels; ++c)
-                add(2, now.hapticOutput + c, done, n);
+        for (int c = 0; c < now.hapticChannels; ++c)
+            add(2 + c, now.hapticOutputs[static_cast<std::size_t>(c)], done, n);
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Routing of the standalone program's sound device: the plugin's inputs, the sound's output, and the channel of the
-// actuator.
+// Routing of the standalone program's sound device: the plugin's inputs, the sound's output, and the channels of the
+// actuators.
 
 #include "app/LoadedSound.h"
 #include "app/TestSignal.h"
@@ -33,9 +33,9 @@ struct Routing
     InputChoice input = InputChoice::device;
     int mainInput = 0; ///< the first of two
     int sidechainInput = 2;
-    int mainOutput = 0; ///< the first of two, where the sound is heard
-    int hapticOutput = 2;
-    int hapticChannels = 1; ///< so many from hapticOutput on carry the drive
+    int mainOutput = 0;     ///< the first of two, where the sound is heard
+    int hapticChannels = 1; ///< of the plugin, 1 to 8
+    std::array<int, plugin::maxHapticChannels> hapticOutputs{2, -1, -1, -1, -1, -1, -1, -1}; ///< of each
     bool operator==(const Routing&) const = default;
 };
 
@@ -55,7 +55,8 @@ public:
     [[nodiscard]] juce::StringArray outputNames() const;
 
     [[nodiscard]] Routing routing() const noexcept;
-    void setRouting(const Routing& wanted) noexcept;
+    /// Sound stops for a moment where the number of haptic channels is another one. [message]
+    void setRouting(const Routing& wanted);
 
     /// Loads a file and plays it from its beginning. [message]
     Result<void> play(const juce::File& file);
@@ -72,19 +73,23 @@ private:
                                           const juce::AudioIODeviceCallbackContext& context) override;
     void fillInputs(const Routing& now, const float* const* in, int ins, int done, int frames) noexcept;
     void takeSound() noexcept;
+    void setHapticChannels(int count);
 
     plugin::PluginProcessor& processor;
     juce::AudioDeviceManager manager;
 
     std::atomic<InputChoice> input{InputChoice::device};
-    std::atomic<int> mainInput{0}, sidechainInput{2}, mainOutput{0}, hapticOutput{2}, hapticChannels{1};
+    std::atomic<int> mainInput{0}, sidechainInput{2}, mainOutput{0};
+    std::array<std::atomic<int>, plugin::maxHapticChannels> hapticOutputs{2, -1, -1, -1, -1, -1, -1, -1};
+    int hapticChannels = 1; ///< never changed while the callback may run
+    bool running = false;   ///< the callback may run
 
     juce::File file;
     std::unique_ptr<Sounds> sounds = std::make_unique<Sounds>();
     std::unique_ptr<Sounds::Node> sound; // the audio thread's
     std::size_t position = 0;
     TestSignal test;
-    juce::AudioBuffer<float> buffer{3, pieceFrames};
+    juce::AudioBuffer<float> buffer{2 + static_cast<int>(plugin::maxHapticChannels), pieceFrames};
     juce::MidiBuffer midi;
     /// Where a channel of the device lies among those that are switched on; -1: it is off.
     std::array<int, maxChannels> inputPlaces{}, outputPlaces{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/RoutingBar.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -14,7 +15,9 @@ using editor::grid;
 constexpr int none = 1; // menus know no item 0
 constexpr int testItem = 1000;
 constexpr int fileItem = 1001;
-constexpr int pairItems = 500; // a pair of channels from here on
+constexpr int rowItems = 10000;       // so many channels side by side: rowItems * channels + the first output
+constexpr int channelItems = 1000000; // an output for one of the channels: + rowItems * channel + output + 1
+constexpr int mostInRow = static_cast<int>(plugin::maxHapticChannels);
 
 juce::String channelText(const juce::StringArray& names, int channel)
 {
@@ -60,7 +63,8 @@ RoutingBar::RoutingBar(AudioDevices& wanted)
     addAndMakeVisible(fileButton);
     prepare(sidechain, sidechainLabel, "Sidechain", "The input that the source Sidechain listens to");
     prepare(heard, heardLabel, "Sound out", "Where the sound is heard");
-    prepare(haptic, hapticLabel, "Haptic out", "The output that the actuator's amplifier is connected to");
+    prepare(haptic, hapticLabel, "Haptic out",
+            "The output, or outputs, that the amplifiers of the actuators are connected to");
     rig.devices().addChangeListener(this);
     fillMenus();
 }
@@ -131,16 +135,78 @@ void RoutingBar::fillMenus()
         heard.addItem("Outputs " + juce::String(c + 1) + "+" + juce::String(c + 2), c + 2);
     heard.setSelectedId(now.mainOutput + 1 < outs.size() ? now.mainOutput + 2 : none, juce::dontSendNotification);
 
+    fillHapticMenu(now, outs);
+}
+
+/// One actuator, several side by side, or each somewhere.
+void RoutingBar::fillHapticMenu(const Routing& now, const juce::StringArray& outputs)
+{
+    const auto outputText = [&](int output)
+    {
+        return output >= 0 && output < outputs.size() ? juce::String(output + 1) : juce::String::fromUTF8("–");
+    };
     haptic.clear(juce::dontSendNotification);
-    haptic.addItem("Nowhere", none);
-    for (int c = 0; c < outs.size(); ++c)
-        haptic.addItem(channelText(outs, c), c + 2);
-    for (int c = 0; c + 1 < outs.size(); c += 2)
-        haptic.addItem("Both of " + juce::String(c + 1) + "+" + juce::String(c + 2), pairItems + c);
-    haptic.setSelectedId(now.hapticOutput + now.hapticChannels > outs.size() || now.hapticOutput < 0 ? none
-                         : now.hapticChannels == 2 ? pairItems + now.hapticOutput
-                                                   : now.hapticOutput + 2,
-                         juce::dontSendNotification);
+    auto& menu = *haptic.getRootMenu();
+    menu.addItem(none, "Nowhere");
+    for (int c = 0; c < outputs.size(); ++c)
+        menu.addItem(c + 2, channelText(outputs, c));
+    menu.addSeparator();
+    for (int channels = 2; channels <= std::min(mostInRow, outputs.size()); ++channels)
+    {
+        juce::PopupMenu firsts;
+        for (int c = 0; c + channels <= outputs.size(); ++c)
+            firsts.addItem(rowItems * channels + c,
+                           "Outputs " + juce::String(c + 1) + " to " + juce::String(c + channels));
+        menu.addSubMenu(juce::String(channels) + " actuators", firsts);
+    }
+    if (now.hapticChannels > 1)
+    {
+        menu.addSeparator();
+        for (int channel = 0; channel < now.hapticChannels; ++channel)
+        {
+            const int output = now.hapticOutputs[static_cast<std::size_t>(channel)];
+            juce::PopupMenu places;
+            const auto add = [&](int to, const juce::String& text)
+            {
+                places.addItem(channelItems + rowItems * channel + to + 1, text, true, to == output);
+            };
+            add(-1, "Nowhere");
+            for (int c = 0; c < outputs.size(); ++c)
+                add(c, channelText(outputs, c));
+            menu.addSubMenu("Actuator " + juce::String(channel + 1) + ": " + outputText(output), places);
+        }
+    }
+    const int first = now.hapticOutputs[0];
+    if (now.hapticChannels == 1)
+    {
+        haptic.setSelectedId(first >= 0 && first < outputs.size() ? first + 2 : none, juce::dontSendNotification);
+        return;
+    }
+    juce::StringArray texts;
+    for (int channel = 0; channel < now.hapticChannels; ++channel)
+        texts.add(outputText(now.hapticOutputs[static_cast<std::size_t>(channel)]));
+    haptic.setSelectedId(0, juce::dontSendNotification);
+    haptic.setText(texts.joinIntoString(", "), juce::dontSendNotification);
+}
+
+void RoutingBar::readHapticMenu(Routing& wanted) const
+{
+    const int chosen = haptic.getSelectedId();
+    if (chosen == 0)
+        return; // as it was
+    if (chosen >= channelItems)
+    {
+        const int channel = (chosen - channelItems) / rowItems;
+        wanted.hapticOutputs[static_cast<std::size_t>(channel)] = (chosen - channelItems) % rowItems - 1;
+        return;
+    }
+    wanted.hapticChannels = chosen >= rowItems ? chosen / rowItems : 1;
+    wanted.hapticOutputs.fill(-1);
+    if (chosen >= rowItems)
+        for (int c = 0; c < wanted.hapticChannels; ++c)
+            wanted.hapticOutputs[static_cast<std::size_t>(c)] = chosen % rowItems + c;
+    else
+        wanted.hapticOutputs[0] = chosen - 2;
 }
 
 void RoutingBar::readMenus()
@@ -152,10 +218,9 @@ void RoutingBar::readMenus()
         wanted.mainInput = in - 2;
     wanted.sidechainInput = sidechain.getSelectedId() - 2;
     wanted.mainOutput = heard.getSelectedId() - 2;
-    const int out = haptic.getSelectedId();
-    wanted.hapticChannels = out >= pairItems ? 2 : 1;
-    wanted.hapticOutput = out >= pairItems ? out - pairItems : out - 2;
+    readHapticMenu(wanted);
     rig.setRouting(wanted);
+    fillHapticMenu(wanted, rig.outputNames());
 }
 
 void RoutingBar::chooseFile()

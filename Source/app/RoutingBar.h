@@ -29,6 +29,8 @@ private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { fillMenus(); }
     void fillMenus();
     void readMenus();
+    void fillHapticMenu(const Routing& now, const juce::StringArray& outputs);
+    void readHapticMenu(Routing& wanted) const;
     void chooseFile();
 
     AudioDevices& rig;

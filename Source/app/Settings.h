@@ -8,6 +8,7 @@
 #include <juce_data_structures/juce_data_structures.h>
 
 #include <optional>
+#include <vector>
 
 namespace pacini::app
 {
@@ -19,7 +20,8 @@ struct CommandLineChoices
     bool testSignal = false;
     juce::String deviceType;
     juce::File file;
-    std::optional<int> hapticOutput, soundOutput; ///< from 0, -1: none
+    std::vector<int> hapticOutputs; ///< of each channel from the first on, from 0, -1: none; empty: as remembered
+    std::optional<int> soundOutput; ///< likewise
 };
 
 /// Returns the code to end with where the program is not to start: see readCommandLine().
