@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace pacini::plugin
@@ -26,10 +27,12 @@ public:
     }
     void reset() noexcept { begun = false; }
 
-    void aim(OutputMode wanted, std::size_t channelIndex, bool bypassed) noexcept
+    /// `channel` and how many from there on the drives are added to.
+    void aim(OutputMode wanted, std::size_t channel, std::size_t channelCount, bool bypassed) noexcept
     {
         mode = wanted;
-        chosen = channelIndex;
+        chosen = channel;
+        count = channelCount;
         if (begun)
             active.aim(bypassed ? 0.0f : 1.0f);
         else
@@ -76,9 +79,9 @@ public:
                 put(main[1], first, gain);
             break;
         case OutputMode::addToChannel:
-            if (chosen < main.size())
-                for (std::size_t i = 0; i < first.size(); ++i)
-                    main[chosen][i] += first[i];
+            for (std::size_t c = 0; c < std::min(count, drives.size()) && chosen + c < main.size(); ++c)
+                std::transform(drives[c].begin(), drives[c].end(), main[chosen + c].begin(), main[chosen + c].begin(),
+                               std::plus<>());
             break;
         }
     }
@@ -111,7 +114,7 @@ private:
 
     GainRamp active;
     OutputMode mode = OutputMode::separate;
-    std::size_t chosen = 0;
+    std::size_t chosen = 0, count = 1;
     bool begun = false;
 };
 

@@ -74,9 +74,12 @@ void LiveEngine::process(const EngineBlock& block, const ParameterValues& values
     mix.aim(choice, values[ParameterId::sourceMix]);
     hearsSidechain = choice == SourceChoice::sidechain;
     const auto mode = static_cast<OutputMode>(values.index(ParameterId::outputMode));
-    routing.aim(mode, values.index(ParameterId::outputChannel) - 1, bypassed || values.isOn(ParameterId::bypass));
+    const std::size_t added = mode == OutputMode::addToChannel ? values.index(ParameterId::outputCount) : 1;
+    routing.aim(mode, values.index(ParameterId::outputChannel) - 1, added,
+                bypassed || values.isOn(ParameterId::bypass));
     // Where the drives take the place of the sound, each of its channels has one.
-    const std::size_t wanted = std::max(block.haptic.size(), mode == OutputMode::replaceMain ? block.main.size() : 1);
+    const std::size_t wanted =
+        std::max(block.haptic.size(), mode == OutputMode::replaceMain ? block.main.size() : added);
     channels = std::clamp<std::size_t>(wanted, 1, row.channels());
     inUse.store(channels, std::memory_order_relaxed);
     row.aim(values, channels);

@@ -45,6 +45,7 @@ enum class ParameterId : std::size_t
     position,
     panLaw,
     places,
+    outputCount,
     firstChannel, ///< see channelParameter()
     count = firstChannel + 31
 };
@@ -95,7 +96,7 @@ enum class OutputMode
     replaceMain,   ///< the drive on every channel
     rightHaptic,   ///< channel 2 is the drive, the others as they came
     monoAndHaptic, ///< channel 1 is the mean of all channels, channel 2 the drive
-    addToChannel   ///< the drive is added to one channel
+    addToChannel   ///< the drives are added to a channel and, for further haptic channels, those behind it
 };
 
 /// What moves the touch over the haptic channels.
@@ -157,7 +158,7 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
     {ParameterId::outputMode, "outputMode", 1, "Main output", ParameterUnit::choice, 0, 4, 0, 0, outputModeChoices,
      "Signal of the main output, for hosts that give an effect no other output"},
     {ParameterId::outputChannel, "outputChannel", 1, "Haptic channel", ParameterUnit::number, 1, 16, 4, 0, {},
-     "The channel of the main output that the haptic signal is added to"},
+     "The channel of the main output that the haptic signal is added to, the first of several"},
     {ParameterId::profile, "profile", 1, "Actuator", ParameterUnit::choice, 0, profileSlots - 1, 0, 0, profileChoices,
      "The actuator that the signal is made for"},
     {ParameterId::inputGain, "inputGain", 1, "Input gain", ParameterUnit::decibels, -60, 48, 0, 0, {},
@@ -209,6 +210,8 @@ inline constexpr std::array<ParameterRow, parameterCount> parameterTable{{
      "Whether the touch moves by level, by delay (10 ms from end to end) or both"},
     {ParameterId::places, "places", 3, "Places", ParameterUnit::choice, 0, 1, 0, 0, placesChoices,
      "Where the channels are: in an even row in their order, or where each is set"},
+    {ParameterId::outputCount, "outputCount", 3, "Added channels", ParameterUnit::number, 1, maxHapticChannels, 1, 0, {},
+     "How many haptic channels are added to the main output, from the haptic channel on"},
     {channelParameter(0, ChannelSetting::gain), "gain1", 3, "Gain 1", ParameterUnit::decibels, -60, 0, 0, -12, {},
      "Gain of haptic channel 1, behind the protection of its actuator"},
     {channelParameter(0, ChannelSetting::delay), "delay1", 3, "Delay 1", ParameterUnit::milliseconds, 0, 100, 0, 20, {},

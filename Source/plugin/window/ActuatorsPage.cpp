@@ -63,6 +63,7 @@ ActuatorsPage::ActuatorsPage(PluginProcessor& shown) : processor(shown)
             editor::LevelMeter::Scale{.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f});
         addAndMakeVisible(*row.meter);
     }
+    outputCount = slider(ParameterId::outputCount, "Added");
     hint.setFont(editor::smallFont());
     hint.setTitle("Channels");
     addAndMakeVisible(hint);
@@ -117,10 +118,13 @@ void ActuatorsPage::refresh()
         row.meter->setEnabled(isThere);
         row.meter->show(isThere ? 20.0 * std::log10(static_cast<double>(processor.takePeak(c))) : -1000.0);
     }
+    outputCount->setEnabled(values.index(ParameterId::outputMode) ==
+                            static_cast<std::size_t>(OutputMode::addToChannel));
     const juce::String text =
-        used == 1 ? "One haptic channel is played. Give the plugin's haptic output more channels in the host, or let "
-                    "\"Haptic replaces sound\" play on the channels of the main output."
-                  : juce::String(static_cast<int>(used)) + " haptic channels are played";
+        used == 1
+            ? "One haptic channel is played. For more, give the haptic output more channels in the host, or choose "
+              "\"Haptic replaces sound\" or \"Haptic added to one channel\" as main output."
+            : juce::String(static_cast<int>(used)) + " haptic channels are played";
     if (text != hint.getText())
         hint.setText(text, juce::dontSendNotification);
 }
@@ -188,7 +192,9 @@ void ActuatorsPage::resized()
         rows[c].delay->setBounds(control(delayColumn));
         rows[c].meter->setBounds(columns[meterColumn]);
     }
-    hint.setBounds(lineOf(maxHapticChannels + 1));
+    auto last = lineOf(maxHapticChannels + 1);
+    outputCount->setBounds(last.removeFromRight(32 * grid).withHeight(controlHeight));
+    hint.setBounds(last.withTrimmedRight(grid));
 }
 
 void ActuatorsPage::paint(juce::Graphics& g)

@@ -53,7 +53,7 @@ private:
     std::vector<editor::Refreshed*> refreshed;
     int focusOrder = 0;
     std::unique_ptr<editor::ParameterChoice> pan, law, places;
-    std::unique_ptr<editor::ParameterSlider> position;
+    std::unique_ptr<editor::ParameterSlider> position, outputCount;
     std::array<Row, maxHapticChannels> rows;
     juce::Label hint;
 };

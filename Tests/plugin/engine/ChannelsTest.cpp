@@ -179,6 +179,26 @@ TEST_CASE("Where drives take the place of the sound its channels are the row")
     CHECK(restingEnergy(out.main[1]) > 0.0);
 }
 
+TEST_CASE("Several drives are added to the channels behind the sound, for hosts without a haptic output")
+{
+    auto in = liveSounds(4, frames, 22);
+    std::fill(in[2].begin(), in[2].end(), 0.0f);
+    std::fill(in[3].begin(), in[3].end(), 0.0f);
+    Rig rig(channelsOf(1, 4));
+    rig.set(ParameterId::outputMode, static_cast<double>(plugin::OutputMode::addToChannel));
+    rig.set(ParameterId::outputChannel, 3.0);
+    rig.set(ParameterId::outputCount, 2.0);
+    set(rig, 1, ChannelSetting::delay, 5.0);
+    rig.plugin.reset();
+    const auto out = rig.run(in);
+    CHECK(out.main[2] == out.haptic[0]);
+    const auto late = delayed(out.main[2], 240);
+    for (std::size_t i = 0; i < frames; ++i)
+        REQUIRE(out.main[3][i] == Approx(late[i]).margin(1e-6));
+    const auto latency = static_cast<std::size_t>(rig.plugin.getLatencySamples());
+    CHECK(out.main[0] == delayed(in[0], latency));
+}
+
 TEST_CASE("Blocks leave no trace in moving channels")
 {
     const auto in = liveSounds(2, frames, 19);
