@@ -2,9 +2,10 @@
 
 #if !defined(_WIN32)
 
+#include "devices/RawReport.h"
+
 #include <signal.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -41,8 +42,8 @@ bool EmergencyStop::writeAll() noexcept
     for (Place& place : places)
         if (const int descriptor = place.descriptor.load(std::memory_order_acquire); descriptor >= 0)
         {
-            const auto report = place.stops[place.sent.fetch_add(1) % place.stops.size()].content();
-            any = ::write(descriptor, report.data(), report.size()) >= 0 || any;
+            const Report& report = place.stops[place.sent.fetch_add(1) % place.stops.size()];
+            any = writeRawReport(descriptor, report) >= 0 || any;
         }
     return any;
 }
@@ -88,8 +89,6 @@ void installHandlers() noexcept
 
 EmergencyStop::EmergencyStop(int fileDescriptor) noexcept : descriptor(fileDescriptor)
 {
-    static std::once_flag installed;
-    std::call_once(installed, installHandlers);
     for (Place& free : places)
         if (!free.taken.exchange(true))
         {
@@ -110,6 +109,8 @@ void EmergencyStop::arm(const StopReports& stops) noexcept
 {
     if (place == nullptr)
         return;
+    static std::once_flag installed;
+    std::call_once(installed, installHandlers);
     place->stops = stops;
     place->sent.store(0);
     place->descriptor.store(descriptor, std::memory_order_release);
