@@ -20,7 +20,7 @@ namespace pacini::devices
 struct EmergencyStop::Place
 {
     std::atomic<bool> taken{false};
-    std::atomic<int> descriptor{-1}; ///< -1: nothing to write
+    std::atomic<int> descriptor{0}; ///< and 1; 0: nothing to write. All zeros take no room in a library
     std::atomic<unsigned> sent{0};
     StopReports stops;
 };
@@ -40,7 +40,7 @@ bool EmergencyStop::writeAll() noexcept
 {
     bool any = false;
     for (Place& place : places)
-        if (const int descriptor = place.descriptor.load(std::memory_order_acquire); descriptor >= 0)
+        if (const int descriptor = place.descriptor.load(std::memory_order_acquire) - 1; descriptor >= 0)
         {
             const Report& report = place.stops[place.sent.fetch_add(1) % place.stops.size()];
             any = writeRawReport(descriptor, report) >= 0 || any;
@@ -101,7 +101,7 @@ EmergencyStop::~EmergencyStop()
 {
     if (place == nullptr)
         return;
-    place->descriptor.store(-1);
+    place->descriptor.store(0);
     place->taken.store(false);
 }
 
@@ -113,7 +113,7 @@ void EmergencyStop::arm(const StopReports& stops) noexcept
     std::call_once(installed, installHandlers);
     place->stops = stops;
     place->sent.store(0);
-    place->descriptor.store(descriptor, std::memory_order_release);
+    place->descriptor.store(descriptor + 1, std::memory_order_release);
 }
 
 void EmergencyStop::count() noexcept

@@ -3,6 +3,7 @@
 #if defined(PACINI_HAS_HIDAPI)
 #include <hidapi.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -143,6 +144,14 @@ Result<std::vector<Controller>> controllersByHidapi()
             continue;
         controllers.push_back(std::move(controller));
     }
+    // A device with several uses is listed once for each.
+    std::sort(controllers.begin(), controllers.end(),
+              [](const Controller& a, const Controller& b) { return a.path < b.path; });
+    const auto samePath = [](const Controller& a, const Controller& b)
+    {
+        return a.path == b.path;
+    };
+    controllers.erase(std::unique(controllers.begin(), controllers.end(), samePath), controllers.end());
     return controllers;
 }
 

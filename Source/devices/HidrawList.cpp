@@ -128,21 +128,18 @@ std::optional<Controller> controllerOf(const std::string& node)
     return controller;
 }
 
-void keepSending(std::vector<Controller>& controllers)
+/// The nodes by the names of their files, in order.
+std::vector<std::string> nodes()
 {
-    std::vector<std::string> ofReceivers;
-    for (const Controller& controller : controllers)
-        if (controller.transport == Transport::receiver)
-            ofReceivers.push_back(controller.path);
-    if (ofReceivers.size() < 2)
-        return;
-    const auto sending = sendingNodes(ofReceivers);
-    const auto isUnused = [&](const Controller& controller)
-    {
-        return controller.transport == Transport::receiver &&
-               std::find(sending.begin(), sending.end(), controller.path) == sending.end();
-    };
-    controllers.erase(std::remove_if(controllers.begin(), controllers.end(), isUnused), controllers.end());
+    std::vector<std::string> names;
+    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(allNodes), &::closedir);
+    if (!folder) // without any device, Linux may have no such folder
+        return names;
+    while (const dirent* const entry = ::readdir(folder.get()))
+        if (entry->d_name[0] != '.')
+            names.emplace_back(entry->d_name);
+    std::sort(names.begin(), names.end());
+    return names;
 }
 } // namespace
 
@@ -167,14 +164,23 @@ std::vector<std::string> sendingNodes(const std::vector<std::string>& nodes)
 Result<std::vector<Controller>> hidrawControllers()
 {
     std::vector<Controller> controllers;
-    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(allNodes), &::closedir);
-    if (!folder) // without any device, Linux may have no such folder
+    std::vector<std::string> ofReceivers;
+    for (const std::string& node : nodes())
+        if (auto controller = controllerOf(node))
+        {
+            if (controller->transport == Transport::receiver)
+                ofReceivers.push_back(controller->path);
+            controllers.push_back(std::move(*controller));
+        }
+    if (ofReceivers.size() < 2)
         return controllers;
-    while (const dirent* const entry = ::readdir(folder.get()))
-        if (entry->d_name[0] != '.')
-            if (auto controller = controllerOf(entry->d_name))
-                controllers.push_back(std::move(*controller));
-    keepSending(controllers);
+    const auto sending = sendingNodes(ofReceivers);
+    const auto isUnused = [&](const Controller& controller)
+    {
+        return controller.transport == Transport::receiver &&
+               std::find(sending.begin(), sending.end(), controller.path) == sending.end();
+    };
+    controllers.erase(std::remove_if(controllers.begin(), controllers.end(), isUnused), controllers.end());
     return controllers;
 }
 
