@@ -9,6 +9,8 @@ namespace pacini
 
 [[nodiscard]] bool isAndroidJson(std::string_view bytes);
 [[nodiscard]] bool isAndroidXml(std::string_view bytes);
+[[nodiscard]] bool isAndroidEnvelopeXml(std::string_view bytes);
+[[nodiscard]] bool isAndroidBasicXml(std::string_view bytes);
 [[nodiscard]] bool isAndroidKotlin(std::string_view bytes);
 [[nodiscard]] bool isAndroidJava(std::string_view bytes);
 
@@ -25,6 +27,11 @@ namespace pacini
 
 /// The waveform as a `vibration-effect` document; with `split` the envelopes too, each in its file.
 [[nodiscard]] Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params);
+
+/// The envelope of androidEnvelopeOf() as a `vibration-effect` document with a `waveform-envelope-effect` (amplitude,
+/// frequencyHz) or a `basic-envelope-effect` (intensity, sharpness). Errors: those of androidEnvelopeOf().
+[[nodiscard]] Result<ExportedClip> writeAndroidEnvelopeXml(const Clip& clip, const ExportParams& params);
+[[nodiscard]] Result<ExportedClip> writeAndroidBasicXml(const Clip& clip, const ExportParams& params);
 
 /// A function that returns the effect: the envelope from API 36 on where the device plays it, before the waveform.
 [[nodiscard]] Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params);
