@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -254,6 +255,40 @@ TEST_CASE("An engine may be destroyed while another thread renders it")
         require(pacini_engine_destroy(engine));
         audio.join();
     }
+    require(pacini_clip_release(clip));
+}
+
+// What is freed while it is read shows with a sanitizer, and as a state that is not the play's own.
+TEST_CASE("Plays that end on the audio thread while others start in their slots keep their own states")
+{
+    const pacini_clip clip = loaded(hum);
+    const pacini_engine engine = created();
+    std::atomic<bool> ends{false};
+    std::thread audio(
+        [&]
+        {
+            std::vector<float> out(16);
+            float* channels[] = {out.data()};
+            while (!ends)
+                pacini_render(engine, channels, 1, 16);
+        });
+    pacini_play_settings settings;
+    pacini_play_settings_init(&settings);
+    settings.from = 0.99;
+    for (int i = 0; i < 3000; ++i)
+    {
+        pacini_play play = 0;
+        if (pacini_play_start(engine, clip, &settings, &play) != PACINI_OK)
+            continue; // as many as there may be
+        settings.from = i % 100 == 0 ? 0.0 : 0.99;
+        if (settings.from == 0.0)
+            continue;
+        const int state = infoOf(play).state;
+        CHECK((state == PACINI_WAITING || state == PACINI_PLAYING || state == PACINI_ENDED));
+    }
+    ends = true;
+    audio.join();
+    require(pacini_engine_destroy(engine));
     require(pacini_clip_release(clip));
 }
 
