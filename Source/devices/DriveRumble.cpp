@@ -62,7 +62,7 @@ void DriveMeasure::add(std::span<const float> samples) noexcept
         part.filter.process(samples, filtered);
         for (const float sample : filtered)
         {
-            const double x = sample;
+            const auto x = static_cast<double>(sample);
             part.power += x * x;
             part.pitchPower += x * x;
             part.pitchSteps += (x - part.last) * (x - part.last);

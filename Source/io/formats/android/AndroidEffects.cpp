@@ -62,7 +62,6 @@ Peaks withPeaks(const SingleVoice& voice)
 struct Target
 {
     double amplitude = 0.0, frequency = 0.0;
-    bool isEvent = false;
 };
 
 /// Both curves at the ms at which either bends; a step takes one ms.
@@ -73,7 +72,7 @@ std::map<std::int64_t, Target> targetsOf(const Peaks& peaks, const Curve& freque
     for (const Breakpoint& point : peaks.amplitude)
     {
         const std::int64_t tick = std::max(androidTick(point.time), last + 1);
-        targets[tick] = {point.value, valueAt(frequency, point.time), false};
+        targets[tick] = {point.value, valueAt(frequency, point.time)};
         last = tick;
     }
     const std::int64_t room = keepsPoints ? 1 : androidTick(steepest);
@@ -83,14 +82,11 @@ std::map<std::int64_t, Target> targetsOf(const Peaks& peaks, const Curve& freque
         const auto next = targets.lower_bound(tick);
         if ((next == targets.end() || next->first >= tick + room) &&
             (next == targets.begin() || std::prev(next)->first + room <= tick))
-            targets[tick] = {valueAt(peaks.amplitude, point.time), point.value, false};
+            targets[tick] = {valueAt(peaks.amplitude, point.time), point.value};
     }
     for (const Breakpoint& top : peaks.frequency)
         if (const auto at = targets.find(androidTick(top.time)); at != targets.end())
-        {
             at->second.frequency = top.value;
-            at->second.isEvent = true;
-        }
     return targets;
 }
 
@@ -100,8 +96,7 @@ std::vector<EnvelopeNode> nodesOf(const std::map<std::int64_t, Target>& targets,
     std::vector<EnvelopeNode> nodes{{0, 0.0, targets.begin()->second.frequency}};
     for (const auto& [tick, target] : targets)
         if (tick > 0 || target.amplitude > 0.0)
-            nodes.push_back(
-                {std::max(tick, nodes.back().tick + 1), target.amplitude, target.frequency, target.isEvent});
+            nodes.push_back({std::max(tick, nodes.back().tick + 1), target.amplitude, target.frequency});
     if (nodes.back().amplitude > 0.0 || nodes.size() == 1)
         nodes.push_back({std::max(end, nodes.back().tick + 1), 0.0, nodes.back().frequency});
     return nodes;

@@ -2,6 +2,7 @@
 
 #include "io/formats/VoiceReduction.h"
 
+#include <pacini/simplify/Refit.h>
 #include <pacini/simplify/Simplify.h>
 
 #include <fmt/format.h>
@@ -20,7 +21,6 @@ namespace
 {
 constexpr double tolerance = 0.5 * leastAmplitude;
 constexpr double octaveWeight = 0.25; // in amplitude, of an octave at full amplitude
-constexpr double eventWeight = 50.0;  // ms
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// How much an error of the frequency of a node counts, per Hz.
@@ -124,8 +124,7 @@ private:
     void addWithin(std::size_t k, const EnvelopeNode& end, LineSums& amplitude, LineSums& frequency) const noexcept
     {
         const EnvelopeNode& node = nodes[k];
-        const double weight =
-            0.5 * static_cast<double>(nodes[k + 1].tick - nodes[k - 1].tick) + (node.isEvent ? eventWeight : 0.0);
+        const double weight = 0.5 * static_cast<double>(nodes[k + 1].tick - nodes[k - 1].tick);
         const auto t = static_cast<double>(node.tick - end.tick);
         amplitude.add(weight, t, node.amplitude - end.amplitude);
         const double of = frequencyWeight(node);
@@ -170,13 +169,14 @@ std::vector<EnvelopeNode> fewerNodes(const std::vector<EnvelopeNode>& nodes, std
     return fewer;
 }
 
-/// With places that are as far from each node as the next may be nearest: what stands there bends as little as any, but
-/// can be chosen beside the node.
+/// With places around each node, up to twice as far as the next may be nearest: what stands there bends no more, but
+/// can be chosen where the node is too near to another.
 std::vector<EnvelopeNode> withNeighbours(const std::vector<EnvelopeNode>& nodes, std::int64_t distance)
 {
     std::vector<std::int64_t> ticks;
     for (const EnvelopeNode& node : nodes)
-        for (const std::int64_t tick : {node.tick - distance, node.tick, node.tick + distance})
+        for (const std::int64_t tick : {node.tick - distance, node.tick - distance / 2, node.tick,
+                                        node.tick + distance / 2, node.tick + distance, node.tick + 2 * distance})
             if (tick >= nodes.front().tick && tick <= nodes.back().tick)
                 ticks.push_back(tick);
     std::sort(ticks.begin(), ticks.end());
@@ -209,6 +209,31 @@ std::vector<EnvelopeNode> pick(const std::vector<EnvelopeNode>& nodes, const std
     for (const std::size_t i : kept)
         picked.push_back(nodes[i]);
     return picked;
+}
+
+/// The same places with the levels that are nearest to all nodes, where they are not near enough as they are.
+std::vector<EnvelopeNode> levelled(const std::vector<EnvelopeNode>& nodes, std::vector<EnvelopeNode> chosen)
+{
+    Curve dense, vertices;
+    std::vector<double> weights;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+        dense.push_back({androidTime(nodes[k].tick), nodes[k].amplitude});
+        weights.push_back(static_cast<double>(nodes[std::min(k + 1, nodes.size() - 1)].tick -
+                                              nodes[std::max<std::size_t>(k, 1) - 1].tick));
+    }
+    weights.front() = weights.back() = 1e6 * static_cast<double>(nodes.back().tick); // the ends stay
+    for (const EnvelopeNode& node : chosen)
+        vertices.push_back({androidTime(node.tick), node.amplitude});
+    double worst = 0.0;
+    for (const Breakpoint& point : dense)
+        worst = std::max(worst, std::abs(valueAt(vertices, point.time) - point.value));
+    if (worst <= 1.5 * tolerance)
+        return chosen;
+    const Curve best = refit(dense, vertices, weights, {.lowest = 0.0});
+    for (std::size_t n = 1; n + 1 < chosen.size(); ++n)
+        chosen[n].amplitude = std::min(best[n].value, 1.0);
+    return chosen;
 }
 
 /// The choice with the most points that are allowed; none when that is too few for the segmenter. `dearest`: a price
@@ -286,7 +311,7 @@ Result<std::vector<EnvelopeNode>> fittedNodes(std::vector<EnvelopeNode> nodes, c
     {
         Segmenter segmenter(nodes, limits, window);
         if (auto kept = cheapest(segmenter, limits.points, static_cast<double>(length)); !kept.empty())
-            return pick(nodes, kept);
+            return levelled(nodes, pick(nodes, kept));
         window = nodes.size(); // few points that are far apart
     }
 }
