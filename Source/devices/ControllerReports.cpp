@@ -150,11 +150,13 @@ std::vector<TimedReport> closingReports(const ControllerModel& model, unsigned c
 StopReports stopReports(const ControllerModel& model) noexcept
 {
     StopReports stops;
+    const std::uint8_t format = steamStream(model.transport).format;
     for (unsigned i = 0; i < stops.size(); ++i)
-        stops[i] = model.haptics == ControllerHaptics::steamController
-                       ? steamSwitchReport(SteamSwitch::off, bothPairs[i % bothPairs.size()],
-                                           steamStream(model.transport).format)
-                       : reportOf(model, silentState(model.haptics), i);
+        if (model.haptics == ControllerHaptics::steamController)
+            stops[i] = {steamSwitchReport(SteamSwitch::off, SteamPair::grips, format),
+                        steamSwitchReport(SteamSwitch::off, SteamPair::trackpads, format)};
+        else
+            stops[i].report = reportOf(model, silentState(model.haptics), i);
     return stops;
 }
 

@@ -85,8 +85,7 @@ struct TimedReport
 /// samples. [worker]
 [[nodiscard]] std::vector<TimedReport> closingReports(const ControllerModel& model, unsigned counter);
 
-/// What silences a controller should the program crash; two are written. A Steam Controller is told of its grips by one
-/// and of its trackpads by the other. [worker]
+/// What silences a controller should the program crash. [worker]
 [[nodiscard]] StopReports stopReports(const ControllerModel& model) noexcept;
 
 } // namespace pacini::devices

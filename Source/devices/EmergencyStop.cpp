@@ -42,8 +42,10 @@ bool EmergencyStop::writeAll() noexcept
     for (Place& place : places)
         if (const int descriptor = place.descriptor.load(std::memory_order_acquire) - 1; descriptor >= 0)
         {
-            const Report& report = place.stops[place.sent.fetch_add(1) % place.stops.size()];
+            const auto& [report, also] = place.stops[place.sent.fetch_add(1) % place.stops.size()];
             any = writeRawReport(descriptor, report) >= 0 || any;
+            if (!also.content().empty())
+                static_cast<void>(writeRawReport(descriptor, also));
         }
     return any;
 }

@@ -137,8 +137,8 @@ TEST_CASE("Events of waveforms that follow each other are each triggered, and th
                                                   {400, 2, 0},
                                                   {520, 2, 0},
                                                   {540, 2, 0}});
-    for (const Report& stop : played.sink.stops)
-        CHECK(stop == waveformReport(standardTrigger(), {}));
+    for (const StopReport& stop : played.sink.stops)
+        CHECK(stop.report == waveformReport(standardTrigger(), {}));
 }
 
 TEST_CASE("A slow packet moves no other, and what it covers is left out", "[devices]")
@@ -215,8 +215,8 @@ TEST_CASE("The packet for a crash is silent and has the counter that is due", "[
     const Played played(joyCon, toneClip(0.1, 0.0, 0.1));
     for (std::size_t i = 0; i < 16; ++i)
     {
-        CHECK(isNeutral(played.sink.stops[i]));
-        CHECK(counterOf(played.sink.stops[i]) == static_cast<int>(i));
+        CHECK(isNeutral(played.sink.stops[i].report));
+        CHECK(counterOf(played.sink.stops[i].report) == static_cast<int>(i));
     }
 }
 
