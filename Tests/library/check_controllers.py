@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """libpacini on controllers that umockdev pretends to be there.
 
-check_controllers.py PLAY_ON_CONTROLLER RANDOM_CALLS   exit 1 when a claim fails, 77 when umockdev is missing
+check_controllers.py PLAY_ON_CONTROLLER RANDOM_CALLS [steam]   on a Pro Controller, or a Steam Controller; exit 1 when a claim fails, 77 when umockdev is missing
 """
+import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -50,6 +52,31 @@ def check_end(controller, path, how):
           and not is_neutral(reports[-6]), out + error)
 
 
+def check_crash(controller, path):
+    for how, silenced in (("crash", True), ("crash-unasked", False)):
+        controller.clear()
+        code, out, error = ended(begun(path, how))
+        last = [report for _, report in controller.writes[-2:]]
+        check(f"{how}: the controller is {'silenced' if silenced else 'left alone'}",
+              code == -signal.SIGSEGV and all(map(is_neutral, last)) == silenced, f"{code} {last}")
+
+
+def check_samples(controller, path):
+    controller.clear()
+    code, out, error = ended(begun(path, "two"))
+    check("a game plays on a Steam Controller", code == 0 and "haptics 5 connection 1" in out, out + error)
+    reports = [report for _, report in controller.writes]
+    blocks = [report for report in reports if report[0] == 0x88]
+    samples = [number / 32768 for block in blocks for number in struct.unpack("<15h", block[2:32])]
+    right = [number / 32768 for block in blocks for number in struct.unpack("<15h", block[33:63])]
+    loud = [i for i, sample in enumerate(samples) if abs(sample) > 0.05]
+    check("which gets the drive signal, on both sides", 0.9 < (loud[-1] - loud[0]) / 8000 < 1.1 and samples == right
+          and max(samples) > 0.3, f"{(loud[-1] - loud[0]) / 8000:.3f} s, {max(samples):.2f}")
+    rises = sum(a < 0 <= b for a, b in zip(samples[loud[0] + 200:], samples[loud[0] + 201:loud[0] + 840]))
+    check("at its pitch", 11 <= rises <= 15, f"{rises} periods in 80 ms")
+    check("and is ended", reports[-1] == b"\x86\x01\x05\x00", reports[-1].hex())
+
+
 def check_unplugging(controller, path):
     controller.clear()
     process = begun(path, "unplug")
@@ -65,11 +92,17 @@ def check_unplugging(controller, path):
 def claims(devices):
     with tempfile.TemporaryDirectory() as name:
         path = clip(Path(name), "short.json", 1.0)
+        if sys.argv[3:] == ["steam"]:
+            controller = devices.FakeController(devices.STEAM_CONTROLLER)
+            controller.connect()
+            check_samples(controller, path)
+            return
         controller = devices.FakeController()
         controller.connect()
         check_play(controller, path)
         for how in ("destroy", "exit"):
             check_end(controller, path, how)
+        check_crash(controller, path)
         code, out, error = ended(begun(path, "two"))
         check("a controller plays one engine", code == 0, out + error)
         random = subprocess.run([RANDOM, "300", "3", "attached"], capture_output=True, text=True, timeout=300)

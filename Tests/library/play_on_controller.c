@@ -7,6 +7,7 @@
  * pacini.h says.
  */
 #include <pacini.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +51,7 @@ int main(int argc, char** argv)
 {
     pacini_controller controllers[4];
     pacini_controller_info is;
+    pacini_attach_settings settings;
     pacini_engine_config config;
     pacini_engine engine, second;
     pacini_clip clip;
@@ -72,7 +74,9 @@ int main(int argc, char** argv)
     config.actuator_count = 2;
     check(pacini_engine_create(&config, &engine) == PACINI_OK, "engine");
     check(pacini_clip_load_file(argv[1], &clip) == PACINI_OK, "clip");
-    check(pacini_engine_attach(engine, controllers[0], NULL) == PACINI_OK, "attach");
+    pacini_attach_settings_init(&settings);
+    settings.stop_on_crash = strcmp(argv[2], "crash") == 0;
+    check(pacini_engine_attach(engine, controllers[0], &settings) == PACINI_OK, "attach");
     check(pacini_engine_attach(engine, controllers[0], NULL) == PACINI_BUSY, "attached twice");
     check(pacini_render(engine, channels, 2, 1) == PACINI_BUSY && samples[0] == 0.0f, "render what is pulled");
     check(pacini_render_interleaved(engine, samples, 2, 1) == PACINI_BUSY, "render what is pulled");
@@ -92,6 +96,11 @@ int main(int argc, char** argv)
             check(pacini_engine_destroy(engine) == PACINI_OK, "destroy");
         puts("ended");
         return 0;
+    }
+    if (strncmp(argv[2], "crash", 5) == 0)
+    {
+        pause_for(0.3);
+        raise(SIGSEGV);
     }
     if (strcmp(argv[2], "unplug") == 0)
     {
