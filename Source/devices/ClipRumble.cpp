@@ -40,7 +40,7 @@ DriveRenderer driveOf(const Clip& clip, const PlayRange& range, double gain, dou
 }
 } // namespace
 
-ClipRumble::ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
+ClipRumble::ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
     : model(controller), packets(clip, range, intensity.gain(), pacingOf(controller).interval), states(controller)
 {
     constexpr double fs = 8000.0; // the highest rate of a controller

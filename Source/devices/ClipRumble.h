@@ -19,7 +19,7 @@ namespace pacini::devices
 class ClipRumble : public RumbleSource
 {
 public:
-    ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller);
+    ClipRumble(const Clip& clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller);
 
     /// After the end come those in which the last sound fades out, then nothing. [worker]
     [[nodiscard]] std::optional<RumbleState> at(std::int64_t packet) override;
