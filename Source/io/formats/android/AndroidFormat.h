@@ -8,9 +8,20 @@ namespace pacini
 {
 
 [[nodiscard]] bool isAndroidJson(std::string_view bytes);
-[[nodiscard]] bool isAndroidXml(std::string_view bytes);
-[[nodiscard]] bool isAndroidKotlin(std::string_view bytes);
-[[nodiscard]] bool isAndroidJava(std::string_view bytes);
+[[nodiscard]] inline bool isAndroidXml(std::string_view bytes)
+{
+    return bytes.find("<vibration-effect>") != std::string_view::npos;
+}
+
+[[nodiscard]] inline bool isAndroidKotlin(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
+}
+
+[[nodiscard]] inline bool isAndroidJava(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
+}
 
 /// Reads the JSON that writeAndroidJson() writes: of its effects `waveformEnvelope`, else `basicEnvelope`, else
 /// `waveform`. A warning says what is not read: amplitudes of -1 (the device's default) become 255, repetition is left

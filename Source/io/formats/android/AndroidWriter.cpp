@@ -72,18 +72,6 @@ std::string builderCalls(const std::vector<AndroidPoint>& points)
 }
 } // namespace
 
-bool isAndroidJson(std::string_view bytes)
-{
-    constexpr auto none = std::string_view::npos;
-    return (bytes.find("\"timings\"") != none && bytes.find("\"amplitudes\"") != none) ||
-           bytes.find("\"controlPoints\"") != none;
-}
-
-bool isAndroidXml(std::string_view bytes)
-{
-    return bytes.find("<vibration-effect>") != std::string_view::npos;
-}
-
 Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& params)
 {
     AndroidExport made = androidEffectsOf(clip, params);
@@ -137,16 +125,6 @@ Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& param
                                                            "initialFrequencyHz", "amplitude", "frequencyHz"))});
     }
     return result;
-}
-
-bool isAndroidKotlin(std::string_view bytes)
-{
-    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
-}
-
-bool isAndroidJava(std::string_view bytes)
-{
-    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
 }
 
 Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params)
