@@ -12,6 +12,7 @@
 #include "io/formats/ClipFormat.h"
 #include "library/ControllerLink.h"
 #include "library/Handles.h"
+#include "library/RenderEngine.h"
 
 #include <pacini/runtime/Engine.h>
 
@@ -40,6 +41,7 @@ using namespace pacini;
 using library::Handle;
 using library::HandleKind;
 using library::PlayHandle;
+using library::renderEngine;
 
 constexpr std::size_t mostEngines = 64; // 6 bits of a play's handle
 constexpr std::size_t mostClips = 1'000'000;
@@ -286,6 +288,20 @@ EngineUse useEngine(std::uint64_t number)
     return {all().engines, handle.index, handle.kind == HandleKind::engine ? handle.generation : 0};
 }
 
+/// Calls work(engine) for every engine until one fails. Under the lock.
+template <typename Work>
+pacini_result forEngines(Work&& work)
+{
+    for (std::uint32_t i = 0; i < mostEngines; ++i)
+    {
+        const EngineUse use(all().engines, i, all().engines.generationOf(i));
+        if (use.get() != nullptr)
+            if (const auto result = work(*use.get()->engine); result != PACINI_OK)
+                return result;
+    }
+    return PACINI_OK;
+}
+
 /// Calls work(engine) for one thread at a time.
 template <typename Work>
 pacini_result withEngine(pacini_engine number, Work&& work) noexcept
@@ -347,7 +363,7 @@ devices::DriveRenderer pullFrom(pacini_engine engine)
     {
         const EngineUse use = useEngine(engine);
         if (use.get() != nullptr)
-            return use.get()->engine->render(out);
+            return library::renderEngine(*use.get()->engine, out);
         for (const std::span<float> channel : out)
             std::fill(channel.begin(), channel.end(), 0.0f);
     };
@@ -599,15 +615,15 @@ extern "C"
                 auto* const held = all().clips.find(clip);
                 if (held == nullptr)
                     return stale("clip");
-                for (std::uint32_t i = 0; i < mostEngines; ++i)
-                {
-                    const EngineUse use(all().engines, i, all().engines.generationOf(i));
-                    if (use.get() != nullptr)
-                        if (auto done = use.get()->engine->replaceAll(held->get(), *loaded); !done)
-                            return fail(done.error());
-                }
-                *held = *loaded;
-                return PACINI_OK;
+                const auto done = forEngines(
+                    [&](Engine& engine)
+                    {
+                        const auto replaced = engine.replaceAll(held->get(), *loaded);
+                        return replaced ? PACINI_OK : fail(replaced.error());
+                    });
+                if (done == PACINI_OK)
+                    *held = *loaded;
+                return done;
             });
     }
 
@@ -647,12 +663,12 @@ extern "C"
                 const auto* const held = all().clips.find(clip);
                 if (held == nullptr)
                     return stale("clip");
-                for (std::uint32_t i = 0; i < mostEngines; ++i)
-                {
-                    const EngineUse use(all().engines, i, all().engines.generationOf(i));
-                    if (use.get() != nullptr)
-                        use.get()->engine->forget(held->get());
-                }
+                static_cast<void>(forEngines(
+                    [&](Engine& engine)
+                    {
+                        engine.forget(held->get());
+                        return PACINI_OK;
+                    }));
                 all().clips.remove(clip);
                 return PACINI_OK;
             });
@@ -738,7 +754,7 @@ extern "C"
         std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
         for (std::uint32_t c = 0; c < played; ++c)
             spans[c] = std::span(channels[c], frames);
-        use.get()->engine->render(std::span(spans).first(played));
+        renderEngine(*use.get()->engine, std::span(spans).first(played));
         return PACINI_OK;
     }
 
@@ -763,7 +779,7 @@ extern "C"
             std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
             for (std::size_t c = 0; c < played; ++c)
                 spans[c] = std::span(entry.channels[c]).first(n);
-            entry.engine->render(std::span(spans).first(played));
+            renderEngine(*entry.engine, std::span(spans).first(played));
             for (std::uint32_t i = 0; i < n; ++i)
                 for (std::size_t c = 0; c < played; ++c)
                     samples[(done + i) * wanted + c] = spans[c][i];

@@ -209,7 +209,12 @@ constexpr auto formats = []
 {
     auto readers = allFormats;
     for (ClipFormat& format : readers)
+    {
         format.writer = nullptr;
+        if (format.stream != nullptr)
+            format.stream = [](Clip, const ClipFormat::PieceSink&) {
+            };
+    }
     return readers;
 }();
 #else

@@ -71,11 +71,6 @@ std::string builderCalls(const std::vector<AndroidPoint>& points)
     return text;
 }
 
-bool isVibration(std::string_view bytes)
-{
-    return bytes.find("<vibration-effect>") != std::string_view::npos;
-}
-
 std::string waveformEnvelopeXml(const AndroidEnvelope& envelope)
 {
     return xmlDocument(
@@ -87,28 +82,6 @@ std::string basicEnvelopeXml(const AndroidEnvelope& envelope)
     return xmlDocument(xmlEnvelope(envelope, "basic-envelope-effect", "initialSharpness", "intensity", "sharpness"));
 }
 } // namespace
-
-bool isAndroidJson(std::string_view bytes)
-{
-    constexpr auto none = std::string_view::npos;
-    return (bytes.find("\"timings\"") != none && bytes.find("\"amplitudes\"") != none) ||
-           bytes.find("\"controlPoints\"") != none;
-}
-
-bool isAndroidXml(std::string_view bytes)
-{
-    return isVibration(bytes) && !isAndroidEnvelopeXml(bytes) && !isAndroidBasicXml(bytes);
-}
-
-bool isAndroidEnvelopeXml(std::string_view bytes)
-{
-    return isVibration(bytes) && bytes.find("<waveform-envelope-effect") != std::string_view::npos;
-}
-
-bool isAndroidBasicXml(std::string_view bytes)
-{
-    return isVibration(bytes) && bytes.find("<basic-envelope-effect") != std::string_view::npos;
-}
 
 Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& params)
 {
@@ -179,16 +152,6 @@ Result<ExportedClip> writeAndroidBasicXml(const Clip& clip, const ExportParams& 
     if (!made)
         return made.error();
     return oneFile(basicEnvelopeXml(made->envelope), std::move(made->losses));
-}
-
-bool isAndroidKotlin(std::string_view bytes)
-{
-    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
-}
-
-bool isAndroidJava(std::string_view bytes)
-{
-    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
 }
 
 Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params)
