@@ -3,7 +3,6 @@
 if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR CMAKE_CROSSCOMPILING OR PACINI_SANITIZE OR NOT TARGET pacini)
     return()
 endif()
-include(GNUInstallDirs)
 set(resources "${PROJECT_SOURCE_DIR}/Resources")
 set(texts "${PROJECT_BINARY_DIR}/package")
 set(share "${CMAKE_INSTALL_DATADIR}")
@@ -79,7 +78,8 @@ drives an actuator: for games, music, wearables and research.
 The package holds the command pacini, which encodes, renders, converts,
 compares and measures; the live translator as a VST3 and an LV2 plugin and
 as a program of its own; the clip editor; profiles of actuators, demo sounds,
-and the headers of the DSP core for C++20.")
+libpacini, which plays clips in games and other programs, shared and static
+with its C header; and the headers of the DSP core for C++20.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -89,6 +89,9 @@ set(CPACK_DEBIAN_PACKAGE_SECTION sound)
 set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "https://pacini.example")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Programs that are packaged with libpacini depend on this package, and the linker's list is made anew.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev")
 if(PACINI_DESKTOP_PROGRAMS)
     # What JUCE opens at run time, which dpkg-shlibdeps cannot see.

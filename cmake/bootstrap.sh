@@ -188,7 +188,7 @@ plugin)
     ;;
 package)
     install_packages "${build_packages[@]}" "${plugin_packages[@]}" "${package_packages[@]}"
-    build_programs pacini_texts
+    build_programs pacini_library pacini_library_static pacini_texts
     say "Packing"
     cpack -G DEB --config build/release/CPackConfig.cmake -B "$PWD/build/package" || fail "cannot make the package"
     rm -rf build/package/_CPack_Packages

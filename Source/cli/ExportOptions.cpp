@@ -27,6 +27,9 @@ constexpr ExportOption exportOptions[] = {
     {"--frequency-points", &ExportChoices::frequencyPoints},
     {"--split", &ExportChoices::split},
     {"--quick", &ExportChoices::quick},
+    {"--max-points", &ExportChoices::envelope},
+    {"--min-segment", &ExportChoices::envelope},
+    {"--max-segment", &ExportChoices::envelope},
     {"--events", nullptr},
     {"--sample-rate", &ExportChoices::drive},
     {"--profile", &ExportChoices::profile},
@@ -63,6 +66,15 @@ void ExportOptions::declare(CLI::App& command)
         "Events of other formats: each a transient of its own, with the voice ducked around it, or merged into the "
         "voice where that is as strong (haptic, ahap, hjif) [transients; in hjif merged]",
         oneOf({"transients", "merged"}));
+    addOption(command, "--max-points", envelope.points,
+              "At most this many control points in an envelope of Android, whatever that costs [any number]",
+              wholeNumberFrom(2, 1000));
+    addOption(command, "--min-segment", envelope.shortest,
+              "At least this many ms from one control point to the next; every device plays 20 [1]",
+              wholeNumberFrom(1, 10000), "MS");
+    addOption(command, "--max-segment", envelope.longest,
+              "At most this many ms from one control point to the next; every device plays 1000 [1000]",
+              wholeNumberFrom(2, 100000), "MS");
     addOption(command, "--sample-rate", rate, "Sample rate of formats that hold samples, Hz [the format's own]",
               wholeNumberFrom(100, 384000));
     addOption(command, "--profile", profile,
@@ -84,6 +96,8 @@ std::optional<ExportParams> ExportOptions::params(Console& console) const
         result.frequencyPoints = frequencyPoints;
     if (rate > 0)
         result.sampleRate = rate;
+    if (envelope != EnvelopeLimits())
+        result.envelope = envelope;
     result.split = split;
     result.quick = quick;
     result.strength = strength;
@@ -124,9 +138,14 @@ std::string ExportOptions::record() const
     // Strength only where it was asked for: records of before stay what they were.
     const std::string chosenStrength =
         declaredIn->count("--strength") > 0 ? fmt::format(", strength {}", strength) : "";
-    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}{}", points, frequencyPoints, rate,
-                       split ? ", split" : "", quick ? ", quick" : "", events.empty() ? "" : ", events " + events,
-                       profile.empty() ? "" : ", profile " + profile, chosenStrength);
+    const std::string limits =
+        envelope != EnvelopeLimits()
+            ? fmt::format(", envelope {} points {} to {} ms", envelope.points, envelope.shortest, envelope.longest)
+            : "";
+    return fmt::format("points {}, frequency points {}, sample rate {}{}{}{}{}{}{}", points, frequencyPoints, rate,
+                       limits, split ? ", split" : "", quick ? ", quick" : "",
+                       events.empty() ? "" : ", events " + events, profile.empty() ? "" : ", profile " + profile,
+                       chosenStrength);
 }
 
 } // namespace pacini::cli

@@ -36,6 +36,7 @@ private:
     double points = 0.0;
     double frequencyPoints = 0.0;
     int rate = 0;
+    EnvelopeLimits envelope;
     bool split = false;
     bool quick = false;
     std::string events; ///< empty: the format's own

@@ -11,8 +11,15 @@
 namespace pacini::devices
 {
 
-/// One report that silences a controller for each value of the four-bit counters in reports.
-using StopReports = std::array<Report, 16>;
+/// What silences a controller: a report, and a second where it takes two.
+struct StopReport
+{
+    Report report;
+    Report also; ///< without content: none
+};
+
+/// One for each value of the four-bit counters in reports.
+using StopReports = std::array<StopReport, 16>;
 
 class ReportSink
 {

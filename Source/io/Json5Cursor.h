@@ -8,7 +8,6 @@
 #include <pacini/foundation/Result.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -169,31 +168,30 @@ public:
 private:
     bool codePoint(std::string& letters, int digits, std::size_t start)
     {
-        const auto read = [&]() -> std::optional<char32_t>
+        constexpr char32_t none = ~char32_t{0};
+        const auto read = [&]
         {
             char32_t code = 0;
             for (int i = 0; i < digits; ++i)
             {
                 const int digit = hexValue(peek());
                 if (digit < 0)
-                    return std::nullopt;
+                    return none;
                 code = 16 * code + static_cast<char32_t>(digit);
                 take();
             }
             return code;
         };
-        auto code = read();
-        if (code && *code >= 0xD800 && *code < 0xDC00 && sees("\\u"))
+        char32_t code = read();
+        if (code >= 0xD800 && code < 0xDC00 && sees("\\u"))
         {
             at += 2;
-            const auto low = read();
-            code = low && *low >= 0xDC00 && *low < 0xE000
-                       ? std::optional(0x10000 + ((*code - 0xD800) << 10) + (*low - 0xDC00))
-                       : std::nullopt;
+            const char32_t low = read();
+            code = low >= 0xDC00 && low < 0xE000 ? 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00) : none;
         }
-        if (!code || (*code >= 0xD800 && *code < 0xE000))
+        if (code == none || (code >= 0xD800 && code < 0xE000))
             return fail(start, "is not an escape of a character");
-        appendUtf8(letters, *code);
+        appendUtf8(letters, code);
         return true;
     }
 

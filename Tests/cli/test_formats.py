@@ -94,6 +94,59 @@ class Formats(CommandTest):
             self.assertEqual(points, effects[key]["controlPoints"], tag)
             self.assertTrue(all(e.tag == "control-point" for e in by_tag[tag]))
 
+    def envelope_of(self, path, tag):
+        """The attributes of an envelope's start and of its control points, checked as Android's parser does."""
+        level, frequency, initial = {"waveform-envelope-effect": ("amplitude", "frequencyHz", "initialFrequencyHz"),
+                                     "basic-envelope-effect": ("intensity", "sharpness", "initialSharpness")}[tag]
+        root = ElementTree.fromstring(path.read_bytes())
+        self.assertEqual((root.tag, root.attrib, [child.tag for child in root]), ("vibration-effect", {}, [tag]))
+        effect = root[0]
+        self.assertEqual(set(effect.attrib), {initial})
+        points = []
+        for element in effect:
+            self.assertEqual((element.tag, set(element.attrib), len(element)),
+                             ("control-point", {level, frequency, "durationMs"}, 0))
+            self.assertRegex(element.get("durationMs"), r"^[1-9]\d*$")
+            point = {name: float(value) for name, value in element.attrib.items()}
+            self.assertTrue(0.0 <= point[level] <= 1.0)
+            self.assertTrue(0.0 <= point[frequency] <= 1.0 if tag[0] == "b" else 0.0 < point[frequency] <= 1000.0)
+            points.append(point)
+        self.assertGreater(len(points), 0)
+        self.assertEqual(points[-1][level], 0.0)
+        return {initial: float(effect.get(initial)), "controlPoints": points}
+
+    def test_envelopes_in_xml_are_those_of_the_json_within_the_same_limits(self):
+        limits = ["--max-points", "16", "--min-segment", "20", "--max-segment", "400"]
+        [path] = self.converted("android", *limits)
+        effects = strict_json(path)
+        for target, tag, key in (("android-envelope", "waveform-envelope-effect", "waveformEnvelope"),
+                                 ("android-basic", "basic-envelope-effect", "basicEnvelope")):
+            for options in ([], limits, ["--points", "8"], ["--profile", "lra-175"]):
+                with self.subTest(target, options=options):
+                    [path] = self.converted(target, *options)
+                    envelope = self.envelope_of(path, tag)
+                    points = envelope["controlPoints"]
+                    self.assertIn(sum(point["durationMs"] for point in points), (1000, 1001))  # to 0 takes one
+                    if options == limits:
+                        self.assertEqual(envelope, effects[key])
+                        self.assertLessEqual(len(points), 16)
+                        self.assertTrue(all(20 <= point["durationMs"] <= 400 for point in points))
+                    elif not options:
+                        self.assertGreater(len(points), 16)
+
+    def test_lint_says_what_limits_cost(self):
+        def largest(*options):
+            losses = self.report("lint", "clip.json", "--target", "android-basic", *options)["files"][0]["losses"]
+            return max([loss["error"] for loss in losses if loss["kind"] == "points"], default=0.0)
+        free, sixteen, four = largest(), largest("--max-points", "16"), largest("--max-points", "4")
+        self.assertLess(free, 0.01)
+        self.assertLess(free, sixteen)
+        self.assertLessEqual(sixteen, four)
+        for options, part in ((["--max-points", "2", "--max-segment", "400"], "envelope.points"),
+                              (["--min-segment", "600"], "envelope.longest")):
+            self.fails(1, ["convert", "clip.json", "x.xml", "--format", "android-basic", *options], part)
+        self.fails(2, ["convert", "clip.json", "x.haptic", "--max-points", "16"], "changes nothing in haptic")
+
     def test_kotlin_and_java_have_the_steps_of_the_json_in_closed_brackets(self):
         [path] = self.converted("android")
         effects = strict_json(path)

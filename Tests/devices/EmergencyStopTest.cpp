@@ -29,7 +29,7 @@ StopReports numberedStops()
 {
     StopReports stops;
     for (unsigned i = 0; i < stops.size(); ++i)
-        stops[i] = switchRumbleReport(i, {});
+        stops[i].report = switchRumbleReport(i, {});
     return stops;
 }
 
@@ -82,6 +82,32 @@ TEST_CASE("A program that is ended by a signal has written the silent packets th
         }
         CHECK(written == expected);
     }
+}
+
+TEST_CASE("A controller that takes two reports to be silenced is sent both, twice", "[devices]")
+{
+    int ends[2] = {};
+    REQUIRE(::pipe(ends) == 0);
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0)
+    {
+        ::signal(SIGTERM, SIG_DFL);
+        EmergencyStop emergency(ends[1]);
+        emergency.arm(stopReports({ControllerHaptics::steamController, Transport::receiver}));
+        emergency.count(); // whatever was sent before
+        ::raise(SIGTERM);
+        ::_exit(0);
+    }
+    ::close(ends[1]);
+    const auto written = everythingIn(ends[0]);
+    ::close(ends[0]);
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    std::vector<int> bytes;
+    for (const std::byte each : written)
+        bytes.push_back(std::to_integer<int>(each));
+    CHECK(bytes == std::vector<int>{0x86, 1, 2, 8, 0x86, 1, 5, 8, 0x86, 1, 2, 8, 0x86, 1, 5, 8});
 }
 
 #if defined(__linux__)

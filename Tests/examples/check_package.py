@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Without CMake.
     environment = dict(os.environ, PKG_CONFIG_PATH=str(prefix / "share/pkgconfig"))
-    flags = run("pkg-config", "--cflags", "pacini", env=environment).stdout.decode().split()
+    flags = run("pkg-config", "--cflags", "pacini-core", env=environment).stdout.decode().split()
     run("c++", "-std=c++20", "-O1", *flags, EXAMPLES / "encode.cpp", "-o", folder / "plain")
     check("built by hand it does the same", run(folder / "plain", rate, input=data).stdout == clip)
 

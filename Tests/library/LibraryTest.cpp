@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -255,4 +256,71 @@ TEST_CASE("An engine may be destroyed while another thread renders it")
         audio.join();
     }
     require(pacini_clip_release(clip));
+}
+
+// What is freed while it is read shows with a sanitizer, and as a state that is not the play's own.
+TEST_CASE("Plays that end on the audio thread while others start in their slots keep their own states")
+{
+    const pacini_clip clip = loaded(hum);
+    const pacini_engine engine = created();
+    std::atomic<bool> ends{false};
+    std::thread audio(
+        [&]
+        {
+            std::vector<float> out(16);
+            float* channels[] = {out.data()};
+            while (!ends)
+                pacini_render(engine, channels, 1, 16);
+        });
+    pacini_play_settings settings;
+    pacini_play_settings_init(&settings);
+    settings.from = 0.99;
+    for (int i = 0; i < 3000; ++i)
+    {
+        pacini_play play = 0;
+        if (pacini_play_start(engine, clip, &settings, &play) != PACINI_OK)
+            continue; // as many as there may be
+        settings.from = i % 100 == 0 ? 0.0 : 0.99;
+        if (settings.from == 0.0)
+            continue;
+        const int state = infoOf(play).state;
+        CHECK((state == PACINI_WAITING || state == PACINI_PLAYING || state == PACINI_ENDED));
+    }
+    ends = true;
+    audio.join();
+    require(pacini_engine_destroy(engine));
+    require(pacini_clip_release(clip));
+}
+
+TEST_CASE("Controllers that are not there, and engines without one, are errors that change nothing")
+{
+    std::uint32_t count = 1;
+    require(pacini_controllers_find(nullptr, 0, &count));
+    std::vector<pacini_controller> found(count + 1);
+    require(pacini_controllers_find(found.data(), count + 1, &count));
+    CHECK(pacini_controllers_find(nullptr, 1, &count) == PACINI_INVALID);
+    CHECK(pacini_controllers_find(found.data(), 1, nullptr) == PACINI_INVALID);
+
+    const pacini_engine engine = created();
+    pacini_controller_info of;
+    pacini_controller_info_init(&of);
+    for (const std::uint64_t wrong : {std::uint64_t{0}, engine, ~std::uint64_t{0}})
+    {
+        CHECK(pacini_controller_get_info(wrong, &of) == PACINI_STALE);
+        CHECK(pacini_engine_attach(engine, wrong, nullptr) == PACINI_STALE);
+    }
+    CHECK(lastError() == "controller is not in use (any more)");
+    CHECK(pacini_engine_detach(engine) == PACINI_INVALID);
+    CHECK(lastError() == "engine: plays on no controller");
+    pacini_attachment_info info;
+    pacini_attachment_info_init(&info);
+    require(pacini_engine_get_attachment(engine, &info));
+    CHECK(info.state == PACINI_DETACHED);
+    CHECK(info.controller == 0);
+    CHECK(pacini_engine_get_attachment(engine, nullptr) == PACINI_INVALID);
+    CHECK(rendered(engine, 10).size() == 10); // it is still the caller's
+    require(pacini_engine_destroy(engine));
+    CHECK(pacini_engine_detach(engine) == PACINI_STALE);
+    CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
+    CHECK(pacini_api_version() == 1001);
 }

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Checks libpacini as those who link it get it.
 
-check_library.py LIBRARY HEADER FIRST_VIBRATION PACINI CLIP
+check_library.py LIBRARY HEADER FIRST_VIBRATION PACINI CLIP CONFIGURATION COMPILER
 What it shows, what it needs, how large it is, that its header is C99 and C++, and that the example of the header's first
 lines gives what the command renders.
 """
 import array
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,8 @@ import unittest
 from pathlib import Path
 
 LIBRARY, HEADER, EXAMPLE, PACINI, CLIP = (Path(path) for path in sys.argv[1:6])
+CONFIGURATION, COMPILER = sys.argv[6:8]
+LARGEST = 1_000_000  # bytes, stripped
 
 
 def run(*command, **options):
@@ -32,6 +35,17 @@ class Library(unittest.TestCase):
         self.assertEqual(visible - functions, set())
         self.assertTrue(functions <= declared, functions - declared)
         self.assertGreater(len(functions), 25)
+
+    def test_it_needs_the_libraries_of_every_system_only(self):
+        needed = re.findall(r"\(NEEDED\).*\[(\w+)", run("readelf", "--dynamic", LIBRARY).decode())
+        self.assertEqual(set(needed) - {"libstdc", "libc", "libm", "libgcc_s", "ld"}, set())
+
+    @unittest.skipUnless(CONFIGURATION == "Release" and COMPILER == "GNU", "other builds are larger")
+    def test_it_is_small(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stripped = Path(folder) / "libpacini.so"
+            run("strip", "--strip-unneeded", LIBRARY, "-o", stripped)
+            self.assertLess(stripped.stat().st_size, LARGEST)
 
     def test_the_header_is_c99_and_cpp(self):
         with tempfile.TemporaryDirectory() as folder:

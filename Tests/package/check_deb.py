@@ -16,7 +16,8 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 SOURCE, BUILD, PACINI = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-sys.path.insert(0, str(SOURCE / "Tests/hosts"))
+sys.path += [str(SOURCE / "Tests/hosts"), str(SOURCE / "Tests/library")]
+import installed  # noqa: E402
 from host_test import Processes, check, failures, needs, until  # noqa: E402
 
 PROGRAMS = ("pacini", "PaciniEditor", "PaciniStandalone")
@@ -55,11 +56,16 @@ def expected_files(architecture):
     files |= {f"usr/include/{path.relative_to(core)}" for path in core.glob("pacini/**/*.h")}
     files |= {f"usr/share/pacini/{folder.name}/{path.name}"
               for folder in (SOURCE / "profiles", resources / "schema", resources / "demo") for path in folder.iterdir()}
-    files |= {f"usr/lib/cmake/Pacini/Pacini{part}.cmake" for part in ("Config", "ConfigVersion", "Targets")}
+    libraries = f"usr/lib/{architecture}-linux-gnu"
+    files |= {f"{libraries}/cmake/Pacini/{name}.cmake" for name in (
+        "pacini-config", "pacini-config-version", "PaciniTargets", "PaciniLibraryTargets", "PaciniLibraryTargets-release")}
+    files |= {f"{libraries}/{name}" for name in ("libpacini.so", "libpacini.so.1", "libpacini.so.1.0.0", "libpacini.a",
+                                                "pkgconfig/pacini.pc")}
+    files.add("usr/include/pacini.h")
     files |= {f"usr/lib/lv2/Pacini.lv2/{name}" for name in ("libPacini.so", "manifest.ttl", "dsp.ttl", "ui.ttl")}
     return files | {f"usr/lib/vst3/Pacini.vst3/Contents/{architecture}-linux/Pacini.so",
                     "usr/lib/udev/rules.d/70-pacini.rules",
-                    "usr/share/pkgconfig/pacini.pc",
+                    "usr/share/pkgconfig/pacini-core.pc",
                     "usr/share/bash-completion/completions/pacini",
                     "usr/share/fish/vendor_completions.d/pacini.fish",
                     "usr/share/zsh/vendor-completions/_pacini",
@@ -84,16 +90,22 @@ def check_fields(package):
     for library in ("libc6", "libstdc++6", "libsndfile1", "libcairo2", "libfreetype6", "libasound2"):
         check(f"needs {library} of some version", re.search(rf"(^| ){re.escape(library)}(t64)? \(>= ", depends) is not None)
     check("needs the libraries of windows", "libx11-6" in depends)
+    check("others that need libpacini will need this package",
+          re.fullmatch(r"libpacini 1 pacini \(>= [\d.]+\)\n", run("dpkg-deb", "--info", package, "shlibs").decode()) is not None)
+    check("the linker's list is made anew",
+          all(b"ldconfig" in run("dpkg-deb", "--info", package, script) for script in ("postinst", "postrm")))
     for line in run("dpkg-deb", "--contents", package).decode().splitlines():
-        rights, owner, name = line.split()[0], line.split()[1], line.split()[-1]
-        right = "drwxr-xr-x" if name.endswith("/") else "-rwxr-xr-x" if "/usr/bin/" in name else "-rw-r--r--"
+        rights, owner, name = line.split()[0], line.split()[1], line.split()[5]
+        right = ("drwxr-xr-x" if name.endswith("/") else "lrwxrwxrwx" if " -> " in line else
+                 "-rwxr-xr-x" if "/usr/bin/" in name else "-rw-r--r--")
         if (rights, owner) != (right, "root/root"):
             check(f"{name} has the usual rights", False, f"{rights} {owner}")
 
 
 def check_binaries(tree):
-    binaries = [path for path in tree.rglob("*") if path.is_file() and path.read_bytes()[:4] == b"\x7fELF"]
-    check("three programs and two plugins are compiled", len(binaries) == len(PROGRAMS) + 2)
+    binaries = [path for path in tree.rglob("*")
+                if path.is_file() and not path.is_symlink() and path.read_bytes()[:4] == b"\x7fELF"]
+    check("three programs, two plugins and a library are compiled", len(binaries) == len(PROGRAMS) + 3)
     for path in binaries:
         dynamic = run("readelf", "--dynamic", path).decode()
         check(f"{path.name} looks for no library in a place of its own", "RPATH" not in dynamic and "RUNPATH" not in dynamic)
@@ -135,6 +147,14 @@ def check_texts(tree):
         check(f"{sound.name} has a licence", f"Resources/demo/{sound.name}\n" in text)
 
 
+def check_library(tree, folder):
+    """As it lies in the package, which can be anywhere."""
+    programs = installed.built(tree / "usr", folder / "example")
+    played = installed.played(tree / "usr", programs)
+    check("libpacini is found and linked in every way, and plays", len(set(played.values())) == 1 and len(played) == 4 and
+          max(map(len, played.values())) > 100000)
+
+
 def check_contents(folder):
     package = make_package(folder / "package", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none")
     check_fields(package)
@@ -145,6 +165,7 @@ def check_contents(folder):
     check("nothing else is in it", found <= wanted, sorted(found - wanted))
     check_binaries(tree)
     check_texts(tree)
+    check_library(tree, folder)
     run("cmake", "--install", BUILD, "--prefix", folder / "prefix")
     check("`cmake --install` gives the same tree", {f"usr/{name}" for name in files_below(folder / "prefix")} == found)
     listed = run(folder / "prefix/bin/pacini", "profiles").decode()
@@ -258,6 +279,7 @@ def check_libraries(root):
     binaries = [f"/usr/bin/{program}" for program in PROGRAMS]
     binaries += ["/" + str(path.relative_to(root.folder)) for path in (root.folder / "usr/lib").glob("*/Pacini.*/**/*.so")]
     check("programs and plugins are installed", len(binaries) == len(PROGRAMS) + 2)
+    check("the linker knows libpacini", "libpacini.so.1 " in known)
     for binary in binaries:
         check(f"{binary} finds its libraries", b"not found" not in root.must("ldd", binary))
         # By name, at run time.
@@ -265,6 +287,11 @@ def check_libraries(root):
         missing = [name.decode() for name in later if name.decode() not in known]
         check(f"{binary} will find what it opens later", not missing, missing)
         check(f"{binary} has windows or is the command", bool(later) == (binary != "/usr/bin/pacini"))
+    # There is no compiler: what was built on this machine runs there.
+    example = installed.built(root.folder / "usr", root.folder / "tmp/example")["pkg-config"]
+    shutil.copy(installed.CLIP, root.folder / "tmp/clip.json")
+    check("a program that is linked to libpacini plays",
+          len(root.must("/" + str(example.relative_to(root.folder)), "/tmp/clip.json")) > 100000)
 
 
 def check_windows(root, processes):

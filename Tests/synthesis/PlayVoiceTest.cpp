@@ -140,6 +140,8 @@ TEST_CASE("A delay tap reads whole frames exactly and between them the cubic thr
     for (const std::size_t block : {std::size_t(10), std::size_t(4), std::size_t(1)})
     {
         DelayTap tap(6.3, 10);
+        tap.write(std::span<const float>(x).first(7)); // forgotten, like all that was never written
+        tap.reset();
         const auto past = [&](std::ptrdiff_t i)
         {
             return i < 0 ? 0.0 : static_cast<double>(x[static_cast<std::size_t>(i)]);

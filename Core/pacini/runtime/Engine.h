@@ -800,14 +800,18 @@ private:
             }
             const bool over =
                 !play.paused && !play.pausing && !play.leftOut && play.content->ended() && play.leaving == nullptr;
-            if ((over || (play.leftOut && leftOutIsOver(play))) && giveBack({&play, nullptr}))
+            if (over || (play.leftOut && leftOutIsOver(play)))
             {
+                // Once it is given back, it may be freed at any time and its slot be another's.
                 bySlot[play.slot] = nullptr;
                 slots[play.slot].state.store(PlayState::ended, std::memory_order_relaxed);
-                active.erase(active.begin() + static_cast<std::ptrdiff_t>(i));
+                if (giveBack({&play, nullptr}))
+                {
+                    active.erase(active.begin() + static_cast<std::ptrdiff_t>(i));
+                    continue;
+                }
             }
-            else
-                ++i;
+            ++i;
         }
     }
 

@@ -71,6 +71,10 @@ constexpr ClipFormat samples(std::string_view name, std::string_view title, std:
 /// Formats of one voice with a frequency, in the range of an actuator.
 constexpr ExportChoices voiceChoices{.amplitudePoints = true, .frequencyPoints = true, .profile = true};
 
+/// The same as an envelope of control points.
+constexpr ExportChoices envelopeChoices{
+    .amplitudePoints = true, .frequencyPoints = true, .profile = true, .envelope = true};
+
 constexpr ExportChoices driveAndEnvelope{.amplitudePoints = true, .profile = true, .drive = true};
 
 /// Name, title, extension, what is kept, recognition, reader and writer come first.
@@ -138,7 +142,7 @@ constexpr std::array allFormats{
                .recognises = isAndroidJson,
                .reader = always<readAndroidJson>,
                .writer = writeAndroidJson,
-               .choices = voiceChoices},
+               .choices = envelopeChoices},
     ClipFormat{.name = "android-xml",
                .title = "Android vibration XML",
                .extension = ".xml",
@@ -146,20 +150,34 @@ constexpr std::array allFormats{
                .recognises = isAndroidXml,
                .writer = writeAndroidXml,
                .choices = {.amplitudePoints = true, .split = true}},
+    ClipFormat{.name = "android-envelope",
+               .title = "Android vibration XML, waveform envelope (amplitude and Hz)",
+               .extension = ".xml",
+               .keeps = "One voice as an envelope of amplitude and frequency.",
+               .recognises = isAndroidEnvelopeXml,
+               .writer = writeAndroidEnvelopeXml,
+               .choices = envelopeChoices},
+    ClipFormat{.name = "android-basic",
+               .title = "Android vibration XML, basic envelope (intensity and sharpness)",
+               .extension = ".xml",
+               .keeps = "One voice as an envelope of intensity and sharpness.",
+               .recognises = isAndroidBasicXml,
+               .writer = writeAndroidBasicXml,
+               .choices = envelopeChoices},
     ClipFormat{.name = "android-kotlin",
                .title = "Android vibration effect, Kotlin",
                .extension = ".kt",
                .keeps = "One voice as an envelope, and its strength in steps for devices that play no envelopes.",
                .recognises = isAndroidKotlin,
                .writer = writeAndroidKotlin,
-               .choices = voiceChoices},
+               .choices = envelopeChoices},
     ClipFormat{.name = "android-java",
                .title = "Android vibration effect, Java",
                .extension = ".java",
                .keeps = "One voice as an envelope, and its strength in steps for devices that play no envelopes.",
                .recognises = isAndroidJava,
                .writer = writeAndroidJava,
-               .choices = voiceChoices},
+               .choices = envelopeChoices},
     ClipFormat{.name = "openxr",
                .title = "OpenXR PCM and amplitude envelope, C header",
                .extension = ".h",
@@ -191,7 +209,12 @@ constexpr auto formats = []
 {
     auto readers = allFormats;
     for (ClipFormat& format : readers)
+    {
         format.writer = nullptr;
+        if (format.stream != nullptr)
+            format.stream = [](Clip, const ClipFormat::PieceSink&) {
+            };
+    }
     return readers;
 }();
 #else

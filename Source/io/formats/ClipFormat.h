@@ -7,6 +7,8 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -76,17 +78,27 @@ enum class EventExport
 /// What formats with such a choice do unless something else is asked for; HJIF has an own (hjifEvents).
 inline constexpr EventExport usualEvents = EventExport::transients;
 
+/// What a device plays of an envelope of control points; usual are values that every device of Android plays.
+struct EnvelopeLimits
+{
+    std::size_t points = 0;      ///< at most, 2 or more; 0: any number
+    std::int64_t shortest = 1;   ///< ms from one to the next, 1 or more; not every device plays less than 20
+    std::int64_t longest = 1000; ///< ms, twice as many or more; a straight line that is longer is several
+    bool operator==(const EnvelopeLimits&) const = default;
+};
+
 struct ExportParams
 {
-    std::string name;                      ///< of the clip, for formats that carry one; empty: the clip's own
-    std::optional<double> amplitudePoints; ///< per second; none: what the format is used with
-    std::optional<double> frequencyPoints; ///< per second; likewise
-    std::optional<Profile> profile;        ///< where a format leaves open what its frequencies mean, and for rendering
-    std::optional<int> sampleRate;         ///< Hz, of formats that are samples
-    bool split = false;                    ///< formats that can be one file or several: several
-    bool quick = false;                    ///< formats whose best file is searched for: one that is mostly good
-    std::optional<EventExport> events;     ///< none: as usual for the format, see ClipFormat::events
-    double strength = standardStrength;    ///< of drive signals for `profile`, 0 to 1, see fitActuator
+    std::string name;                       ///< of the clip, for formats that carry one; empty: the clip's own
+    std::optional<double> amplitudePoints;  ///< per second; none: what the format is used with
+    std::optional<double> frequencyPoints;  ///< per second; likewise
+    std::optional<Profile> profile;         ///< where a format leaves open what its frequencies mean, and for rendering
+    std::optional<int> sampleRate;          ///< Hz, of formats that are samples
+    bool split = false;                     ///< formats that can be one file or several: several
+    bool quick = false;                     ///< formats whose best file is searched for: one that is mostly good
+    std::optional<EventExport> events;      ///< none: as usual for the format, see ClipFormat::events
+    std::optional<EnvelopeLimits> envelope; ///< none: as usual for the format
+    double strength = standardStrength;     ///< of drive signals for `profile`, 0 to 1, see fitActuator
     bool operator==(const ExportParams&) const = default;
 };
 
@@ -99,6 +111,7 @@ struct ExportChoices
     bool drive = false; ///< sampleRate, and strength where there is a profile
     bool split = false;
     bool quick = false;
+    bool envelope = false;
 };
 
 /// A format. Readers are lenient where the format's own players are and say so in warnings; writers keep every rule

@@ -64,6 +64,9 @@ TEST_CASE("A file is of the format that its content says, and else of that of it
     for (const char* other : {"Event", "ParameterCurve", "Version"})
         CHECK(formatFound("", std::string(R"({"Pattern" ")") + other + "\"") == "ahap");
     CHECK(formatFound("", "<vibration-effect>") == "android-xml");
+    CHECK(formatFound(".xml", "<vibration-effect><waveform-envelope-effect>") == "android-envelope");
+    CHECK(formatFound(".xml", "<vibration-effect><basic-envelope-effect initialSharpness=") == "android-basic");
+    CHECK(formatFound(".xml", "<basic-envelope-effect>") == "none");
     CHECK(formatFound("", "#ifndef HAPTIC_X") == "c");
     CHECK(formatFound(".h", "/* XR_FB_haptic_pcm: ") == "openxr");
     CHECK(formatFound("", R"("pcmVibration")") == "openxr-json");
@@ -144,6 +147,10 @@ TEST_CASE("A format's choices are those of the parameters that change its bytes"
         CHECK(choices.frequencyPoints == changes([](ExportParams& params) { params.frequencyPoints = 3.0; }));
         CHECK(choices.split == changes([](ExportParams& params) { params.split = true; }));
         CHECK(choices.quick == changes([](ExportParams& params) { params.quick = true; }));
+        CHECK(choices.envelope == changes(
+                                      [](ExportParams& params) {
+                                          params.envelope = EnvelopeLimits{16, 20, 1000};
+                                      }));
         CHECK(choices.drive == changes([](ExportParams& params) { params.sampleRate = 5000; }));
         CHECK(choices.profile ==
               changes([](ExportParams& params) { params.profile = test::shippedProfile("lra-175"); }));
@@ -202,7 +209,7 @@ TEST_CASE("The first format that is written to an extension is that of its files
         CHECK(format.companion == (format.name == "ahap" ? "-transients" : ""));
         CHECK((format.isRead() || format.isWritten()));
     }
-    CHECK(names.size() == 21);
+    CHECK(names.size() == 23);
     const std::vector<std::pair<LossKind, std::string>> kinds{
         {LossKind::bands, "bands"},         {LossKind::points, "points"},     {LossKind::length, "length"},
         {LossKind::frequency, "frequency"}, {LossKind::timeStep, "timeStep"}, {LossKind::amplitude, "amplitude"},

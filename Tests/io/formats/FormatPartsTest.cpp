@@ -556,7 +556,7 @@ TEST_CASE("Envelopes of Android say what some devices do not play", "[formats]")
         Clip clip;
         clip.duration = amplitude.back().time;
         clip.bands.push_back({hertz, hertz, hertz, 0, amplitude, {}});
-        return androidEffectsOf(clip, {});
+        return androidEffectsOf(clip, {}).value();
     };
     const auto pointsOf = [&](const Curve& amplitude)
     {

@@ -278,6 +278,27 @@ TEST_CASE("Android envelopes sound as the clip's one voice does", "[formats][for
         3.0, 9.0, 77.6);
 }
 
+TEST_CASE("Android envelopes within limits sound as the clip's one voice does, less so with few points",
+          "[formats][formatquality]")
+{
+    const auto compare = [](const char* name, const EnvelopeLimits& limits, double mean, double most)
+    {
+        compareAll(
+            name, [](const Clip& clip) { return reduced(clip, {}); },
+            [&](const Clip& clip)
+            {
+                ExportParams params;
+                params.envelope = limits;
+                return test::playAndroidEnvelope(mainFile(writeAndroidJson(clip, params)), false, 0.0, 0.0, fs);
+            },
+            mean, most);
+    };
+    compare("Android envelope, as few points as say it", {}, 1.0, 7.0);
+    compare("Android envelope, 20 ms apart", {0, 20, 1000}, 5.0, 15.0);
+    compare("Android envelope, 64 points, 20 ms apart", {64, 20, 1000}, 6.5, 21.0);
+    compare("Android envelope, 16 points, 20 ms apart", {16, 20, 1000}, 15.0, 43.0);
+}
+
 TEST_CASE("A .haps file sounds as the clip's one voice does", "[formats][formatquality]")
 {
     compareAll(

@@ -326,6 +326,14 @@ private:
 };
 } // namespace
 
+bool isAhap(std::string_view bytes)
+{
+    return bytes.find("\"Pattern\"") != std::string_view::npos &&
+           (bytes.find("\"Event\"") != std::string_view::npos ||
+            bytes.find("\"ParameterCurve\"") != std::string_view::npos ||
+            bytes.find("\"Version\"") != std::string_view::npos);
+}
+
 Result<ImportedClip> readAhap(std::string_view text)
 {
     const auto tree = readJsonTree(text, largestAhapText);

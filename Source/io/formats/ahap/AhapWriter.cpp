@@ -275,14 +275,6 @@ void writeContinuous(Writer& writer, const Pattern& pattern)
 }
 } // namespace
 
-bool isAhap(std::string_view bytes)
-{
-    return bytes.find("\"Pattern\"") != std::string_view::npos &&
-           (bytes.find("\"Event\"") != std::string_view::npos ||
-            bytes.find("\"ParameterCurve\"") != std::string_view::npos ||
-            bytes.find("\"Version\"") != std::string_view::npos);
-}
-
 Result<ExportedClip> writeAhap(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)

@@ -4,6 +4,7 @@
 #include "io/formats/NormalisedFrequency.h"
 #include "io/formats/VoiceReduction.h"
 #include "io/formats/android/AndroidWaveform.h"
+#include "io/formats/android/EnvelopeFit.h"
 
 #include <pacini/synthesis/TransientPulse.h>
 
@@ -20,9 +21,8 @@ namespace pacini
 
 namespace
 {
-constexpr double steepest = 0.020;     // s: a segment that every device plays
-constexpr double usualPoints = 60.0;   // per second
-constexpr std::int64_t longest = 1000; // ms: likewise
+constexpr double steepest = 0.020;   // s: a segment that every device plays
+constexpr double usualPoints = 60.0; // per second
 
 struct Peaks
 {
@@ -90,34 +90,16 @@ std::map<std::int64_t, Target> targetsOf(const Peaks& peaks, const Curve& freque
     return targets;
 }
 
-/// Control points from 0 to 0; none is nearer than 1 ms or further than 1 s.
-AndroidEnvelope envelopeOf(const std::map<std::int64_t, Target>& targets, std::int64_t end)
+/// Nodes from 0 to 0; none is nearer than 1 ms.
+std::vector<EnvelopeNode> nodesOf(const std::map<std::int64_t, Target>& targets, std::int64_t end)
 {
-    AndroidEnvelope envelope;
-    envelope.initialFrequency = targets.begin()->second.frequency;
-    std::int64_t at = 0;
-    Target before{0.0, envelope.initialFrequency};
-    const auto moveTo = [&](std::int64_t tick, const Target& target)
-    {
-        const std::int64_t length = tick - at;
-        const std::int64_t pieces = (length + longest - 1) / longest;
-        for (std::int64_t i = 1; i <= pieces; ++i)
-        {
-            const std::int64_t until = at + (length * i) / pieces;
-            const double place = static_cast<double>(i) / static_cast<double>(pieces);
-            const std::int64_t from = at + (length * (i - 1)) / pieces;
-            envelope.points.push_back({until - from, before.amplitude + place * (target.amplitude - before.amplitude),
-                                       before.frequency + place * (target.frequency - before.frequency)});
-        }
-        at = tick;
-        before = target;
-    };
+    std::vector<EnvelopeNode> nodes{{0, 0.0, targets.begin()->second.frequency}};
     for (const auto& [tick, target] : targets)
         if (tick > 0 || target.amplitude > 0.0)
-            moveTo(std::max(tick, at + 1), target);
-    if (before.amplitude > 0.0 || envelope.points.empty())
-        moveTo(std::max(end, at + 1), {0.0, before.frequency});
-    return envelope;
+            nodes.push_back({std::max(tick, nodes.back().tick + 1), target.amplitude, target.frequency});
+    if (nodes.back().amplitude > 0.0 || nodes.size() == 1)
+        nodes.push_back({std::max(end, nodes.back().tick + 1), 0.0, nodes.back().frequency});
+    return nodes;
 }
 
 double largestRounding(const SingleVoice& voice)
@@ -135,35 +117,60 @@ double largestRounding(const SingleVoice& voice)
 }
 } // namespace
 
-AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
+namespace
+{
+/// The voice of a clip that all effects are made of, and what it loses.
+struct AndroidVoice
+{
+    SingleVoice voice;
+    LossList losses;
+    bool keepsPoints = false;
+};
+
+AndroidVoice androidVoiceOf(const Clip& clip, const ExportParams& params, const char* events)
 {
     auto [voice, losses] = reducedVoice(clip, params, androidMotorFrequency);
     losses.limit(voice.events, 1.0);
     losses.addCrowding(voice.events, 2.0 * steepest);
     for (const Transient& event : voice.events)
-        losses.add(LossKind::event, event.time, 0.0, 0.0,
-                   "events become bursts in the waveform and peaks in the envelopes");
+        losses.add(LossKind::event, event.time, 0.0, 0.0, events);
+    return {std::move(voice), std::move(losses), isSingleVoice(clip) && !params.amplitudePoints};
+}
 
-    AndroidExport result;
-    const bool keepsPoints = isSingleVoice(clip) && !params.amplitudePoints;
-    const double rate = params.amplitudePoints.value_or(usualPoints);
-    const auto end = std::max<std::int64_t>(1, androidTick(voice.duration));
-    result.effects.waveform = androidWaveformOf(voice, params.amplitudePoints, keepsPoints);
-    addStepLosses(losses, voice, result.effects.waveform);
+void addRounding(LossList& losses, const SingleVoice& voice)
+{
     if (const double moved = largestRounding(voice); moved > 1e-9)
         losses.add(LossKind::timeStep, 0.0, voice.duration, moved, "times are rounded to milliseconds");
-    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
+}
 
-    if (!keepsPoints)
+/// The nodes of the voice, thinned to what is asked for or usual.
+std::vector<EnvelopeNode> nodesOf(AndroidVoice& android, const ExportParams& params)
+{
+    SingleVoice& voice = android.voice;
+    if (!android.keepsPoints)
     {
         const Curve before = voice.amplitude;
-        voice.amplitude = thinned(voice.amplitude, rate, voice.duration);
+        voice.amplitude = thinned(voice.amplitude, params.amplitudePoints.value_or(usualPoints), voice.duration);
         voice.frequency = thinned(voice.frequency, params.frequencyPoints.value_or(20.0), voice.duration);
-        losses.addThinned(before, voice.amplitude);
+        android.losses.addThinned(before, voice.amplitude);
     }
-    const auto targets = targetsOf(withPeaks(voice), voice.frequency, keepsPoints);
-    result.effects.envelope = envelopeOf(targets, end);
-    result.effects.basic = result.effects.envelope;
+    const auto targets = targetsOf(withPeaks(voice), voice.frequency, android.keepsPoints);
+    return nodesOf(targets, std::max<std::int64_t>(1, androidTick(voice.duration)));
+}
+
+/// The nodes within limits.
+Result<std::vector<EnvelopeNode>> limitedNodes(const std::vector<EnvelopeNode>& nodes, const EnvelopeLimits& limits,
+                                               LossList& losses)
+{
+    auto fitted = fittedNodes(nodes, limits);
+    if (fitted)
+        addFitLosses(losses, nodes, *fitted);
+    return fitted;
+}
+
+/// The same envelope with sharpness in the place of Hz.
+AndroidEnvelope basicOf(AndroidEnvelope envelope, const ExportParams& params, double duration, LossList& losses)
+{
     const NormalisedRange range = normalisedRangeOf(params.profile, sharpnessRange);
     double bent = 0.0;
     const auto sharpnessOf = [&](double hertz)
@@ -172,17 +179,22 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
         bent = std::max(bent, std::abs(std::log2(range.hertzOf(sharpness) / hertz)));
         return sharpness;
     };
-    result.effects.basic.initialFrequency = sharpnessOf(result.effects.basic.initialFrequency);
-    for (AndroidPoint& point : result.effects.basic.points)
+    envelope.initialFrequency = sharpnessOf(envelope.initialFrequency);
+    for (AndroidPoint& point : envelope.points)
         point.frequency = sharpnessOf(point.frequency);
     if (bent > 1e-9)
-        losses.add(LossKind::frequency, 0.0, voice.duration, bent,
+        losses.add(LossKind::frequency, 0.0, duration, bent,
                    fmt::format("basic envelope: frequencies outside {} to {} Hz are limited to this range",
                                decimal(range.low, 0), decimal(range.high, 0)));
+    return envelope;
+}
+
+/// What not every device plays.
+void addDeviceLosses(LossList& losses, const std::vector<AndroidPoint>& points, double duration)
+{
     constexpr std::size_t advised = 16;
-    const auto& points = result.effects.envelope.points;
     if (points.size() > advised)
-        losses.add(LossKind::points, 0.0, voice.duration, 0.0,
+        losses.add(LossKind::points, 0.0, duration, 0.0,
                    fmt::format("envelopes: {} control points; devices need not play more than 16 at once, Android "
                                "splits the effect",
                                points.size()));
@@ -194,8 +206,56 @@ AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params)
                        "envelopes: segments of less than 20 ms, which some devices do not play");
         at += point.duration;
     }
+}
+} // namespace
+
+Result<AndroidExport> androidEffectsOf(const Clip& clip, const ExportParams& params)
+{
+    auto android = androidVoiceOf(clip, params, "events become bursts in the waveform and peaks in the envelopes");
+    auto& [voice, losses, keepsPoints] = android;
+    AndroidExport result;
+    result.effects.waveform = androidWaveformOf(voice, params.amplitudePoints, keepsPoints);
+    addStepLosses(losses, voice, result.effects.waveform);
+    addRounding(losses, voice);
+    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
+
+    auto nodes = nodesOf(android, params);
+    if (params.envelope)
+    {
+        auto fitted = limitedNodes(nodes, *params.envelope, losses);
+        if (!fitted)
+            return fitted.error();
+        nodes = std::move(*fitted);
+    }
+    result.effects.envelope = envelopeThrough(nodes, params.envelope.value_or(EnvelopeLimits()).longest);
+    result.effects.basic = basicOf(result.effects.envelope, params, voice.duration, losses);
+    addDeviceLosses(losses, result.effects.envelope.points, voice.duration);
     result.losses = std::move(losses);
     return result;
+}
+
+Result<AndroidEnvelopeExport> androidEnvelopeOf(const Clip& clip, const ExportParams& params, bool isBasic)
+{
+    auto android = androidVoiceOf(clip, params, "events become peaks");
+    LossList& losses = android.losses;
+    const double duration = android.voice.duration;
+    addRounding(losses, android.voice);
+    auto nodes = nodesOf(android, params);
+    if (params.envelope || !android.keepsPoints)
+    {
+        auto fitted = limitedNodes(nodes, params.envelope.value_or(EnvelopeLimits()), losses);
+        if (!fitted)
+            return fitted.error();
+        nodes = std::move(*fitted);
+    }
+    AndroidEnvelope envelope = envelopeThrough(nodes, params.envelope.value_or(EnvelopeLimits()).longest);
+    addDeviceLosses(losses, envelope.points, duration);
+    if (isBasic)
+        envelope = basicOf(std::move(envelope), params, duration, losses);
+    else if (!params.profile)
+        losses.add(LossKind::frequency, 0.0, duration, 0.0,
+                   "waveform envelope: Android plays none that leaves the device's frequencies; a profile has them");
+    return AndroidEnvelopeExport{std::move(envelope), std::move(losses)};
 }
 
 Clip clipOfWaveform(const std::vector<AndroidStep>& steps)

@@ -4,6 +4,8 @@
 
 #include "io/formats/LossList.h"
 
+#include <pacini/foundation/Result.h>
+
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -74,8 +76,20 @@ struct AndroidExport
 ///   20 ms, which some cannot, and more than 16 points, which Android may split, are named in the losses. Events are
 ///   peaks as long as the decoder's pulse, at its frequency.
 ///
-/// `amplitudePoints` per second (100 steps, 60 control points where it is not given) are the most.
-[[nodiscard]] AndroidExport androidEffectsOf(const Clip& clip, const ExportParams& params);
+/// `amplitudePoints` per second (100 steps, 60 control points where it is not given) are the most; with
+/// `params.envelope` the envelopes keep those limits (see fittedNodes). Errors: those of fittedNodes().
+[[nodiscard]] Result<AndroidExport> androidEffectsOf(const Clip& clip, const ExportParams& params);
+
+struct AndroidEnvelopeExport
+{
+    AndroidEnvelope envelope;
+    LossList losses;
+};
+
+/// One envelope alone, basic or not, with as few control points as say the same; otherwise as androidEffectsOf(). A
+/// clip of one voice keeps its points unless limits or a density are asked for.
+[[nodiscard]] Result<AndroidEnvelopeExport> androidEnvelopeOf(const Clip& clip, const ExportParams& params,
+                                                              bool isBasic);
 
 /// The clip of a waveform: steps at androidMotorFrequency.
 [[nodiscard]] Clip clipOfWaveform(const std::vector<AndroidStep>& steps);

@@ -8,9 +8,39 @@ namespace pacini
 {
 
 [[nodiscard]] bool isAndroidJson(std::string_view bytes);
-[[nodiscard]] bool isAndroidXml(std::string_view bytes);
-[[nodiscard]] bool isAndroidKotlin(std::string_view bytes);
-[[nodiscard]] bool isAndroidJava(std::string_view bytes);
+
+namespace detail
+{
+[[nodiscard]] inline bool isVibrationXml(std::string_view bytes)
+{
+    return bytes.find("<vibration-effect>") != std::string_view::npos;
+}
+} // namespace detail
+
+[[nodiscard]] inline bool isAndroidEnvelopeXml(std::string_view bytes)
+{
+    return detail::isVibrationXml(bytes) && bytes.find("<waveform-envelope-effect") != std::string_view::npos;
+}
+
+[[nodiscard]] inline bool isAndroidBasicXml(std::string_view bytes)
+{
+    return detail::isVibrationXml(bytes) && bytes.find("<basic-envelope-effect") != std::string_view::npos;
+}
+
+[[nodiscard]] inline bool isAndroidXml(std::string_view bytes)
+{
+    return detail::isVibrationXml(bytes) && !isAndroidEnvelopeXml(bytes) && !isAndroidBasicXml(bytes);
+}
+
+[[nodiscard]] inline bool isAndroidKotlin(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
+}
+
+[[nodiscard]] inline bool isAndroidJava(std::string_view bytes)
+{
+    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
+}
 
 /// Reads the JSON that writeAndroidJson() writes: of its effects `waveformEnvelope`, else `basicEnvelope`, else
 /// `waveform`. A warning says what is not read: amplitudes of -1 (the device's default) become 255, repetition is left
@@ -25,6 +55,11 @@ namespace pacini
 
 /// The waveform as a `vibration-effect` document; with `split` the envelopes too, each in its file.
 [[nodiscard]] Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params);
+
+/// The envelope of androidEnvelopeOf() as a `vibration-effect` document with a `waveform-envelope-effect` (amplitude,
+/// frequencyHz) or a `basic-envelope-effect` (intensity, sharpness). Errors: those of androidEnvelopeOf().
+[[nodiscard]] Result<ExportedClip> writeAndroidEnvelopeXml(const Clip& clip, const ExportParams& params);
+[[nodiscard]] Result<ExportedClip> writeAndroidBasicXml(const Clip& clip, const ExportParams& params);
 
 /// A function that returns the effect: the envelope from API 36 on where the device plays it, before the waveform.
 [[nodiscard]] Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params);

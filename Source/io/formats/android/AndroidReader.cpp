@@ -136,6 +136,13 @@ std::optional<Error> readEffect(const nlohmann::json& tree, ImportedClip& import
 }
 } // namespace
 
+bool isAndroidJson(std::string_view bytes)
+{
+    constexpr auto none = std::string_view::npos;
+    return (bytes.find("\"timings\"") != none && bytes.find("\"amplitudes\"") != none) ||
+           bytes.find("\"controlPoints\"") != none;
+}
+
 Result<ImportedClip> readAndroidJson(std::string_view bytes)
 {
     return importForeign(bytes, readEffect);

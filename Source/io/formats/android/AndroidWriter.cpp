@@ -70,24 +70,25 @@ std::string builderCalls(const std::vector<AndroidPoint>& points)
                             decimal(point.frequency, 4), point.duration);
     return text;
 }
+
+std::string waveformEnvelopeXml(const AndroidEnvelope& envelope)
+{
+    return xmlDocument(
+        xmlEnvelope(envelope, "waveform-envelope-effect", "initialFrequencyHz", "amplitude", "frequencyHz"));
+}
+
+std::string basicEnvelopeXml(const AndroidEnvelope& envelope)
+{
+    return xmlDocument(xmlEnvelope(envelope, "basic-envelope-effect", "initialSharpness", "intensity", "sharpness"));
+}
 } // namespace
-
-bool isAndroidJson(std::string_view bytes)
-{
-    constexpr auto none = std::string_view::npos;
-    return (bytes.find("\"timings\"") != none && bytes.find("\"amplitudes\"") != none) ||
-           bytes.find("\"controlPoints\"") != none;
-}
-
-bool isAndroidXml(std::string_view bytes)
-{
-    return bytes.find("<vibration-effect>") != std::string_view::npos;
-}
 
 Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& params)
 {
-    AndroidExport made = androidEffectsOf(clip, params);
-    const AndroidEffects& effects = made.effects;
+    auto made = androidEffectsOf(clip, params);
+    if (!made)
+        return made.error();
+    const AndroidEffects& effects = made->effects;
     return oneFile(
         fmt::format(
             R"({{
@@ -115,43 +116,49 @@ Result<ExportedClip> writeAndroidJson(const Clip& clip, const ExportParams& para
             numbersOf(effects.waveform, "      ", &AndroidStep::amplitude), decimal(effects.basic.initialFrequency, 4),
             jsonPoints(effects.basic.points, "intensity", "sharpness"), decimal(effects.envelope.initialFrequency, 4),
             jsonPoints(effects.envelope.points, "amplitude", "frequencyHz")),
-        std::move(made.losses));
+        std::move(made->losses));
 }
 
 Result<ExportedClip> writeAndroidXml(const Clip& clip, const ExportParams& params)
 {
-    AndroidExport made = androidEffectsOf(clip, params);
+    auto made = androidEffectsOf(clip, params);
+    if (!made)
+        return made.error();
     std::string waveform = "  <waveform-effect>\n";
-    for (const AndroidStep& step : made.effects.waveform)
+    for (const AndroidStep& step : made->effects.waveform)
         waveform +=
             fmt::format("    <waveform-entry durationMs=\"{}\" amplitude=\"{}\"/>\n", step.duration, step.amplitude);
     waveform += "  </waveform-effect>\n";
-    ExportedClip result = oneFile(xmlDocument(waveform), std::move(made.losses));
+    ExportedClip result = oneFile(xmlDocument(waveform), std::move(made->losses));
     if (params.split)
     {
-        result.files.push_back(
-            {"-basic-envelope", xmlDocument(xmlEnvelope(made.effects.basic, "basic-envelope-effect", "initialSharpness",
-                                                        "intensity", "sharpness"))});
-        result.files.push_back(
-            {"-waveform-envelope", xmlDocument(xmlEnvelope(made.effects.envelope, "waveform-envelope-effect",
-                                                           "initialFrequencyHz", "amplitude", "frequencyHz"))});
+        result.files.push_back({"-basic-envelope", basicEnvelopeXml(made->effects.basic)});
+        result.files.push_back({"-waveform-envelope", waveformEnvelopeXml(made->effects.envelope)});
     }
     return result;
 }
 
-bool isAndroidKotlin(std::string_view bytes)
+Result<ExportedClip> writeAndroidEnvelopeXml(const Clip& clip, const ExportParams& params)
 {
-    return bytes.starts_with("import android.os.Build\nimport android.os.VibrationEffect\n");
+    auto made = androidEnvelopeOf(clip, params, false);
+    if (!made)
+        return made.error();
+    return oneFile(waveformEnvelopeXml(made->envelope), std::move(made->losses));
 }
 
-bool isAndroidJava(std::string_view bytes)
+Result<ExportedClip> writeAndroidBasicXml(const Clip& clip, const ExportParams& params)
 {
-    return bytes.starts_with("import android.os.Build;\nimport android.os.VibrationEffect;\n");
+    auto made = androidEnvelopeOf(clip, params, true);
+    if (!made)
+        return made.error();
+    return oneFile(basicEnvelopeXml(made->envelope), std::move(made->losses));
 }
 
 Result<ExportedClip> writeAndroidKotlin(const Clip& clip, const ExportParams& params)
 {
-    AndroidExport made = androidEffectsOf(clip, params);
+    auto made = androidEffectsOf(clip, params);
+    if (!made)
+        return made.error();
     return oneFile(fmt::format(R"(import android.os.Build
 import android.os.VibrationEffect
 import android.os.Vibrator
@@ -171,16 +178,18 @@ fun {}(vibrator: Vibrator): VibrationEffect {{
     )
 }}
 )",
-                               functionName(clip, params), decimal(made.effects.envelope.initialFrequency, 4),
-                               builderCalls(made.effects.envelope.points),
-                               numbersOf(made.effects.waveform, "            ", &AndroidStep::duration),
-                               numbersOf(made.effects.waveform, "            ", &AndroidStep::amplitude)),
-                   std::move(made.losses));
+                               functionName(clip, params), decimal(made->effects.envelope.initialFrequency, 4),
+                               builderCalls(made->effects.envelope.points),
+                               numbersOf(made->effects.waveform, "            ", &AndroidStep::duration),
+                               numbersOf(made->effects.waveform, "            ", &AndroidStep::amplitude)),
+                   std::move(made->losses));
 }
 
 Result<ExportedClip> writeAndroidJava(const Clip& clip, const ExportParams& params)
 {
-    AndroidExport made = androidEffectsOf(clip, params);
+    auto made = androidEffectsOf(clip, params);
+    if (!made)
+        return made.error();
     const std::string function = functionName(clip, params);
     std::string type = function;
     type[0] = 'V';
@@ -206,11 +215,11 @@ public final class {} {{
     }}
 }}
 )",
-                               type, type, function, decimal(made.effects.envelope.initialFrequency, 4),
-                               builderCalls(made.effects.envelope.points),
-                               numbersOf(made.effects.waveform, "                ", &AndroidStep::duration),
-                               numbersOf(made.effects.waveform, "                ", &AndroidStep::amplitude)),
-                   std::move(made.losses));
+                               type, type, function, decimal(made->effects.envelope.initialFrequency, 4),
+                               builderCalls(made->effects.envelope.points),
+                               numbersOf(made->effects.waveform, "                ", &AndroidStep::duration),
+                               numbersOf(made->effects.waveform, "                ", &AndroidStep::amplitude)),
+                   std::move(made->losses));
 }
 
 } // namespace pacini

@@ -288,6 +288,11 @@ private:
 };
 } // namespace
 
+bool isCsv(std::string_view bytes)
+{
+    return bytes.starts_with("time,") || bytes.starts_with("time;") || bytes.starts_with("time\t");
+}
+
 Result<ImportedClip> readCsv(std::string_view bytes)
 {
     ImportedClip result;

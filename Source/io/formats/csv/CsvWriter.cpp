@@ -60,11 +60,6 @@ private:
 };
 } // namespace
 
-bool isCsv(std::string_view bytes)
-{
-    return bytes.starts_with("time,") || bytes.starts_with("time;") || bytes.starts_with("time\t");
-}
-
 Result<ExportedClip> writeCsv(const Clip& clip, const ExportParams&)
 {
     Table table;

@@ -270,6 +270,11 @@ std::optional<Error> readHapsEffect(const nlohmann::json& tree, ImportedClip& im
 }
 } // namespace
 
+bool isHaps(std::string_view bytes)
+{
+    return bytes.find("\"m_vibration\"") != std::string_view::npos;
+}
+
 Result<ImportedClip> readHaps(std::string_view bytes)
 {
     return importForeign(bytes, readHapsEffect);

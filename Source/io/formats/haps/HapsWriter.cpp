@@ -43,11 +43,6 @@ std::string melody(const std::string& notes)
 }
 } // namespace
 
-bool isHaps(std::string_view bytes)
-{
-    return bytes.find("\"m_vibration\"") != std::string_view::npos;
-}
-
 Result<ExportedClip> writeHaps(const Clip& clip, const ExportParams& params)
 {
     auto [voice, losses] = reducedVoice(clip, params, hapsMotorFrequency); // players take gains of notes above 1

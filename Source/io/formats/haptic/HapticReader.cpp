@@ -161,6 +161,16 @@ private:
 };
 } // namespace
 
+bool isHaptic(std::string_view bytes)
+{
+    // Enough to tell it from other JSON and from projects with such clips; what is wrong inside, the reader says.
+    const auto has = [bytes](std::string_view word)
+    {
+        return bytes.find(word) != std::string_view::npos;
+    };
+    return has("\"signals\"") && has("\"envelopes\"") && !has("\"clipId\"");
+}
+
 Result<ImportedClip> readHaptic(std::string_view text)
 {
     const auto tree = readJsonTree(text, largestHapticText);

@@ -127,16 +127,6 @@ void addTimeLoss(const NormalisedVoice& voice, LossList& losses)
 }
 } // namespace
 
-bool isHaptic(std::string_view bytes)
-{
-    // Enough to tell it from other JSON and from projects with such clips; what is wrong inside, the reader says.
-    const auto has = [bytes](std::string_view word)
-    {
-        return bytes.find(word) != std::string_view::npos;
-    };
-    return has("\"signals\"") && has("\"envelopes\"") && !has("\"clipId\"");
-}
-
 Result<ExportedClip> writeHaptic(const Clip& clip, const ExportParams& params)
 {
     if (auto valid = validate(clip); !valid)

@@ -7,8 +7,16 @@
 namespace pacini
 {
 
-[[nodiscard]] bool isOpenXrHeader(std::string_view bytes);
-[[nodiscard]] bool isOpenXrJson(std::string_view bytes);
+[[nodiscard]] inline bool isOpenXrHeader(std::string_view bytes)
+{
+    return bytes.starts_with("/* XR_FB_haptic_pcm:");
+}
+
+[[nodiscard]] inline bool isOpenXrJson(std::string_view bytes)
+{
+    return bytes.find("\"amplitudeEnvelopeVibration\"") != std::string_view::npos ||
+           bytes.find("\"pcmVibration\"") != std::string_view::npos;
+}
 
 /// For XR_FB_haptic_pcm and XR_FB_haptic_amplitude_envelope: a C header, or JSON, with the drive signal as floats
 /// within -1..1, cut into buffers of at most 4000 samples to be appended, and the strength as amplitudes of 0 to 1 over

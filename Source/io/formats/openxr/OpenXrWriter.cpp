@@ -80,17 +80,6 @@ std::vector<std::span<const float>> buffersOf(const std::vector<float>& samples)
 }
 } // namespace
 
-bool isOpenXrHeader(std::string_view bytes)
-{
-    return bytes.starts_with("/* XR_FB_haptic_pcm:");
-}
-
-bool isOpenXrJson(std::string_view bytes)
-{
-    return bytes.find("\"amplitudeEnvelopeVibration\"") != std::string_view::npos ||
-           bytes.find("\"pcmVibration\"") != std::string_view::npos;
-}
-
 Result<ExportedClip> writeOpenXrHeader(const Clip& clip, const ExportParams& params)
 {
     auto made = openXrOf(clip, params);

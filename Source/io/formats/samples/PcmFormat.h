@@ -13,7 +13,10 @@ namespace pacini
 [[nodiscard]] Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits);
 [[nodiscard]] Result<ExportedClip> writeRaw(const Clip& clip, const ExportParams& params, int bits);
 
-[[nodiscard]] bool isCArray(std::string_view bytes);
+[[nodiscard]] inline bool isCArray(std::string_view bytes)
+{
+    return bytes.starts_with("#ifndef HAPTIC_");
+}
 
 /// A C header with the 8-bit samples as a `static const int8_t` array, their number and rate.
 [[nodiscard]] Result<ExportedClip> writeCArray(const Clip& clip, const ExportParams& params);

@@ -74,11 +74,6 @@ std::string upperCase(std::string name)
 }
 } // namespace
 
-bool isCArray(std::string_view bytes)
-{
-    return bytes.starts_with("#ifndef HAPTIC_");
-}
-
 Result<ExportedClip> writeWav(const Clip& clip, const ExportParams& params, int bits)
 {
     auto drive = driveSamples(clip, params, usualRate);

@@ -255,6 +255,12 @@ std::optional<Error> readTactProject(const nlohmann::json& tree, ImportedClip& i
 }
 } // namespace
 
+bool isTact(std::string_view bytes)
+{
+    constexpr auto none = std::string_view::npos;
+    return bytes.find("\"project\"") != none && bytes.find("\"tracks\"") != none;
+}
+
 Result<ImportedClip> readTact(std::string_view bytes)
 {
     return importForeign(bytes, readTactProject);

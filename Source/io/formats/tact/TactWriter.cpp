@@ -19,12 +19,6 @@ constexpr double frame = static_cast<double>(tactFrame) / 1000.0; // s
 constexpr std::array<const char*, 2> positions{"ForearmL", "ForearmR"};
 } // namespace
 
-bool isTact(std::string_view bytes)
-{
-    constexpr auto none = std::string_view::npos;
-    return bytes.find("\"project\"") != none && bytes.find("\"tracks\"") != none;
-}
-
 Result<ExportedClip> writeTact(const Clip& clip, const ExportParams& params)
 {
     auto [voice, losses] = reducedStrength(clip, params, tactMotorFrequency);
