@@ -1,5 +1,5 @@
-/* Rumble of a game controller from haptic clips: an engine for each controller, whose drive signal is not heard but becomes
- * the levels of the two motors.
+/* Rumble of a game controller from haptic clips: an engine for each controller, whose drive signal is not heard but
+ * becomes the levels of the two motors.
  *
  * SPDX-License-Identifier: MIT
  */
