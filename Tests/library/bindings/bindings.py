@@ -19,6 +19,8 @@ KNOCK = HERE.parent / "knock.json"
 PACINI = Path(os.environ["PACINI_COMMAND"])
 LIBRARY = Path(os.environ["PACINI_LIBRARY"])
 FIRST_VIBRATION = Path(os.environ["PACINI_FIRST_VIBRATION"])
+# The environment that people have.
+OUTSIDE = {name: value for name, value in os.environ.items() if not name.startswith("PACINI_")}
 
 
 def floats(data):
@@ -82,7 +84,7 @@ class BindingTest(unittest.TestCase):
         """Standard output of a program that finds the library."""
         done = subprocess.run([str(word) for word in command], cwd=self.folder, stdin=subprocess.DEVNULL,
                               capture_output=True, timeout=timeout,
-                              env={**os.environ, "HOME": str(self.folder), "LD_LIBRARY_PATH": str(LIBRARY.parent),
+                              env={**OUTSIDE, "HOME": str(self.folder), "LD_LIBRARY_PATH": str(LIBRARY.parent),
                                    **environment})
         self.assertEqual(done.returncode, code, (done.stdout[-2000:] + done.stderr[-4000:]).decode(errors="replace"))
         return done.stdout

@@ -1,13 +1,12 @@
 """pacini.lua in LÖVE, without a window."""
 import math
-import os
 import re
 import shutil
 import subprocess
 import time
 import unittest
 
-from bindings import BINDINGS, HERE, KNOCK, LIBRARY, BindingTest, declarations, floats, one_line
+from bindings import BINDINGS, HERE, KNOCK, LIBRARY, OUTSIDE, BindingTest, declarations, floats, one_line
 
 LUA = BINDINGS / "lua"
 RATE = 48000
@@ -39,7 +38,7 @@ class Lua(BindingTest):
         settings.write_text("[general]\ndrivers = wave\nfrequency = 48000\nchannels = mono\nsample-type = float32\n"
                             f"output-limiter = false\ndither = false\n[wave]\nfile = {file}\n")
         with subprocess.Popen(["love", self.folder / "game"], stderr=subprocess.PIPE, env={
-                **os.environ, "HOME": str(self.folder), "ALSOFT_CONF": str(settings),
+                **OUTSIDE, "HOME": str(self.folder), "ALSOFT_CONF": str(settings),
                 "LD_LIBRARY_PATH": str(LIBRARY.parent)}) as game:
             end = time.monotonic() + 30
             while time.monotonic() < end and game.poll() is None and not (
