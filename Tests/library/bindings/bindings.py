@@ -82,10 +82,13 @@ class BindingTest(unittest.TestCase):
 
     def run_program(self, *command, code=0, timeout=120, **environment):
         """Standard output of a program that finds the library."""
-        done = subprocess.run([str(word) for word in command], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, timeout=timeout,
-                              env={**OUTSIDE, "HOME": str(self.folder), "LD_LIBRARY_PATH": str(LIBRARY.parent),
-                                   **environment})
+        try:
+            done = subprocess.run([str(word) for word in command], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                  capture_output=True, timeout=timeout,
+                                  env={**OUTSIDE, "HOME": str(self.folder), "LD_LIBRARY_PATH": str(LIBRARY.parent),
+                                       **environment})
+        except subprocess.TimeoutExpired as late:
+            self.fail(f"{late}: {(late.stdout or b'')[-2000:]} {(late.stderr or b'')[-2000:]}")
         self.assertEqual(done.returncode, code, (done.stdout[-2000:] + done.stderr[-4000:]).decode(errors="replace"))
         return done.stdout
 
