@@ -92,6 +92,13 @@ class BindingTest(unittest.TestCase):
         self.assertEqual(done.returncode, code, (done.stdout[-2000:] + done.stderr[-4000:]).decode(errors="replace"))
         return done.stdout
 
+    def run_lines_of_page(self, page):
+        """The lines of a page that call the C compiler, where pacini.h and libpacini are installed."""
+        lines = re.findall(r"(?m)^ +(cc .*)$", (ROOT / "Resources/docs" / page).read_text())
+        self.assertTrue(lines, page)
+        for line in lines:
+            self.run_program("sh", "-c", line, C_INCLUDE_PATH=str(HEADER.parent), LIBRARY_PATH=str(LIBRARY.parent))
+
     def expected(self):
         """A second of knock.json on an lra-175, as the C program plays it."""
         played = self.run_program(FIRST_VIBRATION, KNOCK)

@@ -30,6 +30,13 @@ class Sdl(BindingTest):
                          "-Wdouble-promotion", "-Werror", "-O1", "-I", HEADER.parent, "-I", EXAMPLES, *sources,
                          "-o", out, *self.flags, f"-L{LIBRARY.parent}", "-lpacini", "-lm")
 
+    def test_the_lines_of_the_page_compile_them(self):
+        for source in EXAMPLES.iterdir():
+            shutil.copy(source, self.folder)
+        self.run_lines_of_page("sdl.md")
+        for name in ("sound_and_touch", "rumble_controller"):
+            self.run_program(f"./{name}", code=1)  # usage
+
     def test_sound_and_touch_are_on_channels_of_one_device(self):
         self.compile("sound_and_touch", EXAMPLES / "sound_and_touch.c")
         sound = [round(8000 * math.sin(0.01 * i)) for i in range(2 * 24000)]

@@ -140,10 +140,28 @@ static class EveryFunction
         }
     }
 
+    static void RenderingAllocatesNothing()
+    {
+        using (var clip = Clip.FromBytes(Encoding.UTF8.GetBytes(Hum)))
+        using (var engine = new Engine(new EngineConfig { SampleRate = 8000 }))
+        {
+            engine.Play(clip, new PlaySettings { Loop = -1 });
+            var samples = new float[2];
+            engine.Render(samples, 1);
+            int before = GC.CollectionCount(0);
+            for (int i = 0; i < 500000; ++i) // 16 bytes each would fill the youngest generation, 4 MB, twice
+                engine.Render(samples, 1);
+            Check(GC.CollectionCount(0) == before, "rendering allocates");
+        }
+    }
+
     static void Main(string[] arguments)
     {
         if (arguments.Length == 0)
+        {
             Everything();
+            RenderingAllocatesNothing();
+        }
         else if (arguments[0] == "layout")
             Layout();
         else
