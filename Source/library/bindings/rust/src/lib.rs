@@ -98,10 +98,11 @@ fn text(given: &str) -> Result<CString, Error> {
 }
 
 fn path(given: &Path) -> Result<CString, Error> {
-    text(given.to_str().ok_or_else(|| Error {
-        code: Code::Invalid,
-        message: format!("{}: is not UTF-8", given.display()),
-    })?)
+    text(
+        given
+            .to_str()
+            .ok_or_else(|| Error { code: Code::Invalid, message: format!("{}: is not UTF-8", given.display()) })?,
+    )
 }
 
 /// A struct of the library as its init function fills it.
@@ -265,10 +266,8 @@ impl Default for Config {
 impl Config {
     /// With an actuator for each of these profiles.
     pub fn with_profiles(profiles: &[&str]) -> Self {
-        let actuators = profiles
-            .iter()
-            .map(|name| Actuator { profile: Some(name.to_string()), ..Actuator::default() })
-            .collect();
+        let actuators =
+            profiles.iter().map(|name| Actuator { profile: Some(name.to_string()), ..Actuator::default() }).collect();
         Config { actuators, ..Config::default() }
     }
 
@@ -410,9 +409,7 @@ impl Renderer {
     pub fn render(&mut self, samples: &mut [f32], channels: usize) -> Result<(), Code> {
         let frames = samples.len().checked_div(channels).unwrap_or(0);
         // SAFETY: no more than frames * channels samples are written; nobody else can render this engine meanwhile.
-        match unsafe {
-            sys::pacini_render_interleaved(self.0, samples.as_mut_ptr(), channels as u32, frames as u32)
-        } {
+        match unsafe { sys::pacini_render_interleaved(self.0, samples.as_mut_ptr(), channels as u32, frames as u32) } {
             0 => Ok(()),
             code => Err(Code::of(code)),
         }

@@ -116,7 +116,8 @@ fn errors_say_why() {
 #[test]
 fn what_is_dropped_is_destroyed() {
     for _ in 0..200 {
-        Engine::new(&Config { sample_rate: 8000.0, max_plays: 4, ..Config::default() }).unwrap(); // 64 at a time
+        Engine::new(&Config { sample_rate: 8000.0, max_plays: 4, ..Config::default() }).unwrap();
+        // 64 at a time
     }
 }
 
