@@ -115,6 +115,12 @@ class BindingTest(unittest.TestCase):
         data = (self.folder / "two.wav").read_bytes()
         return "two.scene.json", data[data.index(b"data") + 8:][:8 * 72000]
 
+    def assert_same_layout(self, lines):
+        """Lines of layout(): each struct that a binding declares is the C compiler's. It may leave structs out."""
+        names = {re.match(r"\w+", line)[0] for line in lines}
+        self.assertGreaterEqual(len(names), 6)
+        self.assertEqual(sorted(lines), sorted(line for line in layout() if re.match(r"\w+", line)[0] in names))
+
     def assert_same_samples(self, played, expected):
         """Bit for bit; the first difference tells where it is."""
         if played != expected:

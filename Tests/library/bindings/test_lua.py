@@ -73,7 +73,10 @@ class Lua(BindingTest):
         header = declarations()
         found = 0
         for one in re.findall(r"(?:typedef struct|typedef enum|enum) .*?} ?\w* ;|[^;]+;", one_line(bound)):
-            self.assertIn(one.strip(), header)
+            # Newer headers have more constants.
+            constants = re.findall(r"PACINI_\w+ = \d+", one) if " enum " in f" {one}" else []
+            for declared in constants or [one.strip()]:
+                self.assertRegex(header, re.escape(declared) + r"(?!\w)")
             found += 1
         self.assertGreater(found, 35)
 
