@@ -20,7 +20,7 @@ using devices::ControllerHaptics;
 using devices::ControllerModel;
 using devices::Transport;
 
-constexpr std::array<std::pair<std::string_view, ControllerModel>, 8> knownModels{{
+constexpr std::array<std::pair<std::string_view, ControllerModel>, 12> knownModels{{
     {"switch", {ControllerHaptics::hdRumble, Transport::bluetooth}},
     {"switch-usb", {ControllerHaptics::hdRumble, Transport::usb}},
     {"dualshock4", {ControllerHaptics::dualShock4, Transport::usb}},
@@ -28,6 +28,10 @@ constexpr std::array<std::pair<std::string_view, ControllerModel>, 8> knownModel
     {"dualsense", {ControllerHaptics::dualSense, Transport::usb}},
     {"dualsense-bluetooth", {ControllerHaptics::dualSense, Transport::bluetooth}},
     {"xbox", {ControllerHaptics::xbox, Transport::bluetooth}},
+    {"steam", {ControllerHaptics::steamController, Transport::usb}},
+    {"steam-receiver", {ControllerHaptics::steamController, Transport::receiver}},
+    {"steam-bluetooth", {ControllerHaptics::steamController, Transport::bluetooth}},
+    {"steamdeck", {ControllerHaptics::steamDeck, Transport::usb}},
     {"waveforms", {ControllerHaptics::waveforms, Transport::usb, devices::standardTrigger()}},
 }};
 
@@ -60,6 +64,10 @@ std::string_view hapticsName(ControllerHaptics haptics)
         return "Xbox";
     case ControllerHaptics::waveforms:
         return "Waveforms";
+    case ControllerHaptics::steamController:
+        return "Steam";
+    case ControllerHaptics::steamDeck:
+        return "Steam Deck";
     }
     return "";
 }
@@ -72,6 +80,8 @@ std::string_view transportName(Transport transport)
         return "USB";
     case Transport::bluetooth:
         return "Bluetooth";
+    case Transport::receiver:
+        return "Receiver";
     case Transport::unknown:
         break;
     }

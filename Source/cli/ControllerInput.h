@@ -18,7 +18,7 @@ namespace pacini::cli
 /// "HD rumble", "DualShock 4" ...
 [[nodiscard]] std::string_view hapticsName(devices::ControllerHaptics haptics);
 
-/// "USB", "Bluetooth" or "unknown".
+/// "USB", "Bluetooth", "Receiver" or "unknown".
 [[nodiscard]] std::string_view transportName(devices::Transport transport);
 
 /// The controllers that can be named without being connected: "switch", "dualsense-bluetooth" ...

@@ -30,8 +30,9 @@ CLI::App* DevicesCommand::declare(CLI::App& app)
         app.add_subcommand("devices", "List the connected game controllers and other devices that can play haptics");
     command->footer(
         "'pacini play CLIP --device N' plays on the one with that number.\n"
-        "Known are Joy-Con, Switch Pro, DualShock 4, DualSense and, on Bluetooth, Xbox controllers, and as\n"
-        "'Waveforms' devices with waveforms of HID page 0x0E: some touchpads, mice, pens and dials.");
+        "Known are Joy-Con, Switch Pro, DualShock 4, DualSense, Steam Controller (2026), Steam Deck and, on\n"
+        "Bluetooth, Xbox controllers, and as 'Waveforms' devices with waveforms of HID page 0x0E: some\n"
+        "touchpads, mice, pens and dials. The Steam devices were not tried: what they are sent is from readings.");
     return command;
 }
 

@@ -1,8 +1,9 @@
 #include "devices/ClipRumble.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <pacini/clip/edits/TimeEdits.h>
+#include <pacini/runtime/Engine.h>
+
+#include <memory>
 #include <utility>
 
 namespace pacini::devices
@@ -10,119 +11,53 @@ namespace pacini::devices
 
 namespace
 {
-constexpr double packetRounding = 1e-6; // of a packet
-
-bool isHigh(Hertz frequency) noexcept
+/// The drive signal of a part of a clip; silence where none can be made.
+DriveRenderer driveOf(const Clip& clip, const PlayRange& range, double gain, double sampleRate)
 {
-    return frequency >= carrierBorder;
-}
-
-std::int64_t packetsIn(double intervals) noexcept
-{
-    return std::max<std::int64_t>(std::llround(intervals), 1);
+    EngineParams params;
+    params.sampleRate = sampleRate;
+    params.actuators.resize(1);
+    params.maxPlays = 1;
+    auto made = Engine::make(params);
+    const auto part = LoadedClip::ofClip(trimClip(clip, {range.from.value, range.to.value}));
+    std::shared_ptr<Engine> engine;
+    if (made && part)
+    {
+        engine = std::move(made).value();
+        PlaySettings settings;
+        settings.controls.gain = gain;
+        settings.loop = range.loop ? (*part)->duration() : 0.0;
+        if (!engine->play(*part, settings))
+            engine.reset();
+    }
+    return [engine](std::span<const std::span<float>> out)
+    {
+        if (engine)
+            engine->render(out);
+        else
+            std::fill(out[0].begin(), out[0].end(), 0.0f);
+    };
 }
 } // namespace
 
-RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept
-{
-    if (!canSound(pulse))
-        return tones;
-    RumbleTone& carrier = isHigh(pulse.frequency) ? tones.high : tones.low;
-    carrier = joinedTones(carrier, {pulse.frequency, std::min(pulse.amplitude, 1.0)});
-    return tones;
-}
-
-MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept
-{
-    double low = 0.0;
-    double high = 0.0;
-    for (const RumbleTone& band : bands)
-        if (canSound(band))
-            (isHigh(band.frequency) ? high : low) += band.amplitude * band.amplitude;
-    return {std::min(std::sqrt(low), 1.0), std::min(std::sqrt(high), 1.0)};
-}
-
-MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept
-{
-    const double amplitude = std::min(pulse.level, 1.0);
-    return {std::max(motors.strong, amplitude * std::sqrt(1.0 - pulse.sharpness)),
-            std::max(motors.weak, amplitude * std::sqrt(pulse.sharpness))};
-}
-
 ClipRumble::ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller)
-    : model(controller),
-      interval(pacingOf(controller.haptics).interval),
-      packets(std::move(clip), range, intensity.gain(), interval),
-      handover({.interval = interval})
+    : model(controller), packets(clip, range, intensity.gain(), pacingOf(controller).interval), states(controller)
 {
+    constexpr double fs = 8000.0; // the highest rate of a controller
+    if (model.haptics == ControllerHaptics::steamController)
+        drive.emplace(driveOf(clip, range, intensity.gain(), fs), 1, fs, model);
 }
 
 std::optional<RumbleState> ClipRumble::at(std::int64_t packet)
 {
-    const PacketContent content = packets.at(packet);
-    RumbleState state = silentState(model.haptics);
-    const RumbleState silence = state;
-    if (model.haptics == ControllerHaptics::hdRumble)
-        state = sidesFor(content);
-    else if (model.haptics == ControllerHaptics::waveforms)
-        state = waveformFor(packet, content);
-    else
-        state = motorsFor(packet, content);
     const auto count = packets.count();
-    if (count && packet >= *count && state == silence)
+    const bool over = count && packet >= *count;
+    if (drive)
+        return over ? std::nullopt : drive->at(packet);
+    const RumbleState state = states.of(packet, packets.at(packet));
+    if (over && state == silentState(model.haptics))
         return std::nullopt;
     return state;
-}
-
-SidesRumble ClipRumble::sidesFor(const PacketContent& content) noexcept
-{
-    RumbleBytes bytes = handover.next(content.bands);
-    if (content.event)
-        bytes = encodeRumble(withPulse(handover.played(), content.event->tone));
-    return {bytes, bytes};
-}
-
-MotorLevels ClipRumble::motorsFor(std::int64_t packet, const PacketContent& content) noexcept
-{
-    if (content.event)
-    {
-        motorEvent = *content.event;
-        motorEventEnd = packet + std::llround(motorPulse.value / interval.value);
-    }
-    const MotorLevels motors = motorsOf(content.bands);
-    return packet < motorEventEnd ? withPulse(motors, motorEvent) : motors;
-}
-
-WaveformState ClipRumble::waveformFor(std::int64_t packet, const PacketContent& content) noexcept
-{
-    if (model.trigger.event == 0)
-        return lastingFor(packet, motorsFor(packet, content));
-    if (content.event)
-    {
-        played = {Waveform::event, content.event->level, true};
-        playedEnd = packet + packetsIn(std::ceil(model.trigger.eventTime.value / interval.value - packetRounding));
-        return played;
-    }
-    if (played.waveform == Waveform::event && packet < playedEnd)
-    {
-        played.begins = false;
-        return played;
-    }
-    return lastingFor(packet, motorsOf(content.bands));
-}
-
-WaveformState ClipRumble::lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept
-{
-    const double intensity = std::min(std::hypot(levels.strong, levels.weak), 1.0);
-    if (!(intensity > 0.0) || !model.trigger.lasts())
-        return played = {};
-    const Waveform waveform = levels.strong > levels.weak ? Waveform::rumble : Waveform::buzz;
-    const Seconds time = waveform == Waveform::rumble ? model.trigger.rumbleTime : model.trigger.buzzTime;
-    const bool goesOn = played.waveform == waveform && (time.value <= 0.0 || packet < playedEnd);
-    if (!goesOn)
-        playedEnd = packet + packetsIn(std::floor(time.value / interval.value + packetRounding));
-    // What goes on by itself needs no trigger of its own; one that ends does.
-    return played = {waveform, intensity, !goesOn && time.value > 0.0};
 }
 
 } // namespace pacini::devices

@@ -1,10 +1,12 @@
 #pragma once
 
-// Conversion of a clip to the states of a controller (HD rumble, motors, waveforms), packet after packet.
+// Conversion of a clip to the states of a controller (HD rumble, motors, waveforms, samples), packet after packet.
 
 #include "devices/ClipPackets.h"
 #include "devices/ControllerReports.h"
-#include "devices/RumbleMapper.h"
+#include "devices/DriveRumble.h"
+#include "devices/PacketStates.h"
+#include "devices/RumbleSource.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,55 +14,21 @@
 namespace pacini::devices
 {
 
-/// HD rumble with the pulse of an event in it. The pulse belongs to the carrier that it is nearest to and is joined
-/// with what that plays. It jumps to its strength and is over with the packet, while bands go to theirs smoothly: an
-/// event shall be felt as a jump. It is not made weaker for being shorter than a packet: an actuator that comes within
-/// 37 % of a level in 10 ms (see RumbleMapperParams) gets to 78 % of it in a packet of 15 ms. The rule is ours:
-/// Nintendo has published none. [any]
-[[nodiscard]] RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept;
-
-/// The levels of two motors for bands: the energies below and above the border of the carriers of HD rumble, 226 Hz. So
-/// a clip is split alike on all controllers; Linux (hid-nintendo.c) gives strong and weak motors the carriers' 160 and
-/// 320 Hz. [any]
-[[nodiscard]] MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept;
-
-/// The levels while an event is played: at least its amplitude, dull ones on the strong motor, crisp ones on the weak
-/// one, and between the two by equal energy. [any]
-[[nodiscard]] MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept;
-
-/// Converter of a clip to states of a controller, asked for one packet after another.
-///
-/// On waveforms (see chosenWaveforms()), an event is triggered in its packet, as strong as it is, and what lasts gives
-/// way to it until it has ended. What lasts follows the levels of two motors: where the strong one is ahead it is a
-/// rumble, otherwise a buzz, as intense as both together.
-class ClipRumble
+/// Converter of a clip to states of a controller, asked for one packet after another. A controller that plays samples
+/// gets the drive signal, on both sides.
+class ClipRumble : public RumbleSource
 {
 public:
-    /// For how long motors are held up for an event: a shorter push is not felt. Source: Lofelt, NiceVibrations, which
-    /// plays emphasis on motors for 30 ms.
-    static constexpr Seconds motorPulse{0.030};
-
     ClipRumble(Clip clip, const PlayRange& range, Decibels intensity, const ControllerModel& controller);
 
-    /// What a packet plays; packets only go forward, some may be left out. After the end come those in which the last
-    /// sound fades out, then nothing. [worker]
-    [[nodiscard]] std::optional<RumbleState> at(std::int64_t packet);
+    /// After the end come those in which the last sound fades out, then nothing. [worker]
+    [[nodiscard]] std::optional<RumbleState> at(std::int64_t packet) override;
 
 private:
-    [[nodiscard]] SidesRumble sidesFor(const PacketContent& content) noexcept;
-    [[nodiscard]] MotorLevels motorsFor(std::int64_t packet, const PacketContent& content) noexcept;
-
-    [[nodiscard]] WaveformState waveformFor(std::int64_t packet, const PacketContent& content) noexcept;
-    [[nodiscard]] WaveformState lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept;
-
     ControllerModel model;
-    Seconds interval;
     ClipPackets packets;
-    RumbleMapper handover;
-    EventPulse motorEvent;
-    std::int64_t motorEventEnd = 0; ///< the packet after it
-    WaveformState played;
-    std::int64_t playedEnd = 0; ///< the packet at which what is played has ended by itself
+    PacketStates states;
+    std::optional<DriveRumble> drive; ///< for samples
 };
 
 } // namespace pacini::devices

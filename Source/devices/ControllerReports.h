@@ -5,6 +5,8 @@
 #include "devices/KnownControllers.h"
 #include "devices/MotorLevels.h"
 #include "devices/Report.h"
+#include "devices/ReportSink.h"
+#include "devices/SteamReports.h"
 #include "devices/SwitchReports.h"
 #include "devices/WaveformReport.h"
 
@@ -25,8 +27,9 @@ struct ControllerModel
     bool operator==(const ControllerModel&) const = default;
 };
 
-/// State that a controller plays: SidesRumble for HD rumble, WaveformState for waveforms, MotorLevels for the others.
-using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState>;
+/// State that a controller plays: SidesRumble for HD rumble, WaveformState for waveforms, PcmBlock for a Steam
+/// Controller, MotorLevels for the others.
+using RumbleState = std::variant<SidesRumble, MotorLevels, WaveformState, PcmBlock>;
 
 /// Whether a state is to be sent even if it is the one that was sent before. [any]
 [[nodiscard]] bool beginsAnew(const RumbleState& state) noexcept;
@@ -40,6 +43,7 @@ struct Pacing
     Seconds interval;          ///< from packet to packet, at least
     Seconds refresh;           ///< a state that has not changed is sent again after this time
     Seconds quietAfter{0.300}; ///< silence is repeated for this long, then not sent any more
+    int ahead = 0;             ///< packets that are sent before their time, to play from the controller's memory
     bool operator==(const Pacing&) const = default;
 };
 
@@ -49,19 +53,40 @@ struct Pacing
 /// silent. Waveforms: at most every 20 ms, which a pen's radio keeps up with and which is no shorter than most clicks;
 /// what lasts is triggered again twice a second, as devices may cut it off after one. Sources: dekuNukem,
 /// Nintendo_Switch_Reverse_Engineering; Linux, hid-nintendo.c; xpadneo, rumble throttle; for waveforms ours.
-/// [any]
-[[nodiscard]] Pacing pacingOf(ControllerHaptics haptics) noexcept;
+///
+/// A Steam Controller plays samples from a memory of unknown size: as many reports as one of the sources sends ahead,
+/// 8, or on Bluetooth, where they are eight times as long, 2. Every report is sent, but after silence none until
+/// something sounds. Rumble of a Steam Deck may end by itself, as that of the Steam Controller does after 50 ms, for
+/// which SDL repeats it every 40 ms. [any]
+[[nodiscard]] Pacing pacingOf(const ControllerModel& model) noexcept;
 
-/// What must be sent before the first packet, one per interval. HD rumble has to be enabled. On a cable, a Pro
+/// A report and the time to wait before the next.
+struct TimedReport
+{
+    Report report;
+    Seconds pause;
+};
+
+/// What must be sent before the first packet. HD rumble has to be enabled. On a cable, a Pro
 /// Controller also listens to reports only after a handshake, and for good only after it is told not to fall back to
-/// Bluetooth; if a driver has done this already, once more does no harm. [worker]
-[[nodiscard]] std::vector<Report> openingReports(const ControllerModel& model);
+/// Bluetooth; if a driver has done this already, once more does no harm. A Steam
+/// Controller starts to play samples. [worker]
+[[nodiscard]] std::vector<TimedReport> openingReports(const ControllerModel& model);
+
+/// What must be sent when something sounds after silence that was not sent: where packets are sent ahead, as many
+/// silent ones, so that the next has its time. [worker]
+[[nodiscard]] std::vector<TimedReport> resumingReports(const ControllerModel& model);
 
 /// The report of a state, which is the one of the controller's kind. Of `counter`, the number of all reports sent
 /// before, some reports hold a part. [any]
 [[nodiscard]] Report reportOf(const ControllerModel& model, const RumbleState& state, unsigned counter) noexcept;
 
-/// What is sent after the last silent packet: a DualSense is given back to its audio. [worker]
-[[nodiscard]] std::vector<Report> closingReports(const ControllerModel& model, unsigned counter);
+/// What is sent after the last silent packet: a DualSense is given back to its audio, a Steam Controller plays no more
+/// samples. [worker]
+[[nodiscard]] std::vector<TimedReport> closingReports(const ControllerModel& model, unsigned counter);
+
+/// What silences a controller should the program crash; two are written. A Steam Controller is told of its grips by one
+/// and of its trackpads by the other. [worker]
+[[nodiscard]] StopReports stopReports(const ControllerModel& model) noexcept;
 
 } // namespace pacini::devices

@@ -2,9 +2,10 @@
 
 #if !defined(_WIN32)
 
+#include "devices/RawReport.h"
+
 #include <signal.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -19,7 +20,7 @@ namespace pacini::devices
 struct EmergencyStop::Place
 {
     std::atomic<bool> taken{false};
-    std::atomic<int> descriptor{-1}; ///< -1: nothing to write
+    std::atomic<int> descriptor{0}; ///< and 1; 0: nothing to write. All zeros take no room in a library
     std::atomic<unsigned> sent{0};
     StopReports stops;
 };
@@ -39,10 +40,10 @@ bool EmergencyStop::writeAll() noexcept
 {
     bool any = false;
     for (Place& place : places)
-        if (const int descriptor = place.descriptor.load(std::memory_order_acquire); descriptor >= 0)
+        if (const int descriptor = place.descriptor.load(std::memory_order_acquire) - 1; descriptor >= 0)
         {
-            const auto report = place.stops[place.sent.fetch_add(1) % place.stops.size()].content();
-            any = ::write(descriptor, report.data(), report.size()) >= 0 || any;
+            const Report& report = place.stops[place.sent.fetch_add(1) % place.stops.size()];
+            any = writeRawReport(descriptor, report) >= 0 || any;
         }
     return any;
 }
@@ -88,8 +89,6 @@ void installHandlers() noexcept
 
 EmergencyStop::EmergencyStop(int fileDescriptor) noexcept : descriptor(fileDescriptor)
 {
-    static std::once_flag installed;
-    std::call_once(installed, installHandlers);
     for (Place& free : places)
         if (!free.taken.exchange(true))
         {
@@ -102,7 +101,7 @@ EmergencyStop::~EmergencyStop()
 {
     if (place == nullptr)
         return;
-    place->descriptor.store(-1);
+    place->descriptor.store(0);
     place->taken.store(false);
 }
 
@@ -110,9 +109,11 @@ void EmergencyStop::arm(const StopReports& stops) noexcept
 {
     if (place == nullptr)
         return;
+    static std::once_flag installed;
+    std::call_once(installed, installHandlers);
     place->stops = stops;
     place->sent.store(0);
-    place->descriptor.store(descriptor, std::memory_order_release);
+    place->descriptor.store(descriptor + 1, std::memory_order_release);
 }
 
 void EmergencyStop::count() noexcept

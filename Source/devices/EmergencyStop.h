@@ -7,12 +7,12 @@
 namespace pacini::devices
 {
 
-/// While it lives, a signal that ends the program first writes a report that silences a controller: SIGSEGV, SIGBUS,
-/// SIGILL, SIGFPE, SIGSYS and SIGABRT, and also SIGINT, SIGTERM, SIGHUP and SIGQUIT where the program does not take
-/// them in itself. Then the signal does what it would have done; who
-/// lives on nevertheless sends nothing more. Everything is prepared before: the handler only reads
-/// this object's lasting place and calls write(). Once more after 20 ms, as another thread may have been about to send.
-/// SIGKILL cannot be caught. Does nothing where there are no such signals.
+/// While it lives and is armed, a signal that ends the program first writes a report that silences a controller:
+/// SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGSYS and SIGABRT, and also SIGINT, SIGTERM, SIGHUP and SIGQUIT where the program
+/// does not take them in itself. Then the signal does what it would have done; who lives on nevertheless sends nothing
+/// more. Everything is prepared before: the handler only reads this object's lasting place and writes, by one system
+/// call. Once more after 20 ms, as another thread may have been about to send. SIGKILL cannot be caught. Does nothing
+/// where there are no such signals.
 class EmergencyStop
 {
 public:
@@ -23,7 +23,7 @@ public:
     EmergencyStop& operator=(const EmergencyStop&) = delete;
     ~EmergencyStop();
 
-    /// From now on there is something to write. At most once. [worker]
+    /// From now on there is something to write, and the handlers are there. At most once. [worker]
     void arm(const StopReports& stops) noexcept;
 
     /// A report has been written: the next counter is due. [worker]

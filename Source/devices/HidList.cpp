@@ -1,110 +1,21 @@
 #include "devices/HidList.h"
 
-#if defined(PACINI_HAS_HIDAPI)
-#include "devices/HidSource.h"
-
-#include <hidapi.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <memory>
-#include <utility>
+#if defined(__linux__) && !defined(PACINI_AS_OTHER_SYSTEMS)
+#include "devices/HidrawList.h"
+#else
+#include "devices/HidapiList.h"
 #endif
 
 namespace pacini::devices
 {
 
-#if defined(PACINI_HAS_HIDAPI)
-
-namespace
-{
-std::string utf8(const wchar_t* text)
-{
-    std::string bytes;
-    for (; text != nullptr && *text != L'\0'; ++text)
-    {
-        const auto code = static_cast<std::uint32_t>(*text);
-        const auto add = [&](std::uint32_t byte)
-        {
-            bytes += static_cast<char>(static_cast<unsigned char>(byte));
-        };
-        const auto addRest = [&](int shift)
-        {
-            add(0x80u | (code >> shift & 0x3Fu));
-        };
-        if (code < 0x80u)
-            add(code);
-        else if (code < 0x800u)
-        {
-            add(0xC0u | code >> 6);
-            addRest(0);
-        }
-        else if (code < 0xD800u || (code > 0xDFFFu && code < 0x10000u))
-        {
-            add(0xE0u | code >> 12);
-            addRest(6);
-            addRest(0);
-        }
-        else
-            add('?'); // no controller has such a name
-    }
-    return bytes;
-}
-
-Transport transportOf([[maybe_unused]] const hid_device_info& info)
-{
-#if defined(HID_API_MAKE_VERSION) && HID_API_VERSION >= HID_API_MAKE_VERSION(0, 13, 0)
-    if (info.bus_type == HID_API_BUS_USB)
-        return Transport::usb;
-    if (info.bus_type == HID_API_BUS_BLUETOOTH)
-        return Transport::bluetooth;
-#endif
-    return Transport::unknown;
-}
-
-std::optional<WaveformDevice> waveformsOf(const hid_device_info& info)
-{
-    const auto device = waveformDevice(hidDescriptor(info));
-    return device ? *device : std::nullopt;
-}
-} // namespace
-
 Result<std::vector<Controller>> connectedControllers()
 {
-    if (hid_init() != 0)
-        return Error{ErrorCode::io, "", "the system does not list its HID devices"};
-    const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> first(hid_enumerate(0, 0),
-                                                                                  &hid_free_enumeration);
-    std::vector<Controller> controllers;
-    for (const hid_device_info* info = first.get(); info != nullptr; info = info->next)
-    {
-        if (info->path == nullptr)
-            continue;
-        Controller controller{utf8(info->product_string), ControllerHaptics::waveforms, transportOf(*info), info->path};
-        if (const auto haptics = controllerHaptics(info->vendor_id, info->product_id))
-            controller.haptics = *haptics;
-        else if (!(controller.waveforms = waveformsOf(*info)))
-            continue;
-        controllers.push_back(std::move(controller));
-    }
-    // A device with several uses is listed once for each.
-    std::sort(controllers.begin(), controllers.end(),
-              [](const Controller& a, const Controller& b) { return a.path < b.path; });
-    const auto samePath = [](const Controller& a, const Controller& b)
-    {
-        return a.path == b.path;
-    };
-    controllers.erase(std::unique(controllers.begin(), controllers.end(), samePath), controllers.end());
-    return controllers;
-}
-
+#if defined(__linux__) && !defined(PACINI_AS_OTHER_SYSTEMS)
+    return hidrawControllers();
 #else
-
-Result<std::vector<Controller>> connectedControllers()
-{
-    return Error{ErrorCode::io, "", "this pacini was built without hidapi, which finds game controllers"};
-}
-
+    return controllersByHidapi();
 #endif
+}
 
 } // namespace pacini::devices

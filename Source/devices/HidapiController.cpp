@@ -45,7 +45,10 @@ public:
     Result<void> send(const Report& report) override
     {
         const auto bytes = report.content();
-        if (hid_write(device.get(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()) < 0)
+        const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+        const int sent = report.isFeature() ? hid_send_feature_report(device.get(), data, bytes.size())
+                                            : hid_write(device.get(), data, bytes.size());
+        if (sent < 0)
             return failure();
         return {};
     }

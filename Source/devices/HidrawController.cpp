@@ -3,6 +3,7 @@
 #include "devices/HidrawController.h"
 
 #include "devices/EmergencyStop.h"
+#include "devices/RawReport.h"
 
 #include <fcntl.h>
 #include <linux/hidraw.h>
@@ -33,10 +34,9 @@ public:
     {
         if (EmergencyStop::hasCome())
             return Error{ErrorCode::io, "", "is silent, as the program is about to end"};
-        const auto bytes = report.content();
-        ::ssize_t written = -1;
+        long written = -1;
         do
-            written = ::write(file.number, bytes.data(), bytes.size());
+            written = writeRawReport(file.number, report);
         while (written < 0 && errno == EINTR);
         if (written < 0)
             return controllerError(errno);

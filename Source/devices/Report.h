@@ -1,6 +1,6 @@
 #pragma once
 
-// HID output report, as it goes to a controller.
+// HID report, as it goes to a controller.
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,13 @@
 
 namespace pacini::devices
 {
+
+/// Which way a report goes.
+enum class ReportWay
+{
+    output,
+    feature, ///< the first byte is its number, 0 where reports have none
+};
 
 /// A report of any of the devices here. Owns no memory: signal handlers can send it.
 class Report
@@ -23,18 +30,22 @@ public:
     noexcept : used(size) { std::copy(content.begin(), content.end(), bytes.begin()); }
 
     /// At most `largest` bytes.
-    explicit Report(std::span<const std::byte> content) noexcept : used(content.size())
+    explicit Report(std::span<const std::byte> content, ReportWay goes = ReportWay::output) noexcept
+        : used(content.size()), way(goes)
     {
         std::copy(content.begin(), content.end(), bytes.begin());
     }
 
     [[nodiscard]] std::span<const std::byte> content() const noexcept { return std::span(bytes).first(used); }
 
+    [[nodiscard]] bool isFeature() const noexcept { return way == ReportWay::feature; }
+
     bool operator==(const Report&) const = default;
 
 private:
     std::array<std::byte, largest> bytes{};
     std::size_t used = 0;
+    ReportWay way = ReportWay::output;
 };
 
 } // namespace pacini::devices

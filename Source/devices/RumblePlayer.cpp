@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #if defined(__linux__)
@@ -20,7 +22,7 @@ class Repeats
 {
 public:
     explicit Repeats(const ControllerModel& controller)
-        : model(controller), pacing(pacingOf(controller.haptics)), silence(contentOf(silentState(controller.haptics)))
+        : model(controller), pacing(pacingOf(controller)), silence(contentOf(silentState(controller.haptics)))
     {
     }
 
@@ -32,7 +34,10 @@ public:
         if (last == content && !beginsAnew(state))
         {
             if (content == silence && time.value - since.value > pacing.quietAfter.value)
+            {
+                quiet = true;
                 return false;
+            }
             if (time.value - sent.value < pacing.refresh.value - rounding)
                 return false;
         }
@@ -42,6 +47,9 @@ public:
         sent = time;
         return true;
     }
+
+    /// Whether silence was not sent since the last call.
+    [[nodiscard]] bool wasQuiet() noexcept { return std::exchange(quiet, false); }
 
 private:
     /// What a controller can tell states by.
@@ -53,6 +61,7 @@ private:
     std::optional<Report> last;
     Seconds since; ///< when it became so
     Seconds sent;
+    bool quiet = false;
 };
 
 /// Before other work, where the user is allowed that: a packet takes some microseconds, but should not wait.
@@ -66,13 +75,11 @@ void raisePriority() noexcept
 }
 } // namespace
 
-RumblePlayer::RumblePlayer(const ControllerModel& controller, ClipRumble whatToPlay, ReportSink& where, SendClock& when)
-    : model(controller), pacing(pacingOf(controller.haptics)), rumble(std::move(whatToPlay)), sink(where), clock(when)
+RumblePlayer::RumblePlayer(const ControllerModel& controller, std::unique_ptr<RumbleSource> whatToPlay,
+                           ReportSink& where, SendClock& when)
+    : model(controller), pacing(pacingOf(controller)), source(std::move(whatToPlay)), sink(where), clock(when)
 {
-    StopReports stops;
-    for (unsigned i = 0; i < stops.size(); ++i)
-        stops[i] = reportOf(model, silentState(model.haptics), i);
-    sink.prepare(stops);
+    sink.prepare(stopReports(model));
     thread = std::thread([this] { run(); });
 }
 
@@ -106,29 +113,41 @@ void RumblePlayer::run()
     {
         clock.pause(pacing.interval);
         static_cast<void>(silence());
-        for (const Report& closing : closingReports(model, counter))
-            static_cast<void>(send(closing));
+        for (const TimedReport& closing : closingReports(model, counter))
+        {
+            static_cast<void>(send(closing.report));
+            clock.pause(closing.pause);
+        }
     }
     playing.store(false, std::memory_order_release);
 }
 
 void RumblePlayer::play()
 {
-    if (!open())
+    if (!sendAll(openingReports(model)))
         return;
     const double interval = pacing.interval.value;
     const double start = clock.now().value;
     Repeats repeats(model);
     std::int64_t packet = 0;
-    while (const auto state = rumble.at(packet))
+    for (;;)
     {
         const Seconds due(static_cast<double>(packet) * interval);
-        if (!clock.waitUntil(Seconds(start + due.value)))
+        const Seconds sending(std::max(due.value - pacing.ahead * interval, 0.0));
+        if (!clock.waitUntil(Seconds(start + sending.value)))
             return;
-        played.store(due.value, std::memory_order_relaxed);
-        report.latest.value = std::max(report.latest.value, clock.now().value - start - due.value);
-        if (repeats.needs(*state, due) && !send(reportOf(model, *state, counter)))
-            return;
+        const auto state = source->at(packet); // not before: what is played live may still change
+        if (!state)
+            break;
+        played.store(sending.value, std::memory_order_relaxed);
+        report.latest.value = std::max(report.latest.value, clock.now().value - start - sending.value);
+        if (repeats.needs(*state, due))
+        {
+            if (repeats.wasQuiet() && !sendAll(resumingReports(model)))
+                return;
+            if (!send(reportOf(model, *state, counter)))
+                return;
+        }
         const auto next = static_cast<std::int64_t>(std::floor((clock.now().value - start) / interval));
         report.leftOut += std::max(next - packet - 1, std::int64_t{0});
         packet = std::max(next, packet + 1);
@@ -136,12 +155,12 @@ void RumblePlayer::play()
     static_cast<void>(clock.waitUntil(Seconds(start + static_cast<double>(packet) * interval)));
 }
 
-bool RumblePlayer::open()
+bool RumblePlayer::sendAll(std::span<const TimedReport> reports)
 {
-    for (const Report& opening : openingReports(model))
+    for (const TimedReport& each : reports)
     {
         const double sentAt = clock.now().value;
-        if (!send(opening) || !clock.waitUntil(Seconds(sentAt + pacing.interval.value)))
+        if (!send(each.report) || !clock.waitUntil(Seconds(sentAt + each.pause.value)))
             return false;
     }
     return true;

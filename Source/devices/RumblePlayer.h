@@ -1,10 +1,11 @@
 #pragma once
 
-// Clip player for a controller, on a thread of its own.
+// Player for a controller, on a thread of its own.
 
 #include "devices/ClipRumble.h"
 #include "devices/ControllerReports.h"
 #include "devices/ReportSink.h"
+#include "devices/RumbleSource.h"
 #include "devices/SendClock.h"
 
 #include <pacini/foundation/Result.h>
@@ -12,7 +13,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <thread>
+#include <utility>
 
 namespace pacini::devices
 {
@@ -26,13 +30,20 @@ struct PlayReport
 };
 
 /// Packet n is sent n intervals after the first; a late one moves no other. When sending takes longer than an interval,
-/// the packets that it has taken the place of are left out. Whatever ends playing, the last two packets are silent;
-/// only a DualSense gets one more, by which it returns to its audio.
+/// the packets that it has taken the place of are left out. What a controller plays from a memory of its own is sent
+/// Pacing::ahead intervals before, and only left out when the memory has run dry. Whatever ends playing, the last two
+/// packets are silent; after them come only the closing reports of the controller.
 class RumblePlayer
 {
 public:
     /// Starts. `sink` and `clock` outlive the player; `clock` is not shared with another one. [message]
-    RumblePlayer(const ControllerModel& controller, ClipRumble whatToPlay, ReportSink& where, SendClock& when);
+    RumblePlayer(const ControllerModel& controller, std::unique_ptr<RumbleSource> whatToPlay, ReportSink& where,
+                 SendClock& when);
+
+    RumblePlayer(const ControllerModel& controller, ClipRumble whatToPlay, ReportSink& where, SendClock& when)
+        : RumblePlayer(controller, std::make_unique<ClipRumble>(std::move(whatToPlay)), where, when)
+    {
+    }
 
     /// As stop().
     ~RumblePlayer() { stop(); }
@@ -55,11 +66,11 @@ private:
     void run();
     void play();
     [[nodiscard]] bool send(const Report& report);
-    [[nodiscard]] bool open();
+    [[nodiscard]] bool sendAll(std::span<const TimedReport> reports);
 
     const ControllerModel model;
     const Pacing pacing;
-    ClipRumble rumble;
+    std::unique_ptr<RumbleSource> source;
     ReportSink& sink;
     SendClock& clock;
     std::atomic<bool> playing{true};

@@ -18,6 +18,7 @@ enum class HandleKind : std::uint8_t
 {
     clip = 0xC1,
     engine = 0xE1,
+    controller = 0xD1,
     play = 0xB1
 };
 

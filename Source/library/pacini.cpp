@@ -10,6 +10,7 @@
 #include "io/ProfileJson.h"
 #include "io/SceneFile.h"
 #include "io/formats/ClipFormat.h"
+#include "library/ControllerLink.h"
 #include "library/Handles.h"
 
 #include <pacini/runtime/Engine.h>
@@ -29,6 +30,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,7 @@ using library::PlayHandle;
 
 constexpr std::size_t mostEngines = 64; // 6 bits of a play's handle
 constexpr std::size_t mostClips = 1'000'000;
+constexpr std::size_t mostControllers = 1024;
 constexpr std::uint32_t blockFrames = 256; // of interleaved output at a time
 
 thread_local std::string lastError;
@@ -50,6 +53,14 @@ struct EngineEntry
     std::unique_ptr<Engine> engine;
     std::array<std::array<float, blockFrames>, PACINI_MAX_ACTUATORS> channels{}; // [audio]
     std::atomic<std::uint32_t> budgetFrames{512};
+    std::uint32_t actuators = 1;
+    double sampleRate = 0.0;
+
+    // Of two threads that render only one may: the caller's says that it does, the other that it will.
+    std::atomic<bool> rendering{false};
+    std::atomic<bool> pulled{false}; ///< by a controller
+    std::unique_ptr<library::ControllerLink> link;
+    std::uint64_t controller = 0;
 };
 
 /// All that the library holds. It is never destroyed: an audio thread may outlive the end of main().
@@ -58,6 +69,8 @@ struct Library
     std::mutex control; ///< of everything but `engines` while rendering
     library::HandleTable<std::shared_ptr<const LoadedClip>> clips{HandleKind::clip, mostClips};
     library::SharedSlots<EngineEntry, mostEngines> engines;
+    library::HandleTable<devices::Controller> controllers{HandleKind::controller, mostControllers};
+    std::vector<std::uint64_t> connected; ///< handles of `controllers`
 };
 
 Library& all()
@@ -253,6 +266,8 @@ pacini_result createEngine(const pacini_engine_config* given, const Scene* scene
     auto entry = std::make_unique<EngineEntry>();
     entry->engine = std::move(engine).value();
     entry->budgetFrames = config.budget_frames;
+    entry->actuators = config.actuator_count;
+    entry->sampleRate = config.sample_rate;
     const std::lock_guard lock(all().control);
     const auto [index, generation] = all().engines.add(entry.get());
     if (index == mostEngines)
@@ -305,6 +320,174 @@ pacini_result withPlay(pacini_play number, Work&& work) noexcept
         });
 }
 
+/// Renders an engine for a caller, unless a controller pulls it.
+class CallersTurn
+{
+public:
+    explicit CallersTurn(EngineEntry& entryToRender) noexcept : entry(entryToRender)
+    {
+        entry.rendering.store(true, std::memory_order_seq_cst);
+        mine = !entry.pulled.load(std::memory_order_seq_cst);
+    }
+    ~CallersTurn() { entry.rendering.store(false, std::memory_order_seq_cst); }
+    CallersTurn(const CallersTurn&) = delete;
+    CallersTurn& operator=(const CallersTurn&) = delete;
+
+    [[nodiscard]] bool isMine() const noexcept { return mine; }
+
+private:
+    EngineEntry& entry;
+    bool mine;
+};
+
+/// What a controller's thread pulls: the engine, as long as there is one.
+devices::DriveRenderer pullFrom(pacini_engine engine)
+{
+    return [engine](std::span<const std::span<float>> out)
+    {
+        const EngineUse use = useEngine(engine);
+        if (use.get() != nullptr)
+            return use.get()->engine->render(out);
+        for (const std::span<float> channel : out)
+            std::fill(channel.begin(), channel.end(), 0.0f);
+    };
+}
+
+/// Gives an engine back to its callers.
+void release(pacini_engine engine)
+{
+    const std::lock_guard lock(all().control);
+    const EngineUse use = useEngine(engine);
+    if (use.get() != nullptr)
+    {
+        use.get()->controller = 0;
+        use.get()->pulled.store(false, std::memory_order_seq_cst);
+    }
+}
+
+/// Silences the controller of an engine, which must not wait for the lock.
+pacini_result detach(pacini_engine engine)
+{
+    std::unique_ptr<library::ControllerLink> ending;
+    {
+        const std::lock_guard lock(all().control);
+        const EngineUse use = useEngine(engine);
+        if (use.get() == nullptr)
+            return stale("engine");
+        ending = std::move(use.get()->link);
+        if (!ending)
+            return fail(PACINI_INVALID, "engine: plays on no controller");
+    }
+    ending.reset();
+    release(engine);
+    return PACINI_OK;
+}
+
+/// Silences all controllers when the program ends, or the library is unloaded, without having detached them. On Windows
+/// threads have been ended by then.
+struct StopAtExit
+{
+    ~StopAtExit()
+    {
+#if !defined(_WIN32)
+        std::vector<std::unique_ptr<library::ControllerLink>> ending;
+        const std::lock_guard lock(all().control);
+        for (std::uint32_t i = 0; i < mostEngines; ++i)
+        {
+            const EngineUse use(all().engines, i, all().engines.generationOf(i));
+            if (use.get() != nullptr && use.get()->link)
+                ending.push_back(std::move(use.get()->link));
+        }
+        ending.clear(); // their threads need no lock
+#endif
+    }
+};
+
+/// Whether an engine plays on a controller.
+bool isTaken(pacini_controller controller)
+{
+    for (std::uint32_t i = 0; i < mostEngines; ++i)
+    {
+        const EngineUse use(all().engines, i, all().engines.generationOf(i));
+        if (use.get() != nullptr && use.get()->controller == controller)
+            return true;
+    }
+    return false;
+}
+
+/// Takes an engine from its callers for a controller. With the lock.
+pacini_result reserve(pacini_engine engine, pacini_controller controller)
+{
+    const EngineUse use = useEngine(engine);
+    if (use.get() == nullptr)
+        return stale("engine");
+    if (use.get()->pulled)
+        return fail(PACINI_BUSY, "engine: plays on a controller");
+    if (isTaken(controller))
+        return fail(PACINI_BUSY, "controller: plays another engine");
+    use.get()->pulled.store(true, std::memory_order_seq_cst);
+    use.get()->controller = controller;
+    return PACINI_OK;
+}
+
+/// Opens a controller and starts to play an engine on it, which is reserved.
+pacini_result play(pacini_engine engine, const devices::Controller& controller, bool stopOnCrash)
+{
+    auto opened = devices::OpenController::open(controller.path);
+    if (!opened)
+        return fail(opened.error(), controller.name);
+    const auto model = devices::modelOf(controller, **opened);
+    if (!model)
+        return fail(model.error(), controller.name);
+    const std::lock_guard lock(all().control);
+    const EngineUse use = useEngine(engine);
+    if (use.get() == nullptr)
+        return stale("engine");
+    EngineEntry& entry = *use.get();
+    if (!devices::DriveRumble::takesRate(entry.sampleRate, *model))
+        return fail(PACINI_INVALID, "sample_rate: this controller needs 8000 Hz or more, in whole numbers");
+    while (entry.rendering.load(std::memory_order_seq_cst)) // no more than a block
+        std::this_thread::yield();
+    entry.link = std::make_unique<library::ControllerLink>(
+        std::move(*opened), pullFrom(engine),
+        library::ControllerLink::Params{*model, entry.actuators, entry.sampleRate, stopOnCrash});
+    return PACINI_OK;
+}
+
+/// Puts what is connected now in the place of what was.
+void keepConnected(const std::vector<devices::Controller>& now)
+{
+    std::vector<std::uint64_t> kept;
+    for (const devices::Controller& controller : now)
+    {
+        const auto isSame = [&](std::uint64_t handle)
+        {
+            const auto* const known = all().controllers.find(handle);
+            return known->path == controller.path && known->name == controller.name &&
+                   known->haptics == controller.haptics && known->transport == controller.transport;
+        };
+        auto& before = all().connected;
+        const auto found = std::find_if(before.begin(), before.end(), isSame);
+        if (found != before.end())
+        {
+            kept.push_back(*found);
+            before.erase(found);
+        }
+        else if (const std::uint64_t handle = all().controllers.add(controller); handle != 0)
+            kept.push_back(handle);
+    }
+    for (const std::uint64_t handle : all().connected)
+        all().controllers.remove(handle);
+    all().connected = std::move(kept);
+}
+
+void copyText(const std::string& from, std::span<char> to)
+{
+    const std::size_t n = std::min(from.size(), to.size() - 1);
+    std::copy_n(from.begin(), n, to.begin());
+    to[n] = '\0';
+}
+
 pacini_result finish(const Result<void>& done)
 {
     if (done)
@@ -350,6 +533,8 @@ extern "C"
             return "a file cannot be read";
         case PACINI_NO_MEMORY:
             return "there is not enough memory";
+        case PACINI_BUSY:
+            return "this plays on a controller";
         case PACINI_INTERNAL:
             break;
         }
@@ -518,10 +703,11 @@ extern "C"
         return guarded(
             [&]
             {
-                const std::lock_guard lock(all().control);
                 const Handle handle = Handle::of(engine);
                 if (handle.kind != HandleKind::engine)
                     return stale("engine");
+                static_cast<void>(detach(engine));
+                const std::lock_guard lock(all().control);
                 const std::unique_ptr<EngineEntry> entry(all().engines.remove(handle.index, handle.generation));
                 return entry ? PACINI_OK : stale("engine");
             });
@@ -542,6 +728,13 @@ extern "C"
             std::fill_n(channels[c], frames, 0.0f);
         if (use.get() == nullptr)
             return PACINI_STALE;
+        const CallersTurn turn(*use.get());
+        if (!turn.isMine())
+        {
+            for (std::uint32_t c = 0; c < played; ++c)
+                std::fill_n(channels[c], frames, 0.0f);
+            return PACINI_BUSY;
+        }
         std::array<std::span<float>, PACINI_MAX_ACTUATORS> spans;
         for (std::uint32_t c = 0; c < played; ++c)
             spans[c] = std::span(channels[c], frames);
@@ -560,6 +753,9 @@ extern "C"
         if (use.get() == nullptr)
             return PACINI_STALE;
         EngineEntry& entry = *use.get();
+        const CallersTurn turn(entry);
+        if (!turn.isMine())
+            return PACINI_BUSY;
         const std::size_t played = std::min(wanted, entry.engine->actuators());
         for (std::uint32_t done = 0; done < frames;)
         {
@@ -744,5 +940,119 @@ extern "C"
     {
         return withEngine(engine, [&](EngineEntry& entry)
                           { return finish(entry.engine->stopGroup(group, glideOf(fade), frame)); });
+    }
+
+    pacini_result pacini_controllers_find(pacini_controller* controllers, uint32_t capacity, uint32_t* count)
+    {
+        return guarded(
+            [&]
+            {
+                if (count == nullptr || (controllers == nullptr && capacity > 0))
+                    return fail(PACINI_INVALID, count == nullptr ? "count: is NULL" : "controllers: is NULL");
+                *count = 0;
+                const auto now = devices::connectedControllers();
+                if (!now)
+                    return fail(now.error());
+                const std::lock_guard lock(all().control);
+                keepConnected(*now);
+                const auto& connected = all().connected;
+                *count = static_cast<std::uint32_t>(connected.size());
+                if (capacity > 0)
+                    std::copy_n(connected.begin(), std::min<std::size_t>(capacity, connected.size()), controllers);
+                return PACINI_OK;
+            });
+    }
+
+    void pacini_controller_info_init(pacini_controller_info* info)
+    {
+        if (info == nullptr)
+            return;
+        *info = {};
+        info->struct_size = sizeof(pacini_controller_info);
+    }
+
+    pacini_result pacini_controller_get_info(pacini_controller controller, pacini_controller_info* info)
+    {
+        return guarded(
+            [&]
+            {
+                const std::lock_guard lock(all().control);
+                const auto* const known = all().controllers.find(controller);
+                if (known == nullptr)
+                    return stale("controller");
+                pacini_controller_info read{};
+                read.haptics = static_cast<std::int32_t>(known->haptics);
+                read.connection = static_cast<std::int32_t>(known->transport);
+                copyText(known->name, read.name);
+                copyText(known->path, read.path);
+                return writeStruct(read, info);
+            });
+    }
+
+    void pacini_attach_settings_init(pacini_attach_settings* settings)
+    {
+        if (settings == nullptr)
+            return;
+        *settings = {};
+        settings->struct_size = sizeof(pacini_attach_settings);
+    }
+
+    pacini_result pacini_engine_attach(pacini_engine engine, pacini_controller controller,
+                                       const pacini_attach_settings* settings)
+    {
+        return guarded(
+            [&]
+            {
+                pacini_attach_settings given;
+                pacini_attach_settings_init(&given);
+                if (!readStruct(settings, given))
+                    return fail(PACINI_INVALID, "settings: call pacini_attach_settings_init() first");
+                devices::Controller wanted;
+                {
+                    const std::lock_guard lock(all().control);
+                    const auto* const known = all().controllers.find(controller);
+                    if (known == nullptr)
+                        return stale("controller");
+                    wanted = *known;
+                    if (const auto reserved = reserve(engine, controller); reserved != PACINI_OK)
+                        return reserved;
+                }
+                static const StopAtExit atExit;
+                const auto done = play(engine, wanted, given.stop_on_crash != 0);
+                if (done != PACINI_OK)
+                    release(engine);
+                return done;
+            });
+    }
+
+    pacini_result pacini_engine_detach(pacini_engine engine)
+    {
+        return guarded([&] { return detach(engine); });
+    }
+
+    void pacini_attachment_info_init(pacini_attachment_info* info)
+    {
+        if (info == nullptr)
+            return;
+        *info = {};
+        info->struct_size = sizeof(pacini_attachment_info);
+    }
+
+    pacini_result pacini_engine_get_attachment(pacini_engine engine, pacini_attachment_info* info)
+    {
+        return withEngine(engine,
+                          [&](EngineEntry& entry)
+                          {
+                              pacini_attachment_info read{};
+                              if (entry.link)
+                              {
+                                  const std::string failure = entry.link->failure();
+                                  read.state = failure.empty() ? PACINI_ATTACHED : PACINI_GONE;
+                                  read.controller = entry.controller;
+                                  read.sent = entry.link->sent();
+                                  copyText(failure, read.failure);
+                              }
+                              return writeStruct(read, info);
+                          });
     }
 } // extern "C"

@@ -1,8 +1,9 @@
-"""End to end: pacini devices, whatever is connected and whether or not it was built with hidapi. What it lists of devices
-that are there is checked on pretended ones, in hid/check_play.py and hid/check_waveforms.py."""
+"""End to end: pacini devices, whatever is connected. What it lists of devices that are there is checked on pretended ones,
+in hid/."""
 import json
 import shutil
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 
@@ -10,19 +11,17 @@ from command import COMMAND, CommandTest
 
 
 class Devices(CommandTest):
-    def libraries(self):
-        return subprocess.run([shutil.which("ldd"), COMMAND], capture_output=True, text=True, check=True).stdout
+    def test_on_linux_nothing_is_needed_to_list_them(self):
+        if sys.platform == "linux":
+            libraries = subprocess.run([shutil.which("ldd"), COMMAND], capture_output=True, text=True, check=True).stdout
+            self.assertNotIn("hidapi", libraries)
+            self.succeeds("devices")
 
     def test_controllers_are_listed_or_it_is_said_why_not(self):
         done = self.run_command("devices", "--json", timeout=60)
         if done.returncode != 0:
             self.assertEqual(done.returncode, 1)
-            message = done.stderr.decode()
-            if "without hidapi" in message:
-                self.assertNotIn("hidapi", self.libraries())
-            else:
-                self.assertRegex(message, r"^pacini: the system does not list its HID devices\n$")
-                self.assertFalse(Path("/sys/class/hidraw").is_dir())
+            self.assertRegex(done.stderr.decode(), r"^pacini: (the system does not list its HID devices|.*without hidapi)")
             return
         controllers = json.loads(done.stdout)["controllers"]
         lines = self.succeeds("devices").splitlines()

@@ -180,7 +180,7 @@ TEST_CASE("An event that the bands reach is still a click, and holds motors up; 
     const auto atEvent = [&](const ControllerModel& model)
     {
         ClipRumble rumble(clip, wholeClip, 0_dB, model);
-        const double packet = std::round(0.32 / pacingOf(model.haptics).interval.value);
+        const double packet = std::round(0.32 / pacingOf(model).interval.value);
         std::optional<RumbleState> state;
         for (std::int64_t n = 0; n <= static_cast<std::int64_t>(packet); ++n)
             state = rumble.at(n);
@@ -201,7 +201,7 @@ TEST_CASE("What a clip plays fades out and ends", "[devices]")
     {
         ClipRumble rumble(steadyClip({{1.0, 1.0, 1.0}}), wholeClip, 20_dB,
                           {haptics, Transport::usb, standardTrigger()});
-        const Seconds interval = pacingOf(haptics).interval;
+        const Seconds interval = pacingOf({haptics}).interval;
         std::int64_t packet = 0;
         std::optional<RumbleState> last;
         while (const auto state = rumble.at(packet))

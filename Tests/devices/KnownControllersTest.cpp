@@ -14,6 +14,13 @@ TEST_CASE("Controllers are known by their maker's and their product's number tog
     CHECK(controllerHaptics(0x054C, 0x09CC) == ControllerHaptics::dualShock4);
     CHECK(controllerHaptics(0x054C, 0x0CE6) == ControllerHaptics::dualSense);
     CHECK(controllerHaptics(0x045E, 0x0B13) == ControllerHaptics::xbox);
+    CHECK(controllerHaptics(0x28DE, 0x1304) == ControllerHaptics::steamController);
+    CHECK(controllerHaptics(0x28DE, 0x1205) == ControllerHaptics::steamDeck);
+    CHECK_FALSE(controllerHaptics(0x28DE, 0x1102).has_value()); // that of 2015
+    CHECK(transportByProduct(ControllerHaptics::steamController, 0x1302) == Transport::usb);
+    CHECK(transportByProduct(ControllerHaptics::steamController, 0x1303) == Transport::bluetooth);
+    CHECK(transportByProduct(ControllerHaptics::steamController, 0x1305) == Transport::receiver);
+    CHECK_FALSE(transportByProduct(ControllerHaptics::dualSense, 0x0CE6).has_value());
     CHECK_FALSE(controllerHaptics(0x054C, 0x2009).has_value());
     CHECK_FALSE(controllerHaptics(0x057E, 0x2069).has_value()); // the successor speaks another language
     CHECK_FALSE(controllerHaptics(0, 0).has_value());

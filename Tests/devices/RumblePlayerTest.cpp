@@ -3,6 +3,7 @@
 #include "devices/SonyReports.h"
 #include "devices/WaveformDevice.h"
 #include "support/Catch.h"
+#include "support/ReportList.h"
 
 #include <algorithm>
 #include <array>
@@ -35,31 +36,9 @@ ClipRumble rumbleOf(const Clip& clip, const ControllerModel& model, bool loop = 
     return ClipRumble(clip, {Seconds(0.0), Seconds(clip.duration), loop}, 0_dB, model);
 }
 
-struct SentPacket
-{
-    double time;
-    Report report;
-};
-
-// Notes all reports; `then` may make sending slow, fail or end playing.
-class NotedReports : public ReportSink
-{
-public:
-    explicit NotedReports(InstantClock& clockToRead) : clock(clockToRead) {}
-
-    void prepare(const StopReports& given) override { stops = given; }
-
-    Result<void> send(const Report& report) override
-    {
-        sent.push_back({clock.now().value, report});
-        return then ? then(sent.size()) : Result<void>();
-    }
-
-    InstantClock& clock;
-    StopReports stops;
-    std::vector<SentPacket> sent;
-    std::function<Result<void>(std::size_t)> then;
-};
+using test::ReportList;
+using test::SentReport;
+using Played = test::PlayedReports;
 
 bool isNeutral(const Report& report)
 {
@@ -72,22 +51,6 @@ int counterOf(const Report& report)
 {
     return std::to_integer<int>(report.content()[1]);
 }
-
-// A sink and a clock that have played a clip to its end.
-struct Played
-{
-    explicit Played(const ControllerModel& model, const Clip& clip, std::function<Result<void>(std::size_t)> then = {})
-        : sink(clock)
-    {
-        sink.then = std::move(then);
-        RumblePlayer player(model, rumbleOf(clip, model), sink, clock);
-        result = player.finish();
-    }
-
-    InstantClock clock;
-    NotedReports sink;
-    Result<PlayReport> result = PlayReport{};
-};
 } // namespace
 
 TEST_CASE("HD rumble is enabled, then sent every 15 ms to the end, then silenced twice", "[devices]")
@@ -126,7 +89,7 @@ TEST_CASE("Silence is sent for 300 ms and then no more, until something sounds",
     const Played played(joyCon, toneClip(60.0, 59.0, 59.1));
     const auto& sent = played.sink.sent;
     std::vector<double> times;
-    for (const SentPacket& packet : sent)
+    for (const SentReport& packet : sent)
         times.push_back(packet.time - 0.015); // the start is after the enabling
     const auto pause = std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return b - a > 0.02; });
     REQUIRE(pause != times.end());
@@ -143,7 +106,7 @@ TEST_CASE("Motors are told of changes and reminded twice a second", "[devices]")
     const Played played(xbox, toneClip(2.0, 0.0, 2.0));
     std::vector<double> strong;
     std::vector<double> times;
-    for (const SentPacket& packet : played.sink.sent)
+    for (const SentReport& packet : played.sink.sent)
     {
         strong.push_back(std::to_integer<int>(packet.report.content()[4]));
         times.push_back(packet.time);
@@ -161,7 +124,7 @@ TEST_CASE("Events of waveforms that follow each other are each triggered, and th
     clip.transients = {{0.1, 1.0, 1.0}, {0.12, 1.0, 1.0}, {0.14, 1.0, 1.0}};
     const Played played({ControllerHaptics::waveforms, Transport::usb, standardTrigger()}, clip);
     std::vector<std::array<int, 3>> told; // ms, ordinal, intensity
-    for (const SentPacket& packet : played.sink.sent)
+    for (const SentReport& packet : played.sink.sent)
         told.push_back({static_cast<int>(std::lround(1e3 * packet.time)),
                         std::to_integer<int>(packet.report.content()[1]),
                         std::to_integer<int>(packet.report.content()[2])});
@@ -183,7 +146,7 @@ TEST_CASE("A slow packet moves no other, and what it covers is left out", "[devi
     InstantClock* clock = nullptr;
     InstantClock shared;
     clock = &shared;
-    NotedReports sink(shared);
+    ReportList sink(shared);
     sink.then = [&](std::size_t count)
     {
         if (count == 11) // packet 9 takes 50 ms
@@ -205,7 +168,7 @@ TEST_CASE("Whenever playing is stopped, the last packets are silent", "[devices]
     for (const std::size_t after : {std::size_t{1}, std::size_t{5}, std::size_t{40}})
     {
         InstantClock clock;
-        NotedReports sink(clock);
+        ReportList sink(clock);
         sink.then = [&](std::size_t count)
         {
             if (count == after)
@@ -226,7 +189,7 @@ TEST_CASE("Whenever playing is stopped, the last packets are silent", "[devices]
 TEST_CASE("A player that is destroyed has silenced its controller", "[devices]")
 {
     InstantClock clock;
-    NotedReports sink(clock);
+    ReportList sink(clock);
     {
         const RumblePlayer player(joyCon, rumbleOf(toneClip(1.0, 0.0, 1.0), joyCon, true), sink, clock);
     }
@@ -271,7 +234,7 @@ TEST_CASE("Stopping from another thread interrupts the real clock at once", "[de
 {
     SteadyClock clock;
     InstantClock unused;
-    NotedReports sink(unused);
+    ReportList sink(unused);
     std::atomic<bool> begun{false};
     sink.then = [&](std::size_t)
     {

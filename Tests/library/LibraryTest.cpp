@@ -256,3 +256,36 @@ TEST_CASE("An engine may be destroyed while another thread renders it")
     }
     require(pacini_clip_release(clip));
 }
+
+TEST_CASE("Controllers that are not there, and engines without one, are errors that change nothing")
+{
+    std::uint32_t count = 1;
+    require(pacini_controllers_find(nullptr, 0, &count));
+    std::vector<pacini_controller> found(count + 1);
+    require(pacini_controllers_find(found.data(), count + 1, &count));
+    CHECK(pacini_controllers_find(nullptr, 1, &count) == PACINI_INVALID);
+    CHECK(pacini_controllers_find(found.data(), 1, nullptr) == PACINI_INVALID);
+
+    const pacini_engine engine = created();
+    pacini_controller_info of;
+    pacini_controller_info_init(&of);
+    for (const std::uint64_t wrong : {std::uint64_t{0}, engine, ~std::uint64_t{0}})
+    {
+        CHECK(pacini_controller_get_info(wrong, &of) == PACINI_STALE);
+        CHECK(pacini_engine_attach(engine, wrong, nullptr) == PACINI_STALE);
+    }
+    CHECK(lastError() == "controller is not in use (any more)");
+    CHECK(pacini_engine_detach(engine) == PACINI_INVALID);
+    CHECK(lastError() == "engine: plays on no controller");
+    pacini_attachment_info info;
+    pacini_attachment_info_init(&info);
+    require(pacini_engine_get_attachment(engine, &info));
+    CHECK(info.state == PACINI_DETACHED);
+    CHECK(info.controller == 0);
+    CHECK(pacini_engine_get_attachment(engine, nullptr) == PACINI_INVALID);
+    CHECK(rendered(engine, 10).size() == 10); // it is still the caller's
+    require(pacini_engine_destroy(engine));
+    CHECK(pacini_engine_detach(engine) == PACINI_STALE);
+    CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
+    CHECK(pacini_api_version() == 1001);
+}

@@ -18,8 +18,9 @@
 namespace
 {
 std::uint64_t state = 1;
-std::uint64_t started = 0; // plays
-double strongest = 0.0;    // sample
+std::uint64_t started = 0;  // plays
+std::uint64_t attached = 0; // seen
+double strongest = 0.0;     // sample
 
 std::uint64_t next()
 {
@@ -56,17 +57,18 @@ enum Kind
 {
     clips,
     engines,
-    plays
+    plays,
+    controllers
 };
 
 struct Handles
 {
-    std::array<std::vector<std::uint64_t>, 3> known{{{0}, {0}, {0, ~std::uint64_t(0)}}};
+    std::array<std::vector<std::uint64_t>, 4> known{{{0}, {0}, {0, ~std::uint64_t(0)}, {0}}};
 
     /// One of this kind, mostly.
     std::uint64_t of(Kind kind) const
     {
-        const auto& some = known[next() % 8 == 0 ? next() % 3 : static_cast<std::size_t>(kind)];
+        const auto& some = known[next() % 8 == 0 ? next() % 4 : static_cast<std::size_t>(kind)];
         const std::uint64_t one = some[next() % some.size()];
         return next() % 16 == 0 ? one ^ (std::uint64_t(1) << (next() % 64)) : one;
     }
@@ -114,7 +116,7 @@ bool sequence(Handles& handles)
         const double x = number(), y = number();
         const auto frame = static_cast<std::int64_t>(next() % 4 == 0 ? next() : 0);
         const auto control = static_cast<std::int32_t>(next() % 9) - 1;
-        switch (next() % 17)
+        switch (next() % 19)
         {
         case 0:
             if (next() % 3 == 0)
@@ -208,6 +210,39 @@ bool sequence(Handles& handles)
             pacini_clip_info ofClip;
             pacini_clip_info_init(&ofClip);
             pacini_clip_get_info(clip, &ofClip);
+            pacini_attachment_info ofLink;
+            pacini_attachment_info_init(&ofLink);
+            pacini_engine_get_attachment(engine, &ofLink);
+            attached += ofLink.state == PACINI_ATTACHED ? 1 : 0;
+            break;
+        }
+        case 16:
+        {
+            const std::uint64_t controller = handles.of(controllers);
+            pacini_attach_settings settings;
+            pacini_attach_settings_init(&settings);
+            if (next() % 32 == 0)
+                settings.struct_size = static_cast<std::uint32_t>(next());
+            if (pacini_engine_attach(engine, controller, next() % 2 == 0 ? nullptr : &settings) != PACINI_OK)
+                break;
+            float sample = 1.0f;
+            float* const channels[] = {&sample};
+            if (pacini_render(engine, channels, 1, 1) != PACINI_BUSY || sample != 0.0f)
+                return false;
+            break;
+        }
+        case 17:
+        {
+            std::array<pacini_controller, 3> found{};
+            std::uint32_t count = 0;
+            if (next() % 8 == 0)
+                pacini_controllers_find(found.data(), static_cast<std::uint32_t>(next() % 4), &count);
+            for (const pacini_controller each : found)
+                handles.add(controllers, each);
+            pacini_controller_info ofController;
+            pacini_controller_info_init(&ofController);
+            pacini_controller_get_info(handles.of(controllers), &ofController);
+            pacini_engine_detach(engine);
             break;
         }
         default:
@@ -234,5 +269,6 @@ int main(int argc, char** argv)
         }
     std::printf("%lld sequences of random calls, %llu plays, up to %.2f of full drive\n", count,
                 static_cast<unsigned long long>(started), strongest);
-    return started > static_cast<std::uint64_t>(count) / 20 && strongest > 0.5 ? 0 : 1; // else it tried nothing
+    const bool tried = started > static_cast<std::uint64_t>(count) / 20 && strongest > 0.5;
+    return tried && (argc < 4 || attached > 0) ? 0 : 1;
 }

@@ -16,8 +16,9 @@
  *     pacini_render(engine, channels, 1, 256);   // in the audio callback, again and again
  *
  * THREADS. pacini_render() and pacini_render_interleaved() are for the audio thread, one at a time for each engine:
- * they never allocate, lock, wait or throw. Everything else may be called from any other thread at any time; calls for
- * one engine wait for each other there. Commands reach the audio thread through a queue without locks.
+ * they never allocate, lock, wait or throw. An engine that plays on a game controller needs no audio thread. Everything
+ * else may be called from any other thread at any time; calls for one engine wait for each other there. Commands reach
+ * the audio thread through a queue without locks.
  *
  * TIME. A command counts from a frame of the output on; frame 0 is the first that the engine renders. Frames that have
  * passed, such as 0, mean now. To be exact, a command must come pacini_engine_info.latency frames ahead.
@@ -55,7 +56,7 @@ extern "C"
 
 /* Version of this header. A library of the same major version and at least this minor one can be used with it. */
 #define PACINI_API_MAJOR 1
-#define PACINI_API_MINOR 0
+#define PACINI_API_MINOR 1
 
     /* The library's: major * 1000 + minor. [any thread] */
     PACINI_API uint32_t pacini_api_version(void);
@@ -70,7 +71,8 @@ extern "C"
         PACINI_TOO_MANY = 5, /* of plays, commands, clips or engines; or too large */
         PACINI_IO = 6,       /* a file cannot be read */
         PACINI_NO_MEMORY = 7,
-        PACINI_INTERNAL = 8 /* a defect of Pacini: please report it */
+        PACINI_INTERNAL = 8, /* a defect of Pacini: please report it */
+        PACINI_BUSY = 9      /* plays on a controller; since 1.1 */
     } pacini_result;
 
     /* A few words; never NULL. [any thread] */
@@ -83,6 +85,7 @@ extern "C"
     typedef uint64_t pacini_clip;
     typedef uint64_t pacini_engine;
     typedef uint64_t pacini_play;
+    typedef uint64_t pacini_controller;
 
     /* ---- Clips
      * ------------------------------------------------------------------------------------------------------- */
@@ -170,7 +173,8 @@ extern "C"
     PACINI_API pacini_result pacini_engine_destroy(pacini_engine engine);
 
     /* The next `frames` frames of each actuator, into `channels[actuator]`; channels that an engine does not have are
-     * silent. A stale engine is silence and PACINI_STALE. [audio] */
+     * silent. A stale engine is silence and PACINI_STALE, one that plays on a controller silence and PACINI_BUSY.
+     * [audio] */
     PACINI_API pacini_result pacini_render(pacini_engine engine, float* const* channels, uint32_t channel_count,
                                            uint32_t frames);
 
@@ -279,6 +283,95 @@ extern "C"
     PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, int32_t control, double value,
                                               double glide, int64_t frame);
     PACINI_API pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);
+
+    /* ---- Game controllers (since 1.1)
+     * -------------------------------------------------------------------------------------------------------
+     * A controller that is attached to an engine pulls it: a thread of Pacini's renders the engine at the pace of the
+     * controller's reports and sends them. So the program needs no audio thread for it, there is one clock and no drift
+     * between two, and a play is felt one report (2 to 31 ms) after its frame. To play on several controllers, make an
+     * engine for each; clips are shared. An engine without a controller is rendered by pacini_render() as ever.
+     *
+     * One actuator plays on both sides of the controller, of several the first two play left and right. Joy-Con, Switch
+     * Pro get two tones a side, motors their levels, a Steam Controller the drive signal itself. */
+
+    typedef enum pacini_haptics
+    {
+        PACINI_HD_RUMBLE = 0,
+        PACINI_DUALSHOCK4 = 1,
+        PACINI_DUALSENSE = 2,
+        PACINI_XBOX = 3,
+        PACINI_WAVEFORMS = 4, /* touchpads, mice, pens: they click, and some rumble */
+        PACINI_STEAM_CONTROLLER = 5,
+        PACINI_STEAM_DECK = 6
+    } pacini_haptics;
+
+    typedef enum pacini_connection
+    {
+        PACINI_CONNECTION_UNKNOWN = 0,
+        PACINI_USB = 1,
+        PACINI_BLUETOOTH = 2,
+        PACINI_RECEIVER = 3 /* radio, its receiver on USB */
+    } pacini_connection;
+
+    typedef struct pacini_controller_info
+    {
+        uint32_t struct_size;
+        int32_t haptics;    /* pacini_haptics */
+        int32_t connection; /* pacini_connection */
+        char name[128];     /* UTF-8, as the controller gives it; cut if it is longer */
+        char path[256];     /* what the system calls it */
+    } pacini_controller_info;
+
+    /* Looks what is connected. Writes at most `capacity` handles, sorted by path, and into `count` how many there are.
+     * A controller keeps its handle from call to call; one that is not connected any more is stale. Takes up to 0.1 s.
+     * [any thread but audio] */
+    PACINI_API pacini_result pacini_controllers_find(pacini_controller* controllers, uint32_t capacity,
+                                                     uint32_t* count);
+
+    PACINI_API void pacini_controller_info_init(pacini_controller_info* info);
+    PACINI_API pacini_result pacini_controller_get_info(pacini_controller controller, pacini_controller_info* info);
+
+    typedef struct pacini_attach_settings
+    {
+        uint32_t struct_size;
+        int32_t stop_on_crash; /* 1: a signal that ends the program first silences the controller. Installs handlers of
+                                  signals, which pass on to those that were there; on Linux only. 0: none are touched */
+    } pacini_attach_settings;
+
+    /* No handlers of signals. */
+    PACINI_API void pacini_attach_settings_init(pacini_attach_settings* settings);
+
+    /* Opens the controller and plays the engine on it from now on. NULL settings: as pacini_attach_settings_init().
+     * Waits for a block that is being rendered, and for the controller. PACINI_BUSY: the engine has one, or the
+     * controller plays another engine. PACINI_IO: it cannot be opened. PACINI_INVALID: the engine's sample rate is not
+     * one for a Steam Controller, 8000 Hz or more in whole numbers. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_attach(pacini_engine engine, pacini_controller controller,
+                                                  const pacini_attach_settings* settings);
+
+    /* Silences the controller, closes it and gives the engine back to pacini_render(). pacini_engine_destroy() does so
+     * by itself, and so does the end of the program. PACINI_INVALID: it has none. [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_detach(pacini_engine engine);
+
+    typedef enum pacini_attachment_state
+    {
+        PACINI_DETACHED = 0,
+        PACINI_ATTACHED = 1,
+        PACINI_GONE = 2 /* unplugged or switched off: the engine goes on unfelt until it is detached */
+    } pacini_attachment_state;
+
+    typedef struct pacini_attachment_info
+    {
+        uint32_t struct_size;
+        int32_t state; /* pacini_attachment_state */
+        pacini_controller controller;
+        uint64_t sent;     /* reports so far */
+        char failure[128]; /* why it is gone, in words */
+    } pacini_attachment_info;
+
+    PACINI_API void pacini_attachment_info_init(pacini_attachment_info* info);
+
+    /* [any thread but audio] */
+    PACINI_API pacini_result pacini_engine_get_attachment(pacini_engine engine, pacini_attachment_info* info);
 
 #ifdef __cplusplus
 }

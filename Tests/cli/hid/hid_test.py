@@ -58,9 +58,6 @@ def main_under_umockdev(claims):
     # Who is started in the background may ignore these, and so would its children.
     for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
-    _, _, error = run("devices")
-    if "without hidapi" in error:
-        skip("hidapi is missing")
     claims(fake_controller)
     print("failed:", ", ".join(failures)) if failures else print("all claims hold")
     sys.exit(1 if failures else 0)

@@ -1,0 +1,195 @@
+#include "devices/DriveRumble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace pacini::devices
+{
+
+namespace
+{
+constexpr int filterOrder = 4;
+constexpr double pitchKept = 0.5; // of the packets before, in a pitch: a packet may hold less than a period
+constexpr double peakKept = 0.7;  // of the peak of the packets before: an event that returns is one again
+constexpr double eventRise = 2.0;
+constexpr double leastEvent = 0.05; // of full drive
+constexpr double longestGap = 1.0;  // s
+
+RationalDecimator decimatorTo(int rate, double fs)
+{
+    RationalDecimatorParams params;
+    params.passFrequency = Hertz(0.4 * rate);
+    params.stopFrequency = Hertz(0.6 * rate); // what it folds lands above 0.4
+    return RationalDecimator(static_cast<int>(fs), rate, params);
+}
+
+std::int16_t sampleOf(float value) noexcept
+{
+    const double within = std::isfinite(value) ? std::clamp(static_cast<double>(value), -1.0, 1.0) : 0.0;
+    return static_cast<std::int16_t>(std::lround(32767.0 * within));
+}
+
+/// Both sides as one, for a controller that has none.
+PacketContent joined(PacketContent left, const PacketContent& right)
+{
+    left.bands.insert(left.bands.end(), right.bands.begin(), right.bands.end());
+    if (right.event && (!left.event || right.event->level > left.event->level))
+        left.event = right.event;
+    return left;
+}
+} // namespace
+
+DriveMeasure::DriveMeasure(double sampleRate) : fs(sampleRate), scratch(DriveRumble::blockFrames)
+{
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+        parts[i].filter.prepare({fs, DriveRumble::blockFrames});
+        parts[i].filter.setParams({.type = i == 0 ? ButterworthType::lowpass : ButterworthType::highpass,
+                                   .order = filterOrder,
+                                   .frequency = carrierBorder});
+    }
+}
+
+void DriveMeasure::add(std::span<const float> samples) noexcept
+{
+    for (const float sample : samples)
+        peak = std::max(peak, std::abs(static_cast<double>(sample)));
+    const std::span<float> filtered = std::span(scratch).first(samples.size());
+    for (Part& part : parts)
+    {
+        part.filter.process(samples, filtered);
+        for (const float sample : filtered)
+        {
+            const double x = sample;
+            part.power += x * x;
+            part.pitchPower += x * x;
+            part.pitchSteps += (x - part.last) * (x - part.last);
+            part.peak = std::max(part.peak, std::abs(x));
+            part.last = x;
+        }
+    }
+    frames += samples.size();
+}
+
+RumbleTone DriveMeasure::toneOf(Part& part) const noexcept
+{
+    const double rms = frames > 0 ? std::sqrt(part.power / static_cast<double>(frames)) : 0.0;
+    RumbleTone tone{carrierBorder, std::min(std::numbers::sqrt2 * rms, part.peak)};
+    // x[n] - x[n - 1] of a sinusoid has 2 sin(pi f / fs) times its amplitude.
+    if (part.pitchPower > 0.0)
+        tone.frequency =
+            Hertz(fs / std::numbers::pi * std::asin(std::min(0.5 * std::sqrt(part.pitchSteps / part.pitchPower), 1.0)));
+    part.power = part.peak = 0.0;
+    part.pitchPower *= pitchKept;
+    part.pitchSteps *= pitchKept;
+    return tone;
+}
+
+PacketContent DriveMeasure::take()
+{
+    constexpr double inaudible = 1e-4; // -80 dB: decaying states of filters are silence
+    PacketContent content;
+    for (Part& part : parts)
+        if (const RumbleTone tone = toneOf(part); tone.amplitude > inaudible)
+            content.bands.push_back(tone);
+    if (peak >= leastEvent && peak > eventRise * heldPeak)
+    {
+        const MotorLevels levels = motorsOf(content.bands);
+        const double energy = levels.strong * levels.strong + levels.weak * levels.weak;
+        const double sharpness = energy > 0.0 ? levels.weak * levels.weak / energy : 0.0;
+        content.event = EventPulse{{carrierBorder, 0.0}, std::min(peak, 1.0), sharpness}; // the tones hold it already
+    }
+    heldPeak = std::max(peak, peakKept * heldPeak);
+    peak = 0.0;
+    frames = 0;
+    return content;
+}
+
+bool DriveRumble::takesRate(double sampleRate, const ControllerModel& controller) noexcept
+{
+    return controller.haptics != ControllerHaptics::steamController ||
+           (sampleRate >= steamStream(controller.transport).rate && sampleRate == std::floor(sampleRate));
+}
+
+DriveRumble::DriveRumble(DriveRenderer renderer, std::size_t channelCount, double sampleRate,
+                         const ControllerModel& controller)
+    : render(std::move(renderer)),
+      fs(sampleRate),
+      model(controller),
+      framesPerPacket(pacingOf(controller).interval.value * sampleRate),
+      channels(channelCount, std::vector<float>(blockFrames)),
+      outputs(channelCount),
+      states(controller)
+{
+    const SteamStream stream = steamStream(model.transport);
+    for (std::size_t side = 0; side < sides(); ++side)
+        if (model.haptics == ControllerHaptics::steamController)
+            decimators.push_back(decimatorTo(stream.rate, fs));
+        else
+            measures.emplace_back(fs);
+    decimated.resize(decimators.size());
+}
+
+void DriveRumble::pull(std::size_t frames)
+{
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        outputs[c] = std::span(channels[c]).first(frames);
+    render(outputs);
+    for (std::size_t side = 0; side < decimators.size(); ++side)
+        decimators[side].push(outputs[side], decimated[side]);
+    for (std::size_t side = 0; side < measures.size(); ++side)
+        measures[side].add(outputs[side]);
+}
+
+PcmBlock DriveRumble::samplesOf()
+{
+    const std::size_t wanted = steamStream(model.transport).samples;
+    while (decimated[0].size() < wanted)
+        pull(std::min(blockFrames, static_cast<std::size_t>(std::ceil(framesPerPacket))));
+    PcmBlock block;
+    for (std::size_t i = 0; i < wanted; ++i)
+    {
+        block.left[i] = sampleOf(decimated[0][i]);
+        block.right[i] = sampleOf(decimated.back()[i]);
+    }
+    for (auto& side : decimated)
+        side.erase(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(wanted));
+    return block;
+}
+
+std::optional<RumbleState> DriveRumble::at(std::int64_t packet)
+{
+    const auto most = static_cast<std::int64_t>(longestGap * fs / framesPerPacket);
+    std::int64_t left = std::clamp(packet - nextPacket, std::int64_t{0}, most);
+    nextPacket = packet + 1;
+    if (!decimators.empty())
+    {
+        for (; left > 0; --left)
+            static_cast<void>(samplesOf());
+        return samplesOf();
+    }
+    PacketContent sidesContent[2];
+    for (; left >= 0; --left)
+    {
+        owed += framesPerPacket;
+        auto frames = static_cast<std::size_t>(owed);
+        owed -= static_cast<double>(frames);
+        while (frames > 0)
+        {
+            const std::size_t n = std::min(frames, blockFrames);
+            pull(n);
+            frames -= n;
+        }
+        for (std::size_t side = 0; side < measures.size(); ++side)
+            sidesContent[side] = measures[side].take();
+    }
+    if (measures.size() == 1)
+        return states.of(packet, sidesContent[0]);
+    if (states.hasSides())
+        return states.of(packet, sidesContent[0], sidesContent[1]);
+    return states.of(packet, joined(std::move(sidesContent[0]), sidesContent[1]));
+}
+
+} // namespace pacini::devices

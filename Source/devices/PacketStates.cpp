@@ -1,0 +1,115 @@
+#include "devices/PacketStates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pacini::devices
+{
+
+namespace
+{
+constexpr double packetRounding = 1e-6; // of a packet
+
+bool isHigh(Hertz frequency) noexcept
+{
+    return frequency >= carrierBorder;
+}
+
+std::int64_t packetsIn(double intervals) noexcept
+{
+    return std::max<std::int64_t>(std::llround(intervals), 1);
+}
+} // namespace
+
+RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept
+{
+    if (!canSound(pulse))
+        return tones;
+    RumbleTone& carrier = isHigh(pulse.frequency) ? tones.high : tones.low;
+    carrier = joinedTones(carrier, {pulse.frequency, std::min(pulse.amplitude, 1.0)});
+    return tones;
+}
+
+MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept
+{
+    double low = 0.0;
+    double high = 0.0;
+    for (const RumbleTone& band : bands)
+        if (canSound(band))
+            (isHigh(band.frequency) ? high : low) += band.amplitude * band.amplitude;
+    return {std::min(std::sqrt(low), 1.0), std::min(std::sqrt(high), 1.0)};
+}
+
+MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept
+{
+    const double amplitude = std::min(pulse.level, 1.0);
+    return {std::max(motors.strong, amplitude * std::sqrt(1.0 - pulse.sharpness)),
+            std::max(motors.weak, amplitude * std::sqrt(pulse.sharpness))};
+}
+
+PacketStates::PacketStates(const ControllerModel& controller)
+    : model(controller),
+      interval(pacingOf(controller).interval),
+      sides{RumbleMapper({.interval = interval}), RumbleMapper({.interval = interval})}
+{
+}
+
+RumbleState PacketStates::of(std::int64_t packet, const PacketContent& left, const PacketContent& right)
+{
+    if (model.haptics == ControllerHaptics::waveforms)
+        return waveformFor(packet, left);
+    if (!hasSides())
+        return motorsFor(packet, left);
+    const auto bytesOf = [](RumbleMapper& side, const PacketContent& content)
+    {
+        const RumbleBytes bytes = side.next(content.bands);
+        return content.event ? encodeRumble(withPulse(side.played(), content.event->tone)) : bytes;
+    };
+    return SidesRumble{bytesOf(sides[0], left), bytesOf(sides[1], right)};
+}
+
+MotorLevels PacketStates::motorsFor(std::int64_t packet, const PacketContent& content) noexcept
+{
+    if (content.event)
+    {
+        motorEvent = *content.event;
+        motorEventEnd = packet + std::llround(motorPulse.value / interval.value);
+    }
+    const MotorLevels motors = motorsOf(content.bands);
+    return packet < motorEventEnd ? withPulse(motors, motorEvent) : motors;
+}
+
+WaveformState PacketStates::waveformFor(std::int64_t packet, const PacketContent& content) noexcept
+{
+    if (model.trigger.event == 0)
+        return lastingFor(packet, motorsFor(packet, content));
+    if (content.event)
+    {
+        played = {Waveform::event, content.event->level, true};
+        playedEnd = packet + packetsIn(std::ceil(model.trigger.eventTime.value / interval.value - packetRounding));
+        return played;
+    }
+    if (played.waveform == Waveform::event && packet < playedEnd)
+    {
+        played.begins = false;
+        return played;
+    }
+    return lastingFor(packet, motorsOf(content.bands));
+}
+
+WaveformState PacketStates::lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept
+{
+    const double intensity = std::min(std::hypot(levels.strong, levels.weak), 1.0);
+    if (!(intensity > 0.0) || !model.trigger.lasts())
+        return played = {};
+    const Waveform waveform = levels.strong > levels.weak ? Waveform::rumble : Waveform::buzz;
+    const Seconds time = waveform == Waveform::rumble ? model.trigger.rumbleTime : model.trigger.buzzTime;
+    const bool goesOn = played.waveform == waveform && (time.value <= 0.0 || packet < playedEnd);
+    if (!goesOn)
+        playedEnd = packet + packetsIn(std::floor(time.value / interval.value + packetRounding));
+    // What goes on by itself needs no trigger of its own; one that ends does.
+    return played = {waveform, intensity, !goesOn && time.value > 0.0};
+}
+
+} // namespace pacini::devices

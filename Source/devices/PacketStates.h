@@ -1,0 +1,72 @@
+#pragma once
+
+// Conversion of packets (tones and an event) to the states of a controller (HD rumble, motors, waveforms).
+
+#include "devices/ClipPackets.h"
+#include "devices/ControllerReports.h"
+#include "devices/RumbleMapper.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace pacini::devices
+{
+
+/// HD rumble with the pulse of an event in it. The pulse belongs to the carrier that it is nearest to and is joined
+/// with what that plays. It jumps to its strength and is over with the packet, while bands go to theirs smoothly: an
+/// event shall be felt as a jump. It is not made weaker for being shorter than a packet: an actuator that comes within
+/// 37 % of a level in 10 ms (see RumbleMapperParams) gets to 78 % of it in a packet of 15 ms. The rule is ours:
+/// Nintendo has published none. [any]
+[[nodiscard]] RumbleTones withPulse(RumbleTones tones, const RumbleTone& pulse) noexcept;
+
+/// The levels of two motors for bands: the energies below and above the border of the carriers of HD rumble, 226 Hz. So
+/// a clip is split alike on all controllers; Linux (hid-nintendo.c) gives strong and weak motors the carriers' 160 and
+/// 320 Hz. [any]
+[[nodiscard]] MotorLevels motorsOf(std::span<const RumbleTone> bands) noexcept;
+
+/// The levels while an event is played: at least its amplitude, dull ones on the strong motor, crisp ones on the weak
+/// one, and between the two by equal energy. [any]
+[[nodiscard]] MotorLevels withPulse(const MotorLevels& motors, const EventPulse& pulse) noexcept;
+
+/// Converter of packets to the states of any controller that is not sent samples.
+///
+/// On waveforms (see chosenWaveforms()), an event is triggered in its packet, as strong as it is, and what lasts gives
+/// way to it until it has ended. What lasts follows the levels of two motors: where the strong one is ahead it is a
+/// rumble, otherwise a buzz, as intense as both together.
+class PacketStates
+{
+public:
+    /// For how long motors are held up for an event: a shorter push is not felt. Source: Lofelt, NiceVibrations, which
+    /// plays emphasis on motors for 30 ms.
+    static constexpr Seconds motorPulse{0.030};
+
+    explicit PacketStates(const ControllerModel& controller);
+
+    /// Whether the two sides of a controller play for themselves.
+    [[nodiscard]] bool hasSides() const noexcept { return model.haptics == ControllerHaptics::hdRumble; }
+
+    /// What a packet plays; packets only go forward, some may be left out. [worker]
+    [[nodiscard]] RumbleState of(std::int64_t packet, const PacketContent& content)
+    {
+        return of(packet, content, content);
+    }
+
+    /// The same with two sides; where hasSides() is not true, the left is played. [worker]
+    [[nodiscard]] RumbleState of(std::int64_t packet, const PacketContent& left, const PacketContent& right);
+
+private:
+    [[nodiscard]] MotorLevels motorsFor(std::int64_t packet, const PacketContent& content) noexcept;
+    [[nodiscard]] WaveformState waveformFor(std::int64_t packet, const PacketContent& content) noexcept;
+    [[nodiscard]] WaveformState lastingFor(std::int64_t packet, const MotorLevels& levels) noexcept;
+
+    ControllerModel model;
+    Seconds interval;
+    std::array<RumbleMapper, 2> sides;
+    EventPulse motorEvent;
+    std::int64_t motorEventEnd = 0; ///< the packet after it
+    WaveformState played;
+    std::int64_t playedEnd = 0; ///< the packet at which what is played has ended by itself
+};
+
+} // namespace pacini::devices
