@@ -12,18 +12,19 @@
 -- SPDX-License-Identifier: MIT
 local ffi = require "ffi"
 
--- What pacini.h 1.0 declares.
+-- What pacini.h 1.1 declares.
 ffi.cdef [[
 uint32_t pacini_api_version(void);
 typedef enum pacini_result {
     PACINI_OK = 0, PACINI_INVALID = 1, PACINI_STALE = 2, PACINI_BAD_DATA = 3, PACINI_NEWER = 4, PACINI_TOO_MANY = 5,
-    PACINI_IO = 6, PACINI_NO_MEMORY = 7, PACINI_INTERNAL = 8
+    PACINI_IO = 6, PACINI_NO_MEMORY = 7, PACINI_INTERNAL = 8, PACINI_BUSY = 9
 } pacini_result;
 const char* pacini_result_text(pacini_result result);
 size_t pacini_last_error(char* text, size_t size);
 typedef uint64_t pacini_clip;
 typedef uint64_t pacini_engine;
 typedef uint64_t pacini_play;
+typedef uint64_t pacini_controller;
 
 typedef struct pacini_clip_info {
     uint32_t struct_size;
@@ -118,6 +119,34 @@ pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info);
 pacini_result pacini_group_set(pacini_engine engine, uint32_t group, int32_t control, double value,
     double glide, int64_t frame);
 pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);
+
+typedef struct pacini_controller_info {
+    uint32_t struct_size;
+    int32_t haptics;
+    int32_t connection;
+    char name[128];
+    char path[256];
+} pacini_controller_info;
+pacini_result pacini_controllers_find(pacini_controller* controllers, uint32_t capacity, uint32_t* count);
+void pacini_controller_info_init(pacini_controller_info* info);
+pacini_result pacini_controller_get_info(pacini_controller controller, pacini_controller_info* info);
+typedef struct pacini_attach_settings {
+    uint32_t struct_size;
+    int32_t stop_on_crash;
+} pacini_attach_settings;
+void pacini_attach_settings_init(pacini_attach_settings* settings);
+pacini_result pacini_engine_attach(pacini_engine engine, pacini_controller controller,
+    const pacini_attach_settings* settings);
+pacini_result pacini_engine_detach(pacini_engine engine);
+typedef struct pacini_attachment_info {
+    uint32_t struct_size;
+    int32_t state;
+    pacini_controller controller;
+    uint64_t sent;
+    char failure[128];
+} pacini_attachment_info;
+void pacini_attachment_info_init(pacini_attachment_info* info);
+pacini_result pacini_engine_get_attachment(pacini_engine engine, pacini_attachment_info* info);
 ]]
 
 local filesystem = love and love.filesystem
@@ -142,13 +171,16 @@ end
 
 local library = loadLibrary()
 local version = library.pacini_api_version()
-if math.floor(version / 1000) ~= 1 then
-    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.x", 0)
+if version < 1001 or version >= 2000 then
+    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.1 or a newer 1.x", 0)
 end
 
 local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6}
 local panLaws = {power = 0, delay = 1, both = 2}
 local states = {[0] = "ended", "waiting", "playing", "paused", "left out"}
+local haptics = {[0] = "HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"}
+local connections = {[0] = "unknown", "USB", "Bluetooth", "receiver"}
+local attachments = {[0] = "detached", "attached", "gone"}
 -- Keys of tables to fields of structs.
 local configFields = {sampleRate = "sample_rate", panDelay = "pan_delay", longestDelay = "longest_delay",
     strength = "strength", maxPlays = "max_plays", maxCommands = "max_commands", budget = "budget",
@@ -332,6 +364,39 @@ end
 
 function Engine:stopGroup(group, fade, frame)
     check(library.pacini_group_stop(self.box[0], group, fade or 0, frame or 0))
+end
+
+---- Game controllers
+
+--- What is connected: a list of controllers with name, haptics, connection and path.
+function pacini.controllers()
+    local count, handles = ffi.new "uint32_t[1]", ffi.new "pacini_controller[32]"
+    check(library.pacini_controllers_find(handles, 32, count))
+    local list = {}
+    for i = 0, math.min(32, count[0]) - 1 do
+        local info = filled("pacini_controller_info", library.pacini_controller_info_init)
+        check(library.pacini_controller_get_info(handles[i], info))
+        list[#list + 1] = {handle = handles[i], name = ffi.string(info.name), path = ffi.string(info.path),
+            haptics = haptics[info.haptics] or "unknown", connection = connections[info.connection] or "unknown"}
+    end
+    return list
+end
+
+--- Plays on one of pacini.controllers() from now on, on a thread of the library; render() is an error meanwhile.
+--- `stopOnCrash`: silences it when the program crashes, by handlers of signals.
+function Engine:attach(controller, stopOnCrash)
+    local settings = filled("pacini_attach_settings", library.pacini_attach_settings_init)
+    settings.stop_on_crash = stopOnCrash and 1 or 0
+    check(library.pacini_engine_attach(self.box[0], controller.handle, settings))
+end
+
+function Engine:detach() check(library.pacini_engine_detach(self.box[0])) end
+
+--- state ("detached", "attached", "gone"), sent (reports), failure (why it is gone)
+function Engine:attachment()
+    local info = filled("pacini_attachment_info", library.pacini_attachment_info_init)
+    check(library.pacini_engine_get_attachment(self.box[0], info))
+    return {state = attachments[info.state], sent = tonumber(info.sent), failure = ffi.string(info.failure)}
 end
 
 ---- Plays

@@ -24,11 +24,11 @@ function loadLibrary() {
 
 const library = loadLibrary();
 const apiVersion = library.func('uint32_t pacini_api_version()');
-if (Math.floor(apiVersion() / 1000) !== 1) {
-  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.x`);
+if (apiVersion() < 1001 || apiVersion() >= 2000) {
+  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.1 or a newer 1.x`);
 }
 
-// What pacini.h 1.0 declares.
+// What pacini.h 1.1 declares.
 const structs = {};
 structs.pacini_clip_info = koffi.struct('pacini_clip_info', {
   struct_size: 'uint32_t', events: 'uint32_t', duration: 'double', bytes: 'uint64_t', name: koffi.array('char', 64, 'String'),
@@ -50,6 +50,15 @@ structs.pacini_play_settings = koffi.struct('pacini_play_settings', {
   priority: 'int32_t', headroom: 'double', fade_in: 'double', variation: 'double', seed: 'uint64_t',
 });
 structs.pacini_play_info = koffi.struct('pacini_play_info', { struct_size: 'uint32_t', state: 'int32_t', position: 'double' });
+structs.pacini_controller_info = koffi.struct('pacini_controller_info', {
+  struct_size: 'uint32_t', haptics: 'int32_t', connection: 'int32_t', name: koffi.array('char', 128, 'String'),
+  path: koffi.array('char', 256, 'String'),
+});
+structs.pacini_attach_settings = koffi.struct('pacini_attach_settings', { struct_size: 'uint32_t', stop_on_crash: 'int32_t' });
+structs.pacini_attachment_info = koffi.struct('pacini_attachment_info', {
+  struct_size: 'uint32_t', state: 'int32_t', controller: 'uint64_t', sent: 'uint64_t',
+  failure: koffi.array('char', 128, 'String'),
+});
 
 const c = {
   resultText: library.func('const char *pacini_result_text(int result)'),
@@ -86,6 +95,16 @@ const c = {
   groupSet: library.func(
     'int pacini_group_set(uint64_t engine, uint32_t group, int32_t control, double value, double glide, int64_t frame)'),
   groupStop: library.func('int pacini_group_stop(uint64_t engine, uint32_t group, double fade, int64_t frame)'),
+  controllersFind: library.func(
+    'int pacini_controllers_find(_Out_ uint64_t *controllers, uint32_t capacity, _Out_ uint32_t *count)'),
+  controllerInfoInit: library.func('void pacini_controller_info_init(_Out_ pacini_controller_info *info)'),
+  controllerGetInfo: library.func('int pacini_controller_get_info(uint64_t controller, _Inout_ pacini_controller_info *info)'),
+  attachSettingsInit: library.func('void pacini_attach_settings_init(_Out_ pacini_attach_settings *settings)'),
+  engineAttach: library.func(
+    'int pacini_engine_attach(uint64_t engine, uint64_t controller, pacini_attach_settings *settings)'),
+  engineDetach: library.func('int pacini_engine_detach(uint64_t engine)'),
+  attachmentInfoInit: library.func('void pacini_attachment_info_init(_Out_ pacini_attachment_info *info)'),
+  engineGetAttachment: library.func('int pacini_engine_get_attachment(uint64_t engine, _Inout_ pacini_attachment_info *info)'),
 };
 
 /** Of the tests: the structs as koffi lays them out. */
@@ -93,10 +112,13 @@ export const layout = structs;
 /** Version of the interface of the library: major * 1000 + minor. */
 export const version = apiVersion();
 
-const codes = ['ok', 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal'];
+const codes = ['ok', 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal', 'busy'];
 const controls = { gain: 0, intensity: 1, pan: 2, delay: 3, transposition: 4, speed: 5, priority: 6 };
 const panLaws = { power: 0, delay: 1, both: 2 };
 const states = ['ended', 'waiting', 'playing', 'paused', 'left out'];
+const haptics = ['HD rumble', 'DualShock 4', 'DualSense', 'Xbox', 'waveforms', 'Steam Controller', 'Steam Deck'];
+const connections = ['unknown', 'USB', 'Bluetooth', 'receiver'];
+const attachments = ['detached', 'attached', 'gone'];
 // Keys of objects to fields of structs.
 const configFields = {
   sampleRate: 'sample_rate', panDelay: 'pan_delay', longestDelay: 'longest_delay', strength: 'strength',
@@ -109,7 +131,7 @@ const settingFields = {
   headroom: 'headroom', fadeIn: 'fade_in', variation: 'variation', seed: 'seed',
 };
 
-/** `code` is one of 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal'. */
+/** `code` is one of 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal', 'busy'. */
 export class PaciniError extends Error {
   constructor(code, message) {
     super(message);
@@ -262,6 +284,26 @@ export class Engine {
 
   stopGroup(group, fade = 0, frame = 0) { check(c.groupStop(this.#handle, group, fade, frame)); }
 
+  /**
+   * Plays on one of controllers() from now on, on a thread of the library; render() throws, with the code 'busy', meanwhile.
+   * `stopOnCrash` silences it when the program crashes, by handlers of signals.
+   */
+  attach(controller, { stopOnCrash = false } = {}) {
+    const settings = filled(c.attachSettingsInit);
+    settings.stop_on_crash = stopOnCrash ? 1 : 0;
+    check(c.engineAttach(this.#handle, controller.handle, settings));
+  }
+
+  /** Silences the controller and gives the engine back to render(). */
+  detach() { check(c.engineDetach(this.#handle)); }
+
+  /** state ('detached', 'attached', 'gone'), sent (reports), failure (why it is gone) */
+  get attachment() {
+    const info = filled(c.attachmentInfoInit);
+    check(c.engineGetAttachment(this.#handle, info));
+    return { state: attachments[info.state], sent: Number(info.sent), failure: info.failure };
+  }
+
   /** Ends it and all its plays. */
   destroy() {
     check(c.engineDestroy(this.#handle));
@@ -292,4 +334,19 @@ export class Play {
     check(c.playGetInfo(this.#handle, info));
     return { state: states[info.state], position: info.position };
   }
+}
+
+/** The game controllers, and other haptic devices, that are connected: handle, name, path, haptics, connection of each. */
+export function controllers() {
+  const handles = new Array(32).fill(0n);
+  const count = [0];
+  check(c.controllersFind(handles, handles.length, count));
+  return handles.slice(0, Math.min(handles.length, count[0])).map((handle) => {
+    const info = filled(c.controllerInfoInit);
+    check(c.controllerGetInfo(handle, info));
+    return {
+      handle, name: info.name, path: info.path, haptics: haptics[info.haptics] ?? 'unknown',
+      connection: connections[info.connection] ?? 'unknown',
+    };
+  });
 }

@@ -1,4 +1,4 @@
-// The functions and structs of pacini.h 1.0 as they are.
+// The functions and structs of pacini.h 1.1 as they are.
 //
 // SPDX-License-Identifier: MIT
 using System;
@@ -88,6 +88,33 @@ namespace Pacini
             public double position;
         }
 
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_controller_info
+        {
+            public uint struct_size;
+            public int haptics;
+            public int connection;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 128)] public byte[] name;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] public byte[] path;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_attach_settings
+        {
+            public uint struct_size;
+            public int stop_on_crash;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct pacini_attachment_info
+        {
+            public uint struct_size;
+            public int state;
+            public ulong controller;
+            public ulong sent;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 128)] public byte[] failure;
+        }
+
         [DllImport(Library, CallingConvention = C)] internal static extern uint pacini_api_version();
         [DllImport(Library, CallingConvention = C)] private static extern IntPtr pacini_result_text(int result);
         [DllImport(Library, CallingConvention = C)] private static extern UIntPtr pacini_last_error([Out] byte[] text, UIntPtr size);
@@ -120,6 +147,15 @@ namespace Pacini
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_play_get_info(ulong play, ref pacini_play_info info);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_set(ulong engine, uint group, int control, double value, double glide, long frame);
         [DllImport(Library, CallingConvention = C)] internal static extern int pacini_group_stop(ulong engine, uint group, double fade, long frame);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controllers_find([Out] ulong[] controllers, uint capacity, out uint count);
+        [DllImport(Library, CallingConvention = C)] internal static extern void pacini_controller_info_init(ref pacini_controller_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_controller_get_info(ulong controller, ref pacini_controller_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern void pacini_attach_settings_init(ref pacini_attach_settings settings);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_attach(ulong engine, ulong controller, ref pacini_attach_settings settings);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_detach(ulong engine);
+        [DllImport(Library, CallingConvention = C)] internal static extern void pacini_attachment_info_init(ref pacini_attachment_info info);
+        [DllImport(Library, CallingConvention = C)] internal static extern int pacini_engine_get_attachment(ulong engine, ref pacini_attachment_info info);
 
         /// <summary>UTF-8 with a 0 at the end, as the library wants texts.</summary>
         internal static byte[] Utf8(string text)

@@ -21,7 +21,8 @@ namespace Pacini
         TooMany = 5,
         Io = 6,
         NoMemory = 7,
-        Internal = 8
+        Internal = 8,
+        Busy = 9
     }
 
     public enum PanLaw
@@ -70,8 +71,79 @@ namespace Pacini
         /// <summary>Throws when this binding is not for it.</summary>
         internal static void Check()
         {
-            if (Version / 1000 != 1)
-                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.x");
+            if (Version < 1001 || Version >= 2000)
+                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.1 or a newer 1.x");
+        }
+    }
+
+    /// <summary>What a controller understands.</summary>
+    public enum Haptics
+    {
+        HdRumble = 0,
+        DualShock4 = 1,
+        DualSense = 2,
+        Xbox = 3,
+        Waveforms = 4,
+        SteamController = 5,
+        SteamDeck = 6
+    }
+
+    public enum Connection
+    {
+        Unknown = 0,
+        Usb = 1,
+        Bluetooth = 2,
+        Receiver = 3
+    }
+
+    public enum AttachmentState
+    {
+        Detached = 0,
+        Attached = 1,
+        /// <summary>Unplugged or switched off: the engine goes on unfelt until it is detached.</summary>
+        Gone = 2
+    }
+
+    public struct Attachment
+    {
+        public AttachmentState State;
+        /// <summary>Reports so far.</summary>
+        public long Sent;
+        /// <summary>Why it is gone.</summary>
+        public string Failure;
+    }
+
+    /// <summary>A game controller, or another haptic device.</summary>
+    public sealed class Controller
+    {
+        internal readonly ulong Handle;
+        public readonly string Name, Path;
+        public readonly Haptics Haptics;
+        public readonly Connection Connection;
+
+        private Controller(ulong handle)
+        {
+            Handle = handle;
+            var info = new Native.pacini_controller_info();
+            Native.pacini_controller_info_init(ref info);
+            Native.Check(Native.pacini_controller_get_info(handle, ref info));
+            Name = Native.Text(info.name);
+            Path = Native.Text(info.path);
+            Haptics = (Haptics)info.haptics;
+            Connection = (Connection)info.connection;
+        }
+
+        /// <summary>What is connected. Takes up to 0.1 s.</summary>
+        public static List<Controller> Find()
+        {
+            Library.Check();
+            var handles = new ulong[32];
+            uint count;
+            Native.Check(Native.pacini_controllers_find(handles, (uint)handles.Length, out count));
+            var found = new List<Controller>();
+            for (int i = 0; i < Math.Min(count, handles.Length); ++i)
+                found.Add(new Controller(handles[i]));
+            return found;
         }
     }
 
@@ -336,8 +408,8 @@ namespace Pacini
         }
 
         /// <summary>The next frames, frame by frame: samples[frame * channels + actuator]. Channels beyond the actuators
-        /// are silent. As many frames as fit, or fewer. For the audio thread. False when the engine is disposed: all is
-        /// silent then.</summary>
+        /// are silent. As many frames as fit, or fewer. For the audio thread. False when the engine is disposed or
+        /// plays on a controller: all is silent then.</summary>
         public bool Render(float[] samples, int channels, int frames = int.MaxValue)
         {
             if (channels < 1 || frames < 1)
@@ -387,6 +459,33 @@ namespace Pacini
         public void StopGroup(int group, double fade = 0.0, long frame = 0)
         {
             Native.Check(Native.pacini_group_stop(handle, (uint)group, fade, frame));
+        }
+
+        /// <summary>Plays on a controller from now on, on a thread of the library; Render is false and silent meanwhile.
+        /// `stopOnCrash` silences it when the program crashes, by handlers of signals.</summary>
+        public void Attach(Controller controller, bool stopOnCrash = false)
+        {
+            var settings = new Native.pacini_attach_settings();
+            Native.pacini_attach_settings_init(ref settings);
+            settings.stop_on_crash = stopOnCrash ? 1 : 0;
+            Native.Check(Native.pacini_engine_attach(handle, controller.Handle, ref settings));
+        }
+
+        /// <summary>Silences the controller and gives the engine back to Render.</summary>
+        public void Detach()
+        {
+            Native.Check(Native.pacini_engine_detach(handle));
+        }
+
+        public Attachment Attachment
+        {
+            get
+            {
+                var info = new Native.pacini_attachment_info();
+                Native.pacini_attachment_info_init(ref info);
+                Native.Check(Native.pacini_engine_get_attachment(handle, ref info));
+                return new Attachment { State = (AttachmentState)info.state, Sent = (long)info.sent, Failure = Native.Text(info.failure) };
+            }
         }
 
         /// <summary>Ends it and all its plays; waits for a block that is being rendered.</summary>

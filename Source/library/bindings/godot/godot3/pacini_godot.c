@@ -432,3 +432,69 @@ EXPORT godot_variant pacini_godot_play_info(const void* arguments)
         return of_nothing();
     return to_int(arguments, 1) == 0 ? of_int(info.state) : of_real(info.position);
 }
+
+/* ---- Game controllers */
+
+/* which, from 0: its handle, 0 behind the last */
+EXPORT godot_variant pacini_godot_controller(const void* arguments)
+{
+    pacini_controller controllers[32];
+    uint32_t found = 0;
+    const int64_t which = to_int(arguments, 0);
+    if (pacini_controllers_find(controllers, 32, &found) != PACINI_OK)
+        return of_nothing();
+    return of_int(which >= 0 && which < 32 && which < (int64_t)found ? (int64_t)controllers[which] : 0);
+}
+
+/* controller, which of: name, path, haptics, connection */
+EXPORT godot_variant pacini_godot_controller_info(const void* arguments)
+{
+    pacini_controller_info info;
+    pacini_controller_info_init(&info);
+    if (pacini_controller_get_info((pacini_controller)to_int(arguments, 0), &info) != PACINI_OK)
+        return of_nothing();
+    switch (to_int(arguments, 1))
+    {
+    case 0:
+        return of_text(info.name);
+    case 1:
+        return of_text(info.path);
+    case 2:
+        return of_int(info.haptics);
+    default:
+        return of_int(info.connection);
+    }
+}
+
+/* engine, controller, whether it is silenced by a crash */
+EXPORT godot_variant pacini_godot_engine_attach(const void* arguments)
+{
+    pacini_attach_settings settings;
+    pacini_attach_settings_init(&settings);
+    settings.stop_on_crash = (int32_t)to_int(arguments, 2);
+    return of_result(
+        pacini_engine_attach((pacini_engine)to_int(arguments, 0), (pacini_controller)to_int(arguments, 1), &settings));
+}
+
+EXPORT godot_variant pacini_godot_engine_detach(const void* arguments)
+{
+    return of_result(pacini_engine_detach((pacini_engine)to_int(arguments, 0)));
+}
+
+/* engine, which of: state, sent, failure */
+EXPORT godot_variant pacini_godot_engine_attachment(const void* arguments)
+{
+    pacini_attachment_info info;
+    pacini_attachment_info_init(&info);
+    if (pacini_engine_get_attachment((pacini_engine)to_int(arguments, 0), &info) != PACINI_OK)
+        return of_nothing();
+    switch (to_int(arguments, 1))
+    {
+    case 0:
+        return of_int(info.state);
+    case 1:
+        return of_int((int64_t)info.sent);
+    default:
+        return of_text(info.failure);
+    }
+}

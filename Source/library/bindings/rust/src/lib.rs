@@ -42,6 +42,8 @@ pub enum Code {
     NoMemory,
     /// A defect of Pacini.
     Internal,
+    /// It plays on a controller.
+    Busy,
 }
 
 impl Code {
@@ -54,6 +56,7 @@ impl Code {
             5 => Code::TooMany,
             6 => Code::Io,
             7 => Code::NoMemory,
+            9 => Code::Busy,
             _ => Code::Internal,
         }
     }
@@ -244,7 +247,7 @@ pub struct Config {
 
 impl Default for Config {
     fn default() -> Self {
-        assert_eq!(library_version() / 1000, 1, "libpacini has another interface than this crate");
+        assert!((1001..2000).contains(&library_version()), "libpacini has another interface than this crate");
         let usual = filled(sys::pacini_engine_config_init);
         Config {
             actuators: vec![Actuator::default()],
@@ -390,6 +393,32 @@ impl Engine {
         check(unsafe { sys::pacini_group_set(self.0, group, control as i32, value, glide, frame) })
     }
 
+    /// Plays on a controller from now on, on a thread of the library; rendering is `Code::Busy` meanwhile.
+    /// `stop_on_crash` silences it when the program crashes, by handlers of signals.
+    pub fn attach(&self, controller: Controller, stop_on_crash: bool) -> Result<(), Error> {
+        let mut settings = filled(sys::pacini_attach_settings_init);
+        settings.stop_on_crash = i32::from(stop_on_crash);
+        // SAFETY: the struct knows its size.
+        check(unsafe { sys::pacini_engine_attach(self.0, controller.0, &settings) })
+    }
+
+    /// Silences the controller and gives the engine back to its renderer.
+    pub fn detach(&self) -> Result<(), Error> {
+        check(unsafe { sys::pacini_engine_detach(self.0) })
+    }
+
+    /// Whether it plays on a controller.
+    pub fn attachment(&self) -> Result<Attachment, Error> {
+        let mut info = filled(sys::pacini_attachment_info_init);
+        // SAFETY: the struct knows its size.
+        check(unsafe { sys::pacini_engine_get_attachment(self.0, &mut info) })?;
+        Ok(match info.state {
+            1 => Attachment::Attached { sent: info.sent },
+            2 => Attachment::Gone { failure: within(&info.failure) },
+            _ => Attachment::Detached,
+        })
+    }
+
     /// Fades (s) all plays of a group out and ends them.
     pub fn stop_group(&self, group: u32, fade: f64, frame: i64) -> Result<(), Error> {
         check(unsafe { sys::pacini_group_stop(self.0, group, fade, frame) })
@@ -430,6 +459,72 @@ impl Renderer {
             0 => Ok(()),
             code => Err(Code::of(code)),
         }
+    }
+}
+
+// ---- Game controllers
+
+/// A text in a struct of the library.
+fn within(text: &[std::os::raw::c_char]) -> String {
+    let bytes: Vec<u8> = text.iter().take_while(|&&c| c != 0).map(|&c| c as u8).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// A game controller, or another haptic device: a number, which keeps as long as it is connected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Controller(sys::pacini_controller);
+
+/// What a controller is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ControllerInfo {
+    /// As the controller gives it.
+    pub name: String,
+    /// What the system calls it.
+    pub path: String,
+    /// A pacini_haptics.
+    pub haptics: i32,
+    /// A pacini_connection.
+    pub connection: i32,
+}
+
+/// Whether an engine plays on a controller.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Attachment {
+    /// It does not.
+    Detached,
+    /// It does.
+    Attached {
+        /// Reports so far.
+        sent: u64,
+    },
+    /// The controller is unplugged or switched off; the engine goes on unfelt until it is detached.
+    Gone {
+        /// Why, in words.
+        failure: String,
+    },
+}
+
+/// What is connected. Takes up to 0.1 s.
+pub fn controllers() -> Result<Vec<Controller>, Error> {
+    let mut handles = [0; 32];
+    let mut count = 0;
+    // SAFETY: no more handles are written than there is room for.
+    check(unsafe { sys::pacini_controllers_find(handles.as_mut_ptr(), 32, &mut count) })?;
+    Ok(handles.iter().take(count as usize).map(|&handle| Controller(handle)).collect())
+}
+
+impl Controller {
+    /// What it is.
+    pub fn info(&self) -> Result<ControllerInfo, Error> {
+        let mut info = filled(sys::pacini_controller_info_init);
+        // SAFETY: the struct knows its size.
+        check(unsafe { sys::pacini_controller_get_info(self.0, &mut info) })?;
+        Ok(ControllerInfo {
+            name: within(&info.name),
+            path: within(&info.path),
+            haptics: info.haptics,
+            connection: info.connection,
+        })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The functions and structs of pacini.h 1.0 as they are.
+//! The functions and structs of pacini.h 1.1 as they are.
 #![allow(non_camel_case_types, missing_docs)]
 
 use std::os::raw::{c_char, c_int, c_void};
@@ -7,6 +7,7 @@ pub type pacini_result = c_int;
 pub type pacini_clip = u64;
 pub type pacini_engine = u64;
 pub type pacini_play = u64;
+pub type pacini_controller = u64;
 
 #[repr(C)]
 pub struct pacini_clip_info {
@@ -82,6 +83,30 @@ pub struct pacini_play_info {
     pub position: f64,
 }
 
+#[repr(C)]
+pub struct pacini_controller_info {
+    pub struct_size: u32,
+    pub haptics: i32,
+    pub connection: i32,
+    pub name: [c_char; 128],
+    pub path: [c_char; 256],
+}
+
+#[repr(C)]
+pub struct pacini_attach_settings {
+    pub struct_size: u32,
+    pub stop_on_crash: i32,
+}
+
+#[repr(C)]
+pub struct pacini_attachment_info {
+    pub struct_size: u32,
+    pub state: i32,
+    pub controller: pacini_controller,
+    pub sent: u64,
+    pub failure: [c_char; 128],
+}
+
 extern "C" {
     pub fn pacini_api_version() -> u32;
     pub fn pacini_result_text(result: pacini_result) -> *const c_char;
@@ -153,4 +178,24 @@ extern "C" {
         frame: i64,
     ) -> pacini_result;
     pub fn pacini_group_stop(engine: pacini_engine, group: u32, fade: f64, frame: i64) -> pacini_result;
+
+    pub fn pacini_controllers_find(
+        controllers: *mut pacini_controller,
+        capacity: u32,
+        count: *mut u32,
+    ) -> pacini_result;
+    pub fn pacini_controller_info_init(info: *mut pacini_controller_info);
+    pub fn pacini_controller_get_info(
+        controller: pacini_controller,
+        info: *mut pacini_controller_info,
+    ) -> pacini_result;
+    pub fn pacini_attach_settings_init(settings: *mut pacini_attach_settings);
+    pub fn pacini_engine_attach(
+        engine: pacini_engine,
+        controller: pacini_controller,
+        settings: *const pacini_attach_settings,
+    ) -> pacini_result;
+    pub fn pacini_engine_detach(engine: pacini_engine) -> pacini_result;
+    pub fn pacini_attachment_info_init(info: *mut pacini_attachment_info);
+    pub fn pacini_engine_get_attachment(engine: pacini_engine, info: *mut pacini_attachment_info) -> pacini_result;
 }

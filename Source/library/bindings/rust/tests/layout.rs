@@ -26,4 +26,7 @@ fn layout() {
     layout!(pacini_play_settings: struct_size, group, frame, gain, intensity, pan, delay, transposition, speed, from,
         r#loop, passes, priority, headroom, fade_in, variation, seed);
     layout!(pacini_play_info: struct_size, state, position);
+    layout!(pacini_controller_info: struct_size, haptics, connection, name, path);
+    layout!(pacini_attach_settings: struct_size, stop_on_crash);
+    layout!(pacini_attachment_info: struct_size, state, controller, sent, failure);
 }

@@ -1,4 +1,4 @@
-// Actuators on channels of Unity's sound output. Beside the AudioListener, or an AudioSource: it adds to what is heard.
+// Actuators on channels of Unity's sound output, or a game controller. Beside the AudioListener, or an AudioSource: it adds to what is heard.
 //
 // SPDX-License-Identifier: MIT
 using System;
@@ -15,6 +15,9 @@ namespace Pacini
         [Tooltip("Of the sound output, from 0: that of the first actuator. 2 leaves left and right to the sound.")]
         public int firstChannel = 2;
 
+        [Tooltip("Plays on the first game controller that is connected when this wakes, and not on the sound output")]
+        public bool onController;
+
         private Engine engine;
         private const int blockFrames = 256;
         private float[] block; // [audio]
@@ -26,6 +29,11 @@ namespace Pacini
         {
             block = new float[blockFrames * Math.Max(1, profiles.Length)];
             engine = new Engine(new EngineConfig(profiles) { SampleRate = AudioSettings.outputSampleRate });
+            if (!onController)
+                return;
+            var controllers = Controller.Find();
+            if (controllers.Count > 0)
+                engine.Attach(controllers[0]);
         }
 
         private void OnDestroy()
@@ -39,7 +47,7 @@ namespace Pacini
         private void OnAudioFilterRead(float[] data, int channels)
         {
             Engine playing = engine;
-            if (playing == null || channels < 1)
+            if (playing == null || channels < 1 || onController)
                 return;
             int actuators = block.Length / blockFrames, frames = data.Length / channels;
             int played = Math.Min(actuators, channels - firstChannel);

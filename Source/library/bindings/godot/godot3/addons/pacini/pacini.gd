@@ -15,6 +15,9 @@ extends Reference
 const CONTROLS = ["gain", "intensity", "pan", "delay", "transposition", "speed", "priority"]
 const PAN_LAWS = ["power", "delay", "both"]
 const STATES = ["ended", "waiting", "playing", "paused", "left out"]
+const HAPTICS = ["HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"]
+const CONNECTIONS = ["unknown", "USB", "Bluetooth", "receiver"]
+const ATTACHMENTS = ["detached", "attached", "gone"]
 const CONFIG = ["scene", "sample_rate", "pan_law", "protect", "pan_delay", "longest_delay", "strength", "max_plays",
 	"max_commands", "budget", "budget_frames", "budget_voices"]
 const SETTINGS = ["group", "frame", "gain", "intensity", "pan", "delay", "transposition", "speed", "from", "loop", "passes",
@@ -25,8 +28,8 @@ var _native
 func _init():
 	_native = Native.new()
 	var version = _native.run("version", [])
-	if version != null and int(version / 1000) != 1:
-		_native.fail("libpacini has the interface %s, this script is for 1.x" % (version / 1000.0))
+	if version != null and (version < 1001 or version >= 2000):
+		_native.fail("libpacini has the interface %s, this script is for 1.1 or a newer 1.x" % (version / 1000.0))
 
 var last_error setget , _get_last_error
 
@@ -62,6 +65,17 @@ func engine(config = {}):
 		arguments += [profile if profile != null else "", actuator.get("gain"), actuator.get("delay")]
 	var handle = _native.run("engine_create", arguments)
 	return HapticEngine.new(_native, handle, actuators.size()) if handle != null else null
+
+# The game controllers, and other haptic devices, that are connected: handle, name, path, haptics, connection of each.
+func controllers():
+	var found = []
+	while true:
+		var handle = _native.run("controller", [found.size()])
+		if handle == null or handle == 0:
+			return found
+		found.append({"handle": handle, "name": _native.run("controller_info", [handle, 0]),
+			"path": _native.run("controller_info", [handle, 1]), "haptics": HAPTICS[_native.run("controller_info", [handle, 2])],
+			"connection": CONNECTIONS[_native.run("controller_info", [handle, 3])]})
 
 
 class HapticClip:
@@ -120,11 +134,11 @@ class HapticEngine:
 
 	# The next frames, frame by frame, all actuators in each.
 	func render(frames):
-		return _native.run("render", [_handle, frames, _actuators], "the engine is not in use (any more)")
+		return _native.run("render", [_handle, frames, _actuators], "the engine is not in use (any more) or plays on a controller")
 
 	# The first two actuators, left and right of a Vector2; a second that is not there is silent.
 	func render_stereo(frames):
-		return _native.run("render_stereo", [_handle, frames], "the engine is not in use (any more)")
+		return _native.run("render_stereo", [_handle, frames], "the engine is not in use (any more) or plays on a controller")
 
 	# As many frames as there is room for, into an AudioStreamGeneratorPlayback.
 	func fill(playback):
@@ -158,6 +172,23 @@ class HapticEngine:
 
 	func stop_group(group, fade = 0.0, frame = 0):
 		return _native.run("group_stop", [_handle, group, fade, frame]) != null
+
+	# Plays on one of controllers() from now on, on a thread of the library; nothing can be rendered meanwhile.
+	# `stop_on_crash` silences it when the program crashes, by handlers of signals.
+	func attach(controller, stop_on_crash = false):
+		return _native.run("engine_attach", [_handle, controller.handle, 1 if stop_on_crash else 0]) != null
+
+	# Silences the controller and gives the engine back to render().
+	func detach():
+		return _native.run("engine_detach", [_handle]) != null
+
+	# state (one of ATTACHMENTS), sent (reports), failure (why it is gone)
+	func get_attachment():
+		var state = _native.run("engine_attachment", [_handle, 0])
+		if state == null:
+			return null
+		return {"state": ATTACHMENTS[state], "sent": _native.run("engine_attachment", [_handle, 1]),
+			"failure": _native.run("engine_attachment", [_handle, 2])}
 
 	# Ends it and all its plays.
 	func destroy():
