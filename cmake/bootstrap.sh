@@ -20,12 +20,16 @@ host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x
     umockdev gir1.2-umockdev-1.0 python3-gi)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
+# Engines and languages that libpacini has bindings for, and those that take long to install, for CI alone.
+binding_packages=(mono-mcs mono-runtime love godot3-server libsdl2-dev)
+slow_binding_packages=(rustc cargo nodejs npm)
+node_modules=(koffi@3.3.4)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
-    "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}")
+    "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
 say() { printf '\n== %s\n' "$*"; }
 usage() { printf '%s\n' "$help"; }
@@ -49,6 +53,8 @@ TEXT
         g++) command -v g++ >/dev/null && continue ;;
         cmake) command -v cmake >/dev/null && continue ;;
         ninja-build) command -v ninja >/dev/null && continue ;;
+        nodejs) command -v node >/dev/null && continue ;;
+        rustc | cargo | npm) command -v "$package" >/dev/null && continue ;;
         esac
         dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
     done
@@ -100,6 +106,19 @@ install_host_modules() {
         printf '%s' "${host_modules[*]}" >"$venv/modules"
     else
         printf 'bootstrap: these modules cannot be installed; the tests in DawDreamer and Pedalboard will be SKIPPED\n' >&2
+    fi
+}
+
+# What the binding for Node.js needs, in a place of its own. Its binary comes within the package.
+install_node_modules() {
+    local folder=build/bindings-node
+    [ "$(cat "$folder/modules" 2>/dev/null)" != "${node_modules[*]}" ] || return 0
+    say "Installing ${node_modules[*]} in $folder"
+    mkdir -p "$folder"
+    if npm install --silent --no-save --no-audit --no-fund --ignore-scripts --prefix "$folder" "${node_modules[@]}"; then
+        printf '%s' "${node_modules[*]}" >"$folder/modules"
+    else
+        printf 'bootstrap: these modules cannot be installed; the test of the binding for Node.js will be SKIPPED\n' >&2
     fi
 }
 
@@ -158,8 +177,9 @@ run_tests() { # preset, arguments of ctest
 
 case "${1:-}" in
 deps)
-    install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}"
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}" "${slow_binding_packages[@]}"
     install_host_modules
+    install_node_modules
     ;;
 build)
     install_packages "${build_packages[@]}"
@@ -205,7 +225,8 @@ test)
     ;;
 # What only CI runs, after `test`.
 slow-tests)
-    install_packages "${portability_packages[@]}"
+    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}"
+    install_node_modules
     run_tests release --label-regex slow --no-tests=ignore
     ;;
 sanitized-tests)

@@ -1,0 +1,121 @@
+# Uses all of pacini.gd in Godot without a window; what must be played like the C program and the command goes into files.
+extends SceneTree
+
+const HUM = """{"format": "pacini.clip", "version": 1, "name": "hüm", "duration": 1, "bands": [{"lowFrequency": 90,
+ "centreFrequency": 100, "highFrequency": 110, "amplitude": [{"time": 0, "amplitude": 0.5}, {"time": 1, "amplitude": 0.5}]}]}"""
+
+var pacini = load("res://addons/pacini/pacini.gd").new()
+var failures = 0
+
+func check(holds, claim):
+	if not holds:
+		failures += 1
+		print("FAILED: ", claim)
+
+func fails(words, result):
+	check((result == null or result is bool and not result) and words in pacini.last_error,
+		"'%s' and not '%s'" % [words, pacini.last_error])
+
+func largest(samples, channel):
+	var most = 0.0
+	for i in range(channel, samples.size(), 2):
+		most = max(most, abs(samples[i]))
+	return most
+
+func write(path, arrays):
+	var file = File.new()
+	file.open(path, File.WRITE)
+	for samples in arrays:
+		for sample in samples:
+			file.store_float(sample)
+	file.close()
+
+func played_like_c():
+	var engine = pacini.engine({"actuators": [{"profile": "lra-175"}]})
+	engine.play(pacini.clip("res://knock.json"))
+	var blocks = []
+	for _i in 188:
+		blocks.append(engine.render(256))
+	write("res://played.raw", blocks)
+	engine.destroy()
+	engine = pacini.engine({"actuators": [{}, {}], "scene": ProjectSettings.globalize_path("res://two.scene.json")})
+	write("res://two.raw", [engine.render(72000)])
+
+func every_function():
+	var clip = pacini.clip_from_bytes(HUM.to_utf8())
+	check(clip.get_name() == "hüm" and clip.get_duration() == 1.0 and clip.get_events() == 0, "info of the clip")
+	var engine = pacini.engine({"sample_rate": 8000, "actuators": [{}, {"gain": 0.5}], "max_plays": 8, "pan_law": "power",
+		"protect": true})
+	var play = engine.play(clip, {"loop": -1, "pan": 0, "frame": 1000})
+	check(play.get_state() == "waiting", "waits")
+	check(largest(engine.render(1000), 0) == 0.0, "silent before its frame")
+	check(largest(engine.render(1000), 0) > 0.4, "sounds")
+	check(play.get_state() == "playing" and abs(play.get_position() - 0.125) < 0.01, "position")
+	check(play.set_control("pan", 1), "pan")
+	engine.render(1000)
+	var samples = engine.render(1000)
+	check(largest(samples, 0) == 0.0 and largest(samples, 1) > 0.2 and largest(samples, 1) < 0.26, "to the right")
+	check(engine.set_actuator_gain(1, 0.0), "gain of the actuator")
+	engine.render(1000)
+	check(largest(engine.render(1000), 1) == 0.0, "the gain of the actuator is 0")
+	engine.set_actuator_gain(1, 1.0)
+	check(clip.reload(HUM.replace("0.5", "0.1").to_utf8()), "reload")
+	engine.render(1000)
+	var faint = largest(engine.render(1000), 1)
+	check(faint > 0.05 and faint < 0.15, "the other content plays")
+	check(engine.set_group(0, "gain", 0.0), "group")
+	engine.render(1000)
+	check(largest(engine.render(1000), 1) == 0.0, "the fader is down")
+	check(play.seek(0.5) and play.pause(0.01), "seek and pause")
+	engine.render(1000)
+	check(play.get_state() == "paused", "paused")
+	check(play.resume(0.01), "resume")
+	var pairs = engine.render_stereo(1000)
+	check(pairs.size() == 1000 and pairs[500] is Vector2, "pairs")
+	check(play.get_state() == "playing", "resumed")
+	var info = engine.get_info()
+	check(info.playing == 1 and info.frame == 12000 and info.latency == 8 and info.left_out_error == -1000, "info of the engine")
+	check(engine.set_budget(0, 512, 1), "budget")
+	var second = engine.play(clip, {"priority": 5})
+	engine.render(100)
+	check(second.get_state() == "left out", "left out")
+	check(play.stop(0.01) and engine.stop_group(0), "stop")
+	engine.render(1000)
+	check(play.get_state() == "ended", "ended")
+
+	fails("play: has ended", play.set_control("gain", 1))
+	fails("there is no 'volume'", play.set_control("volume", 1))
+	fails("there is no 'lop'", engine.play(clip, {"lop": 1}))
+	fails("loop", engine.play(clip, {"loop": 5}))
+	fails("'lra-176' is no profile", pacini.engine({"actuators": [{"profile": "lra-176"}]}))
+	var many = []
+	many.resize(17)
+	for i in 17:
+		many[i] = {}
+	fails("actuator_count", pacini.engine({"actuators": many}))
+	fails("none.pacb: cannot be read", pacini.clip("res://none.pacb"))
+	fails("is not a clip", pacini.clip_from_bytes("nonsense".to_utf8()))
+	check(clip.release(), "release")
+	fails("clip is not in use", clip.release())
+	fails("clip is not in use", engine.play(clip))
+	check(engine.destroy(), "destroy")
+	fails("engine is not in use", engine.render(8))
+	fails("engine is not in use", engine.stop_group(0))
+	fails("engine of the play", play.stop())
+
+func what_nothing_refers_to_is_destroyed():
+	for _i in 200: # 64 at a time
+		check(pacini.engine({"sample_rate": 8000, "max_plays": 4}) != null, "an engine")
+
+func _init():
+	played_like_c()
+	every_function()
+	what_nothing_refers_to_is_destroyed()
+	var example = load("res://first_vibration.gd").new()
+	get_root().add_child(example)
+	for _i in 20:
+		yield(self, "idle_frame")
+	check(example.engine.get_info().frame > 1000, "the example has filled the generator")
+	example.free()
+	print("failures: ", failures)
+	quit(1 if failures > 0 else 0)
