@@ -35,6 +35,7 @@ ELSEWHERE = {
     "cmake --preset debug -DPACINI_TEST_ROOMS=io": ("Tests/CMakeLists.txt", "set(PACINI_TEST_ROOMS"),
     "cmake --preset release -DPACINI_JUCE_DIR=/path/to/JUCE": ("cmake/PaciniJuce.cmake", "PACINI_JUCE_DIR"),
     "cmake --install build/release --component core": ("Tests/examples/check_package.py", '"--install"'),
+    "cmake --install build/release --component library": ("Tests/library/check_installed.py", '"--install"'),
     "ctest --preset release -L hosts": ("Tests/hosts/CMakeLists.txt", "LABELS \"hosts;slow\""),
     "python3 Tests/fuzz/run.py": ("Tests/fuzz/run.py", "__main__"),
     "python3 Tests/mutate.py": (".ci/run", "Tests/mutate.py"),
