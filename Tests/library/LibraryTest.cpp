@@ -324,3 +324,18 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
     CHECK(pacini_api_version() == 1001);
 }
+
+TEST_CASE("Structs of version 1 never grow: their init functions would write beyond those of older programs")
+{
+    if (sizeof(void*) != 8 || sizeof(double) != alignof(double))
+        return;
+    CHECK(sizeof(pacini_clip_info) == 88);
+    CHECK(sizeof(pacini_actuator) == 24);
+    CHECK(sizeof(pacini_engine_config) == 456);
+    CHECK(sizeof(pacini_engine_info) == 48);
+    CHECK(sizeof(pacini_play_settings) == 120);
+    CHECK(sizeof(pacini_play_info) == 16);
+    CHECK(sizeof(pacini_controller_info) == 396);
+    CHECK(sizeof(pacini_attach_settings) == 8);
+    CHECK(sizeof(pacini_attachment_info) == 152);
+}

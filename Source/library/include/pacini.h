@@ -25,7 +25,8 @@
  *
  * HANDLES are numbers, and 0 is none. One that is stale or was never given is an error (PACINI_STALE), never a crash.
  *
- * STRUCTS begin with their size, which their init function sets: programs built against an older pacini.h go on.
+ * STRUCTS begin with their size, which their init function sets. They never grow within a major version: what is added
+ * comes as functions and structs of its own, so that programs built against an older pacini.h go on.
  *
  * ERRORS: every function that returns pacini_result changes nothing when it fails; pacini_last_error() then says why in
  * words, for the thread that called.
