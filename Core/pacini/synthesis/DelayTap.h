@@ -22,8 +22,7 @@ public:
     /// For delays up to `longest` frames and blocks up to `block` frames. Allocates, and fills nothing: a play that
     /// starts has a line of its own, long enough for delays that it may never be given.
     DelayTap(double longest, std::size_t block)
-        : frames(std::bit_ceil(static_cast<std::size_t>(std::ceil(longest)) + 3 + block)),
-          ring(std::make_unique_for_overwrite<float[]>(frames))
+        : frames(std::bit_ceil(static_cast<std::size_t>(std::ceil(longest)) + 3 + block)), ring(new float[frames])
     {
     }
 
