@@ -33,7 +33,9 @@ public:
     {
         fs = sampleRate;
         const double longest = fs * (0.001 * rowOf(channelParameter(0, ChannelSetting::delay)).high + longestPanDelay);
-        taps.assign(std::clamp<std::size_t>(channels, 1, maxHapticChannels), DelayTap(longest + 1.0, chord));
+        taps.clear();
+        for (std::size_t c = 0; c < std::clamp<std::size_t>(channels, 1, maxHapticChannels); ++c)
+            taps.emplace_back(longest + 1.0, chord);
         panorama.prepare(fs);
         reset();
     }
