@@ -559,7 +559,7 @@ Channels perform(const Performance& performance, const EngineParams& params, std
 
 TEST_CASE("Blocks and the time at which commands come change nothing", "[runtime]")
 {
-    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
     {
         CAPTURE(seed);
         const Performance performance(seed, 20000);

@@ -842,7 +842,7 @@ private:
 
     [[nodiscard]] bool leftOutIsOver(const LivePlay& play) const noexcept
     {
-        return play.stopping ? play.content->fadedOut() : now >= play.content->endFrame();
+        return play.content->fadedOut() && (play.stopping || now >= play.content->endFrame());
     }
 
     [[nodiscard]] bool giveBack(const Retired& old) noexcept { return retired.push(old); }
