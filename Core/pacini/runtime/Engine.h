@@ -56,7 +56,7 @@ struct EngineMeters
 {
     std::size_t playing = 0;     ///< plays that sound
     std::size_t leftOut = 0;     ///< plays for which there was no time or voice in the last block
-    double cost = 0.0;           ///< predicted, ns per frame
+    double cost = 0.0;           ///< predicted, ns per frame of all actuators: see PlayCost
     double leftOutError = -1000; ///< predicted, energy left out since the start, dB below all that was to play
     double gainReduction = 0.0;  ///< dB that the protection of any actuator took in the last block
 };
@@ -130,8 +130,8 @@ public:
         play->group = settings.group;
         play->priority = settings.priority;
         play->order = sent;
-        play->power = clip->power();
-        play->carriers = (*content)->carriers();
+        play->power = (*content)->power();
+        play->cost = (*content)->cost();
         play->controls = settings.controls;
         play->content = std::move(content).value();
         play->fadeIn = framesOfGlide(settings.fadeIn, fs);
@@ -735,6 +735,8 @@ private:
         command.content->takeOver(*play.content, now, play.controls, command.glide);
         play.leaving = play.content.release();
         play.content.reset(command.content);
+        play.power = play.content->power();
+        play.cost = play.content->cost();
         if (play.paused || play.pausing || play.stopping)
             play.content->fadeOut(0);
         else if (play.leftOut)
@@ -861,12 +863,12 @@ private:
         energyOut.store(energyOut.load(std::memory_order_relaxed) + seconds * powerOut, std::memory_order_relaxed);
 
         order.assign(active.begin(), active.end());
-        double all = 0.0, out = 0.0, cost = 0.0;
+        double all = 0.0, out = 0.0, cost = PlayCost::actuator * static_cast<double>(gains.size());
         std::size_t voices = 0, left = 0;
         for (LivePlay* play : order)
         {
             play->energy = play->energyUnder(groupGains[play->group].goal());
-            play->worth = play->energy / (budget.nanosecondsPerFrame > 0.0 ? play->cost(kinds.size()) : 1.0);
+            play->worth = play->energy / (budget.nanosecondsPerFrame > 0.0 ? play->cost : 1.0);
             if (play->leftOut)
                 play->worth *= 0.5;
         }
@@ -877,7 +879,7 @@ private:
             if (play->paused)
                 continue;
             all += play->energy;
-            const double more = play->cost(kinds.size());
+            const double more = play->cost;
             const bool fits = (budget.voices == 0 || voices < budget.voices) &&
                               (budget.nanosecondsPerFrame == 0.0 || cost + more <= budget.nanosecondsPerFrame);
             if (!fits)

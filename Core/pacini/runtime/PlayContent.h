@@ -5,6 +5,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Glide.h>
+#include <pacini/runtime/PlayCost.h>
 #include <pacini/synthesis/PlayVoice.h>
 #include <pacini/synthesis/RenderPlan.h>
 
@@ -50,6 +51,7 @@ public:
         std::int64_t played = 0;    ///< frames that the voices of the first pass have played already
         double transposition = 0.0; ///< semitones with which the decoders were made
         double speed = 1.0;
+        double power = 0.0; ///< of the clip
     };
 
     /// `madePasses[i]`: voices of pass i, in the order of the engine's kinds of actuators, prepared; one pass or two.
@@ -228,15 +230,21 @@ public:
                                  : passes[current].front().voice.startFrame() + firstDecoder().totalFrames();
     }
 
-    /// Sinusoids and bands of noise of one pass, over all kinds of actuators.
-    [[nodiscard]] std::size_t carriers() const noexcept
+    /// Predicted time on the audio thread for a frame, ns. Of joints, which are rare, nothing is counted.
+    [[nodiscard]] double cost() const noexcept
     {
-        std::size_t count = 0;
-        for (const Voice& v : passes[current])
-            if (v.voice.decoding() != nullptr)
-                count += v.voice.decoding()->report().carriers + 2 * v.voice.decoding()->report().noiseBands;
-        return count;
+        double sum = 0.0;
+        for (const Voice& v : passes[0])
+        {
+            const auto seconds = static_cast<double>(v.voice.decoding()->totalFrames()) / params.sampleRate;
+            sum +=
+                PlayCost::of(v.voice.decoding()->report(), seconds, v.planned.timeline.gains.size(), params.sampleRate);
+        }
+        return sum;
     }
+
+    /// Mean of the clip's power at gain 1, full drive = 1.
+    [[nodiscard]] double power() const noexcept { return params.power; }
 
 private:
     [[nodiscard]] const Decoder& firstDecoder() const noexcept { return *passes[current].front().voice.decoding(); }
@@ -270,9 +278,9 @@ struct LivePlay
     std::uint32_t group = 0;
     int priority = 0;
     std::uint64_t order = 0; ///< among all plays that were started
-    double power = 0.0; ///< mean of the clip's at gain 1, full drive = 1
-    std::size_t carriers = 0;
-    std::size_t fadeIn = 0; ///< frames
+    double power = 0.0;      ///< of its content
+    double cost = 0.0;       ///< of its content, ns for a frame
+    std::size_t fadeIn = 0;  ///< frames
     PlayControls controls;
     std::unique_ptr<PlayContent> content;
 
@@ -290,14 +298,6 @@ struct LivePlay
         const double gain = controls.gain * controls.intensity * groupGain;
         return gain * gain * power;
     }
-
-    /// Predicted time on the audio thread for a frame, ns.
-    [[nodiscard]] double cost(std::size_t kinds) const noexcept
-    {
-        return static_cast<double>(kinds) * nsPerVoice + nsPerCarrier * static_cast<double>(carriers);
-    }
-
-    static constexpr double nsPerVoice = 1.5, nsPerCarrier = 0.3; // over the corpus, on the machine of the tables
 };
 
 } // namespace pacini
