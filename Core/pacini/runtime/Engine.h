@@ -829,12 +829,15 @@ private:
                 if (giveBack({nullptr, play.leaving}))
                     play.leaving = nullptr;
             hold(play);
-            const bool over =
-                !play.paused && !play.pausing && !play.leftOut && play.content->ended() && play.leaving == nullptr;
-            if ((over || (play.leftOut && leftOutIsOver(play))) && giveBack({&play, nullptr}))
+            const bool over = play.leftOut
+                                  ? leftOutIsOver(play)
+                                  : !play.paused && !play.pausing && play.content->ended() && play.leaving == nullptr;
+            const std::uint32_t slot = play.slot; // once given back, the play may be freed and its slot used again
+            if (over)
+                slots[slot].state.store(PlayState::ended, std::memory_order_relaxed);
+            if (over && giveBack({&play, nullptr}))
             {
-                bySlot[play.slot] = nullptr;
-                slots[play.slot].state.store(PlayState::ended, std::memory_order_relaxed);
+                bySlot[slot] = nullptr;
                 active.erase(active.begin() + static_cast<std::ptrdiff_t>(i));
             }
             else
@@ -844,7 +847,8 @@ private:
 
     [[nodiscard]] bool leftOutIsOver(const LivePlay& play) const noexcept
     {
-        return play.content->fadedOut() && (play.stopping || now >= play.content->endFrame());
+        return play.leaving == nullptr && play.content->fadedOut() &&
+               (play.stopping || now >= play.content->endFrame());
     }
 
     [[nodiscard]] bool giveBack(const Retired& old) noexcept { return retired.push(old); }
