@@ -91,6 +91,8 @@ void soak(double seconds, std::uint64_t seed)
                 static_cast<void>(engine->set(play, LiveControl::speed, random.uniform(0.5, 2.0)));
                 break;
             case 3:
+            case 6:
+            case 7:
                 static_cast<void>(engine->stop(play));
                 break;
             case 4:
@@ -135,6 +137,7 @@ void soak(double seconds, std::uint64_t seed)
     REQUIRE(fresh.ok());
     PlaySettings settings;
     settings.loop = 2.0;
+    renderSoaked(**fresh); // its latency lies before its first frame
     REQUIRE(engine->play(clips[1], settings).ok());
     REQUIRE((*fresh)->play(clips[1], settings).ok());
     double worst = 0.0;
