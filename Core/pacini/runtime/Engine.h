@@ -847,7 +847,7 @@ private:
 
     [[nodiscard]] bool leftOutIsOver(const LivePlay& play) const noexcept
     {
-        return play.leaving == nullptr && play.content->fadedOut() &&
+        return play.leaving == nullptr && (play.content->fadedOut() || play.content->ended()) &&
                (play.stopping || now >= play.content->endFrame());
     }
 
