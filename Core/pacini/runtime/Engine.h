@@ -867,7 +867,9 @@ private:
         energyOut.store(energyOut.load(std::memory_order_relaxed) + seconds * powerOut, std::memory_order_relaxed);
 
         order.assign(active.begin(), active.end());
-        double all = 0.0, out = 0.0, cost = PlayCost::actuator * static_cast<double>(gains.size());
+        double all = 0.0, out = 0.0,
+               cost = PlayCost::actuator * static_cast<double>(gains.size()) +
+                      PlayCost::waiting * static_cast<double>(order.size());
         std::size_t voices = 0, left = 0;
         for (LivePlay* play : order)
         {

@@ -14,13 +14,15 @@ namespace pacini
 /// 160 engines with 16 plays each, of 0 to 12 sinusoids, 0 to 3 bands of noise, 0 to 20 events a second, with and
 /// without an envelope, on 1 to 8 actuators: of the predictions 9 in 10 were 0.7 to 1.3 times what was measured. Never
 /// measured while playing, so that the same commands make the same output on every machine; on another one all of them
-/// change by much the same factor (`pacini bench runtime`).
+/// change by much the same factor. Sinusoids and levelling are taken at 0.78 of that, as clips of sounds have them
+/// (`pacini bench runtime`), and what a play costs that is left out was read off there.
 struct PlayCost
 {
-    static constexpr double frame = 0.3;          ///< a frame of a play: interpolator, faders
+    static constexpr double waiting = 0.2;        ///< a frame of any play, left out or not: looking after it
+    static constexpr double frame = 0.1;          ///< a frame of a play that sounds: interpolator, faders
     static constexpr double send = 0.45;          ///< a frame towards each of the two actuators nearest to its pan
-    static constexpr double levelledFrame = 21.0; ///< a frame at the inner rate that is levelled to an envelope
-    static constexpr double carrier = 5.7;        ///< a frame of a sinusoid at the inner rate
+    static constexpr double levelledFrame = 16.5; ///< a frame at the inner rate that is levelled to an envelope
+    static constexpr double carrier = 4.5;        ///< a frame of a sinusoid at the inner rate
     static constexpr double noise = 28.5;         ///< a frame of a band of noise at the inner rate
     static constexpr double pulse = 7.3;          ///< a frame while a pulse sounds
     static constexpr double pulseSeconds = 0.012; ///< of a pulse
