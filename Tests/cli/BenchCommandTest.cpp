@@ -65,12 +65,12 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
     const auto out = folder / "out";
     REQUIRE(bench(folder, "all . -o out --repeat 1 --markdown measurements.md --json") == 0);
     const auto printed = nlohmann::json::parse(bytesOf(folder / "log"));
-    CHECK(printed["benches"].size() == 14);
+    CHECK(printed["benches"].size() == 15);
     for (const auto& file : printed["written"])
         CHECK(std::filesystem::exists(folder / file.get<std::string>()));
 
     for (const std::string name : {"simplify", "decimate", "filters", "analysis", "synthesis", "oscillators", "scenes",
-                                   "actuators", "equalizers", "live", "body", "stages", "methods", "match"})
+                                   "actuators", "equalizers", "live", "body", "stages", "methods", "match", "runtime"})
     {
         INFO(name);
         const auto json = nlohmann::json::parse(bytesOf(out / (name + ".json")));
@@ -104,7 +104,8 @@ TEST_CASE("pacini bench measures everything on a folder and writes tables, chart
                                     "body-48",
                                     "methods",
                                     "methods-rate",
-                                    "match"})
+                                    "match",
+                                    "runtime"})
         CHECK(bytesOf(out / (chart + ".svg")).find("</svg>") != std::string::npos);
     const std::string text = bytesOf(folder / "measurements.md");
     CHECK(text.find("pacini bench all") != std::string::npos);

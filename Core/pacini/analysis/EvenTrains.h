@@ -12,7 +12,8 @@
 namespace pacini
 {
 
-/// Events closer than this may form a train, whose envelope is held down between them. Found by trial, without a source.
+/// Events closer than this may form a train, whose envelope is held down between them. Found by trial, without a
+/// source.
 inline constexpr double trainGapSeconds = 0.045;
 
 /// The onsets from 20 s before `start` on, on a clock that begins there: what a part of a sound has to do with.

@@ -55,6 +55,18 @@ public:
             next();
     }
 
+    /// As skip(), in one step: rounds otherwise, but takes no longer for many frames. [audio]
+    void jump(std::size_t frames) noexcept
+    {
+        if (frames >= left)
+            glideTo(target, 0);
+        else
+        {
+            value += step * static_cast<double>(frames);
+            left -= frames;
+        }
+    }
+
 private:
     double value, target, step = 0.0;
     std::size_t left = 0;

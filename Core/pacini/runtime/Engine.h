@@ -56,7 +56,7 @@ struct EngineMeters
 {
     std::size_t playing = 0;     ///< plays that sound
     std::size_t leftOut = 0;     ///< plays for which there was no time or voice in the last block
-    double cost = 0.0;           ///< predicted, ns per frame
+    double cost = 0.0;           ///< predicted, ns per frame of all actuators: see PlayCost
     double leftOutError = -1000; ///< predicted, energy left out since the start, dB below all that was to play
     double gainReduction = 0.0;  ///< dB that the protection of any actuator took in the last block
 };
@@ -129,8 +129,9 @@ public:
         play->generation = nextGeneration(entry.generation.load(std::memory_order_relaxed));
         play->group = settings.group;
         play->priority = settings.priority;
-        play->power = clip->power();
-        play->carriers = (*content)->carriers();
+        play->order = sent;
+        play->power = (*content)->power();
+        play->cost = (*content)->cost();
         play->controls = settings.controls;
         play->content = std::move(content).value();
         play->fadeIn = framesOfGlide(settings.fadeIn, fs);
@@ -342,6 +343,7 @@ private:
     static constexpr std::size_t blockFrames = MixBuffers::frames;
     static constexpr std::size_t decisionFrames = 256; // between two decisions what is left out
     static constexpr double fadeSeconds = 0.005, swapSeconds = 0.01;
+    static constexpr double returnSeconds = 0.02; // of what was left out: see Decoder::settling
 
     struct Slot
     {
@@ -579,14 +581,14 @@ private:
                 carryOut(command);
             }
             passLoops();
-            if (now % static_cast<std::int64_t>(decisionFrames) == 0)
+            if (now % static_cast<std::int64_t>(decisionFrames) == 0 || decisionDue)
                 decide();
             std::int64_t until = std::min(end, (now / static_cast<std::int64_t>(decisionFrames) + 1) *
                                                    static_cast<std::int64_t>(decisionFrames));
             if (!schedule.empty())
                 until = std::min(until, schedule.next().frame);
             for (const LivePlay* play : active)
-                if (isRunning(*play))
+                if (!play->paused)
                     until = std::min(until, std::max(play->content->nextCut(now), now + 1));
             const auto frames = static_cast<std::size_t>(until - now);
             mixFrames(out, at, frames);
@@ -596,12 +598,10 @@ private:
         }
     }
 
-    [[nodiscard]] static bool isRunning(const LivePlay& play) noexcept { return !play.paused && !play.leftOut; }
-
     void passLoops() noexcept
     {
         for (LivePlay* play : active)
-            if (isRunning(*play) && play->content->nextJoint() <= now)
+            if (!play->paused && play->content->nextJoint() <= now)
                 play->content->passOn(now, play->controls);
     }
 
@@ -679,6 +679,7 @@ private:
             return;
         case Kind::setBudget:
             budget = {command.value, command.glide};
+            decisionDue = true;
             return;
         case Kind::replace:
         case Kind::stop:
@@ -698,17 +699,16 @@ private:
             replaceContent(*play, command);
         else if (command.kind == Kind::stop)
             stopPlay(*play, command.glide);
-        else if (command.kind == Kind::pause && !play->stopping && !play->leftOut)
-        {
-            play->pausing = true;
-            play->content->fadeOut(command.glide);
-        }
+        else if (command.kind == Kind::pause && !play->stopping && !play->paused)
+            pausePlay(*play, command.glide);
         else if (command.kind == Kind::resume && !play->stopping && !play->leftOut)
         {
             if (play->paused)
                 play->content->shift(now - play->pausedAt);
             play->pausing = play->paused = false;
-            play->content->fadeIn(command.glide);
+            play->content->fadeIn(play->cold ? std::max(command.glide, returnFrames()) : command.glide);
+            play->cold = false;
+            decisionDue = limited();
         }
         else if (command.kind == Kind::set)
             setControl(*play, command, Fader::play);
@@ -724,6 +724,7 @@ private:
                                      { voice.setFader(Fader::group, group.goal(), group.framesLeft()); });
         active.push_back(play);
         bySlot[play->slot] = play;
+        decisionDue = limited(); // before anything of it sounds
         slots[play->slot].state.store(PlayState::playing, std::memory_order_relaxed);
     }
 
@@ -734,9 +735,37 @@ private:
         command.content->takeOver(*play.content, now, play.controls, command.glide);
         play.leaving = play.content.release();
         play.content.reset(command.content);
+        play.power = play.content->power();
+        play.cost = play.content->cost();
         if (play.paused || play.pausing || play.stopping)
             play.content->fadeOut(0);
-        play.leftOut = false;
+        else if (play.leftOut)
+            play.content->fadeIn(0);
+        play.leftOut = play.cold = false;
+        decisionDue = limited();
+    }
+
+    void pausePlay(LivePlay& play, std::size_t frames) noexcept
+    {
+        if (play.leftOut)
+        {
+            play.content->catchUp(now);
+            play.leftOut = false;
+            play.cold = true;
+        }
+        play.content->fadeOut(frames);
+        play.pausing = true;
+        hold(play);
+    }
+
+    /// Holds a play that has faded out to be paused.
+    void hold(LivePlay& play) const noexcept
+    {
+        if (!play.pausing || !play.content->fadedOut())
+            return;
+        play.pausing = false;
+        play.paused = true;
+        play.pausedAt = now;
     }
 
     static void stopPlay(LivePlay& play, std::size_t frames) noexcept
@@ -746,8 +775,15 @@ private:
         play.content->fadeOut(frames);
     }
 
-    static void setControl(LivePlay& play, const LiveCommand& command, Fader gainFader) noexcept
+    void setControl(LivePlay& play, const LiveCommand& command, Fader gainFader) noexcept
     {
+        if (play.leftOut && !play.paused)
+        {
+            if (command.control == LiveControl::transposition || command.control == LiveControl::speed)
+                play.content->catchUp(now);
+            else
+                play.content->passGlides(now);
+        }
         const double value = command.value;
         const std::size_t glide = command.glide;
         if (command.control == LiveControl::priority)
@@ -792,15 +828,11 @@ private:
             if (play.leaving != nullptr && play.leaving->ended())
                 if (giveBack({nullptr, play.leaving}))
                     play.leaving = nullptr;
-            if (play.pausing && play.content->fadedOut())
-            {
-                play.pausing = false;
-                play.paused = true;
-                play.pausedAt = now;
-            }
-            const bool over =
-                !play.paused && !play.pausing && !play.leftOut && play.content->ended() && play.leaving == nullptr;
-            if (over || (play.leftOut && leftOutIsOver(play)))
+            hold(play);
+            const bool over = play.leftOut
+                                  ? leftOutIsOver(play)
+                                  : !play.paused && !play.pausing && play.content->ended() && play.leaving == nullptr;
+            if (over)
             {
                 // Once it is given back, it may be freed at any time and its slot be another's.
                 bySlot[play.slot] = nullptr;
@@ -817,75 +849,99 @@ private:
 
     [[nodiscard]] bool leftOutIsOver(const LivePlay& play) const noexcept
     {
-        return play.stopping || now >= play.leftOutUntil;
+        return play.leaving == nullptr && (play.content->fadedOut() || play.content->ended()) &&
+               (play.stopping || now >= play.content->endFrame());
     }
 
     [[nodiscard]] bool giveBack(const Retired& old) noexcept { return retired.push(old); }
 
+    [[nodiscard]] bool limited() const noexcept { return budget.nanosecondsPerFrame > 0.0 || budget.voices > 0; }
+
     /// Decides what is left out until the next decision: plays are kept by priority, then by the energy that they
-    /// bring.
+    /// bring for their time. What was left out comes back when there is room for it, and takes the place of what plays
+    /// only when it brings twice as much, so that equals do not take turns.
     void decide() noexcept
     {
+        decisionDue = false;
+        const double seconds = static_cast<double>(now - decidedAt) / fs;
+        decidedAt = now;
+        energyAll.store(energyAll.load(std::memory_order_relaxed) + seconds * powerAll, std::memory_order_relaxed);
+        energyOut.store(energyOut.load(std::memory_order_relaxed) + seconds * powerOut, std::memory_order_relaxed);
+
         order.assign(active.begin(), active.end());
-        double all = 0.0, out = 0.0, cost = 0.0;
+        double all = 0.0, out = 0.0,
+               cost = PlayCost::actuator * static_cast<double>(gains.size()) +
+                      PlayCost::waiting * static_cast<double>(order.size());
         std::size_t voices = 0, left = 0;
-        const bool limited = budget.nanosecondsPerFrame > 0.0 || budget.voices > 0;
-        if (limited)
+        for (LivePlay* play : order)
+        {
+            play->energy = play->energyUnder(groupGains[play->group].goal());
+            play->worth = play->energy / (budget.nanosecondsPerFrame > 0.0 ? play->cost : 1.0);
+            if (play->leftOut)
+                play->worth *= 0.5;
+        }
+        if (limited())
             std::sort(order.begin(), order.end(), isMoreImportant);
         for (LivePlay* play : order)
         {
             if (play->paused)
                 continue;
-            const double energy = play->energyNow();
-            all += energy;
-            const double more = play->cost(kinds.size());
+            all += play->energy;
+            const double more = play->cost;
             const bool fits = (budget.voices == 0 || voices < budget.voices) &&
                               (budget.nanosecondsPerFrame == 0.0 || cost + more <= budget.nanosecondsPerFrame);
-            if (play->leftOut || (limited && !fits))
+            if (!fits)
             {
                 if (!play->leftOut)
                     leaveOut(*play);
-                out += energy;
+                out += play->energy;
                 ++left;
                 continue;
             }
+            if (play->leftOut && !play->stopping)
+                bringBack(*play);
             cost += more;
             ++voices;
         }
         playingNow.store(voices, std::memory_order_relaxed);
         leftOutNow.store(left, std::memory_order_relaxed);
         costNow.store(cost, std::memory_order_relaxed);
-        const double seconds = static_cast<double>(decisionFrames) / fs;
-        energyAll.store(energyAll.load(std::memory_order_relaxed) + seconds * all, std::memory_order_relaxed);
-        energyOut.store(energyOut.load(std::memory_order_relaxed) + seconds * out, std::memory_order_relaxed);
+        powerAll = all;
+        powerOut = out;
     }
 
     static bool isMoreImportant(const LivePlay* a, const LivePlay* b) noexcept
     {
         if (a->priority != b->priority)
             return a->priority < b->priority;
-        if (a->leftOut != b->leftOut)
-            return b->leftOut; // what plays goes on
-        const double x = a->energyNow(), y = b->energyNow();
-        if (x != y)
-            return x > y;
-        return a->started != b->started ? a->started < b->started : a->slot < b->slot;
+        if (a->worth != b->worth)
+            return a->worth > b->worth;
+        return a->order < b->order;
     }
 
     void leaveOut(LivePlay& play) noexcept
     {
-        play.leftOut = true;
-        play.pausing = false;
-        play.content->fadeOut(framesOfGlide(Seconds(fadeSeconds), fs));
-        play.leftOutUntil = now + play.content->framesLeft();
+        play.leftOut = !play.pausing; // that has faded out soon
+        play.content->fadeOut(play.started == now ? 0 : framesOfGlide(Seconds(fadeSeconds), fs));
     }
+
+    /// Where it would be by now.
+    void bringBack(LivePlay& play) noexcept
+    {
+        play.leftOut = false;
+        play.content->catchUp(now);
+        play.content->fadeIn(returnFrames());
+    }
+
+    [[nodiscard]] std::size_t returnFrames() const noexcept { return framesOfGlide(Seconds(returnSeconds), fs); }
 
     void publish() noexcept
     {
         for (const LivePlay* play : active)
         {
             Slot& slot = slots[play->slot];
-            slot.position.store(play->content->clipTime(), std::memory_order_relaxed);
+            slot.position.store(play->leftOut ? play->content->clipTimeAt(now) : play->content->clipTime(),
+                                std::memory_order_relaxed);
             slot.state.store(play->leftOut  ? PlayState::leftOut
                              : play->paused ? PlayState::paused
                                             : PlayState::playing,
@@ -926,6 +982,9 @@ private:
     std::vector<std::optional<Tap>> taps;
     std::size_t latency = 0, preRoll = 0;
     std::int64_t now = 0; // frame that is mixed next: latencyFrames() ahead of the output
+    std::int64_t decidedAt = 0;
+    bool decisionDue = false;
+    double powerAll = 0.0, powerOut = 0.0; // since the last decision
     MixBuffers buffers;
     std::vector<float> discarded;
 

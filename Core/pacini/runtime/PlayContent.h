@@ -5,6 +5,7 @@
 #include <pacini/foundation/Clamp.h>
 #include <pacini/foundation/DspBlock.h>
 #include <pacini/foundation/Glide.h>
+#include <pacini/runtime/PlayCost.h>
 #include <pacini/synthesis/PlayVoice.h>
 #include <pacini/synthesis/RenderPlan.h>
 
@@ -50,6 +51,7 @@ public:
         std::int64_t played = 0;    ///< frames that the voices of the first pass have played already
         double transposition = 0.0; ///< semitones with which the decoders were made
         double speed = 1.0;
+        double power = 0.0; ///< of the clip
     };
 
     /// `madePasses[i]`: voices of pass i, in the order of the engine's kinds of actuators, prepared; one pass or two.
@@ -72,6 +74,7 @@ public:
                 v.voice.setFader(Fader::group, groupGain, 0);
                 v.voice.setPan(controls.pan, 0);
                 v.voice.setDelay(controls.delay, 0);
+                v.voice.setFader(Fader::leave, 1.0, 0);
                 v.voice.setFader(Fader::fade, fadeIn > 0 ? 0.0 : 1.0, 0);
                 v.voice.setFader(Fader::fade, 1.0, fadeIn);
             }
@@ -84,6 +87,7 @@ public:
         begin(frame, controls, 1.0, frames);
         for (std::size_t kind = 0; kind < passes[0].size(); ++kind)
             passes[0][kind].voice.follow(other.passes[other.current][kind].voice);
+        leaving = other.leaving;
         other.fadeOut(frames);
     }
 
@@ -108,17 +112,34 @@ public:
     void fadeOut(std::size_t frames) noexcept
     {
         leaving = true;
-        if (sounding[current])
-            for (Voice& v : passes[current])
-                v.voice.setFader(Fader::fade, 0.0, frames);
+        forVoices([frames](PlayVoice& voice) { voice.setFader(Fader::leave, 0.0, frames); });
     }
 
     /// Fades in again after fadeOut(). [audio]
     void fadeIn(std::size_t frames) noexcept
     {
         leaving = false;
-        for (Voice& v : passes[current])
-            v.voice.setFader(Fader::fade, 1.0, frames);
+        forVoices([frames](PlayVoice& voice) { voice.setFader(Fader::leave, 1.0, frames); });
+    }
+
+    /// Live controls stand at frame `now` where they would if it had been mixed until then. [audio]
+    void passGlides(std::int64_t now) noexcept
+    {
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            if (sounding[pass])
+                for (Voice& v : passes[pass])
+                    v.voice.passGlides(now);
+    }
+
+    /// Goes on at frame `now`, unheard since it was mixed last; what is not in a joint of its loop any more ends.
+    /// [audio]
+    void catchUp(std::int64_t now) noexcept
+    {
+        passGlides(now);
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            if (sounding[pass] && !fadedAway(pass))
+                for (Voice& v : passes[pass])
+                    v.voice.catchUp(now);
     }
 
     /// Whether nothing of it sounds any more, or, after fadeOut(), can be heard.
@@ -135,7 +156,7 @@ public:
     {
         const auto& voices = passes[current];
         return leaving && std::all_of(voices.begin(), voices.end(),
-                                      [](const Voice& v) { return v.voice.fader(Fader::fade).resting(); });
+                                      [](const Voice& v) { return v.voice.fader(Fader::leave).resting(); });
     }
 
     /// It waited for `frames`. [audio]
@@ -147,15 +168,14 @@ public:
     /// The next frame before which it must be looked after: where a pass of a loop or a fade out ends. [audio]
     [[nodiscard]] std::int64_t nextCut(std::int64_t now) const noexcept
     {
-        if (!leaving)
-            return nextJoint();
-        return now + static_cast<std::int64_t>(passes[current].front().voice.fader(Fader::fade).framesLeft());
+        const std::size_t left = passes[current].front().voice.fader(Fader::leave).framesLeft();
+        return leaving && left > 0 ? std::min(nextJoint(), now + static_cast<std::int64_t>(left)) : nextJoint();
     }
 
     /// The frame at which the other pass of a loop begins.
     [[nodiscard]] std::int64_t nextJoint() const noexcept
     {
-        if (passes.size() < 2 || leaving || !sounding[current])
+        if (passes.size() < 2 || !sounding[current])
             return std::numeric_limits<std::int64_t>::max();
         const PlayVoice& voice = passes[current].front().voice;
         return voice.startFrame() +
@@ -195,37 +215,52 @@ public:
             }
     }
 
-    /// The second of the clip that plays. [audio]
-    [[nodiscard]] double clipTime() const noexcept
+    /// The second of the clip that plays, or would at frame `now` if it had been mixed until then. [audio]
+    [[nodiscard]] double clipTime() const noexcept { return params.offset + firstDecoder().clipTime(); }
+    [[nodiscard]] double clipTimeAt(std::int64_t now) const noexcept
     {
-        const Decoder* decoder = passes[current].front().voice.decoding();
-        return decoder != nullptr ? params.offset + decoder->clipTime() : 0.0;
+        const std::int64_t played = now - passes[current].front().voice.startFrame();
+        return params.offset + firstDecoder().clipTime(played - firstDecoder().framesPlayed());
     }
 
-    /// Frames until it ends by itself, as far as is known; without end in a loop.
-    [[nodiscard]] std::int64_t framesLeft() const noexcept
+    /// The frame at which it ends by itself, as far as is known; never in a loop.
+    [[nodiscard]] std::int64_t endFrame() const noexcept
     {
-        const PlayVoice& voice = passes[current].front().voice;
-        return passes.size() > 1 || voice.decoding() == nullptr ? std::numeric_limits<std::int64_t>::max() / 2
-                                                                : voice.decoding()->framesLeft();
+        return passes.size() > 1 ? std::numeric_limits<std::int64_t>::max()
+                                 : passes[current].front().voice.startFrame() + firstDecoder().totalFrames();
     }
 
-    /// Sinusoids and bands of noise of one pass, over all kinds of actuators.
-    [[nodiscard]] std::size_t carriers() const noexcept
+    /// Predicted time on the audio thread for a frame, ns. Of joints, which are rare, nothing is counted.
+    [[nodiscard]] double cost() const noexcept
     {
-        std::size_t count = 0;
-        for (const Voice& v : passes[current])
-            if (v.voice.decoding() != nullptr)
-                count += v.voice.decoding()->report().carriers + 2 * v.voice.decoding()->report().noiseBands;
-        return count;
+        double sum = 0.0;
+        for (const Voice& v : passes[0])
+        {
+            const auto seconds = static_cast<double>(v.voice.decoding()->totalFrames()) / params.sampleRate;
+            sum +=
+                PlayCost::of(v.voice.decoding()->report(), seconds, v.planned.timeline.gains.size(), params.sampleRate);
+        }
+        return sum;
     }
+
+    /// Mean of the clip's power at gain 1, full drive = 1.
+    [[nodiscard]] double power() const noexcept { return params.power; }
 
 private:
+    [[nodiscard]] const Decoder& firstDecoder() const noexcept { return *passes[current].front().voice.decoding(); }
+
+    /// Whether another pass has taken its place.
+    [[nodiscard]] bool fadedAway(std::size_t pass) const noexcept
+    {
+        return passes[pass].front().voice.fader(Fader::fade).restsAt(0.0);
+    }
+
     [[nodiscard]] bool silent(std::size_t pass) const noexcept
     {
         const auto& voices = passes[pass];
-        return std::all_of(voices.begin(), voices.end(),
-                           [](const Voice& v) { return v.voice.ended() || v.voice.fader(Fader::fade).restsAt(0.0); });
+        return fadedAway(pass) ||
+               std::all_of(voices.begin(), voices.end(),
+                           [](const Voice& v) { return v.voice.ended() || v.voice.fader(Fader::leave).restsAt(0.0); });
     }
 
     std::vector<std::vector<Voice>> passes;
@@ -242,34 +277,27 @@ struct LivePlay
     std::uint32_t slot = 0, generation = 0;
     std::uint32_t group = 0;
     int priority = 0;
-    double power = 0.0; ///< mean of the clip's at gain 1, full drive = 1
-    std::size_t carriers = 0;
-    std::size_t fadeIn = 0; ///< frames
+    std::uint64_t order = 0; ///< among all plays that were started
+    double power = 0.0;      ///< of its content
+    double cost = 0.0;       ///< of its content, ns for a frame
+    std::size_t fadeIn = 0;  ///< frames
     PlayControls controls;
     std::unique_ptr<PlayContent> content;
 
     // Of the audio thread:
     PlayContent* leaving = nullptr; ///< owned; given back when it is silent
     std::int64_t started = 0;
-    std::int64_t leftOutUntil = 0; ///< frame at which it would have ended
     std::int64_t pausedAt = 0;
     bool pausing = false, paused = false, stopping = false, leftOut = false;
+    bool cold = false;                ///< paused without having been played up to there
+    double energy = 0.0, worth = 0.0; ///< at the last decision what is left out
 
     /// What it brings in a second, full drive = 1.
-    [[nodiscard]] double energyNow() const noexcept
+    [[nodiscard]] double energyUnder(double groupGain) const noexcept
     {
         const double gain = controls.gain * controls.intensity * groupGain;
         return gain * gain * power;
     }
-
-    /// Predicted time on the audio thread for a frame, ns.
-    [[nodiscard]] double cost(std::size_t kinds) const noexcept
-    {
-        return static_cast<double>(kinds) * nsPerVoice + nsPerCarrier * static_cast<double>(carriers);
-    }
-
-    static constexpr double nsPerVoice = 1.5, nsPerCarrier = 0.3; // over the corpus, on the machine of the tables
-    double groupGain = 1.0;
 };
 
 } // namespace pacini

@@ -65,6 +65,7 @@ public:
             endless ? settings.loop * std::max(1.0, std::ceil(leastStretch / settings.loop)) : clip->duration();
         PlayContent::Params params;
         params.sampleRate = fs;
+        params.power = clip->power();
         params.transposition = settings.controls.transposition;
         params.speed = settings.controls.speed;
         params.loop = endless ? stretch : 0.0;

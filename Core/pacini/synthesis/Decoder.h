@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -95,16 +96,19 @@ public:
 
     [[nodiscard]] std::int64_t framesLeft() const noexcept { return std::max<std::int64_t>(endFrame - position, 0); }
 
+    /// Frames that have been played.
+    [[nodiscard]] std::int64_t framesPlayed() const noexcept { return position; }
+
     /// The frame of the output at which second `time` of the clip is played, as far as changes are known.
     [[nodiscard]] double frameAt(Seconds time) const noexcept
     {
         return static_cast<double>(delayFrames) + outputFrameOf(time.value * params.stretch * params.sampleRate);
     }
 
-    /// The second of the clip that is played next. [audio]
-    [[nodiscard]] double clipTime() const noexcept
+    /// The second of the clip that is played next, or `ahead` frames after that. [audio]
+    [[nodiscard]] double clipTime(std::int64_t ahead = 0) const noexcept
     {
-        const double frame = static_cast<double>(std::max<std::int64_t>(position - delayFrames, 0));
+        const double frame = static_cast<double>(std::max<std::int64_t>(position + ahead - delayFrames, 0));
         return clock.clipAt(frame / static_cast<double>(ratio)) / (params.stretch * innerRate);
     }
 
@@ -118,11 +122,11 @@ public:
             return;
         // The clock holds no change ahead of what is computed but scheduled ones. Events are begun where the output is,
         // the envelope is read back by the leveller's delay.
-        clock.dropAfter(static_cast<double>(innerFrame));
+        const auto made = static_cast<double>(innerFrame + (hopDue ? static_cast<std::int64_t>(hopFrames) : 0));
+        clock.dropAfter(made);
         clock.forgetBefore(static_cast<double>(position - delayFrames) / static_cast<double>(ratio) -
                            static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
-        addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio),
-                           static_cast<double>(innerFrame)),
+        addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio), made),
                   transposition, stretch);
     }
 
@@ -148,8 +152,9 @@ public:
         if (filtering)
             filtering->reset();
         innerFrame = 0;
+        hopDue = false;
         readyFrom = ready.size();
-        skip = allSkipped();
+        unheard = allSkipped();
         position = 0;
         pulses.reset();
     }
@@ -183,6 +188,54 @@ public:
         std::fill(out.begin() + static_cast<std::ptrdiff_t>(done), out.end(), 0.0f);
         addEvents(out.first(done), position);
         position += static_cast<std::int64_t>(out.size());
+    }
+
+    /// How long after skip() the leveller and the interpolator have no past, s.
+    static constexpr double settling = 0.03;
+
+    /// Goes on by `frames` unheard, in time that depends on the number of breakpoints and events and not on that of
+    /// frames. Within `settling` the output is again that of a decoder which has played all of them, but for noise,
+    /// which is another of the same kind, and pulses that have begun. Not with a filter. [audio]
+    void skip(std::int64_t frames) noexcept
+    {
+        assert(!filtering && frames >= 0);
+        position += frames;
+        if (position >= endFrame)
+            return;
+        pulses.skipTo(position, [this](const PulseEvent& event) { return startOf(event); });
+        if (position <= delayFrames)
+            return;
+        // Where the output is among all frames that the interpolator puts out.
+        const std::int64_t raised = position - delayFrames + static_cast<std::int64_t>(allSkipped());
+        const auto perHop = static_cast<std::int64_t>(ready.size());
+        const std::int64_t from = raised / perHop * static_cast<std::int64_t>(hopFrames);
+        if (from < innerFrame) // that hop has been made
+        {
+            readyFrom = static_cast<std::size_t>(raised % perHop);
+            return;
+        }
+        while (innerFrame < from)
+        {
+            const auto at = static_cast<double>(innerFrame);
+            const double left = std::ceil(clock.nextChange(at) - at);
+            const std::int64_t most = from - innerFrame;
+            const std::int64_t n =
+                left < static_cast<double>(most) ? std::max<std::int64_t>(1, static_cast<std::int64_t>(left)) : most;
+            for (Part& part : parts)
+            {
+                part.carriers.follow(clock.pieceAt(at));
+                part.noise.follow(clock.pieceAt(at));
+                part.carriers.skip(n);
+                part.noise.skip(n);
+            }
+            innerFrame += n;
+        }
+        if (leveller)
+            leveller->reset();
+        interpolator->reset();
+        readyFrom = ready.size();
+        unheard = static_cast<std::size_t>(raised % perHop);
+        hopDue = unheard > 0;
     }
 
 private:
@@ -420,6 +473,7 @@ private:
 
     void makeHop() noexcept
     {
+        hopDue = false;
         do
         {
             sumSources();
@@ -438,8 +492,8 @@ private:
             else
                 interpolator->process(inner, ready);
             innerFrame += static_cast<std::int64_t>(hopFrames);
-            const std::size_t skipped = std::min(skip, ready.size());
-            skip -= skipped;
+            const std::size_t skipped = std::min(unheard, ready.size());
+            unheard -= skipped;
             readyFrom = skipped;
         } while (readyFrom == ready.size());
     }
@@ -552,14 +606,15 @@ private:
     /// Adds the events to `out`, whose first frame is `from`.
     void addEvents(std::span<float> out, std::int64_t from) noexcept
     {
-        pulses.process(out, from,
-                       [this](const PulseEvent& event)
-                       {
-                           const double frame = outputFrameOf(event.clipFrame);
-                           const ClockPiece& piece = clock.pieceAt(frame / static_cast<double>(ratio));
-                           return PulseStart{delayFrames + static_cast<std::int64_t>(std::floor(frame + 0.5)),
-                                             piece.rate, transpositionRatio * piece.pitch};
-                       });
+        pulses.process(out, from, [this](const PulseEvent& event) { return startOf(event); });
+    }
+
+    [[nodiscard]] PulseStart startOf(const PulseEvent& event) const noexcept
+    {
+        const double frame = outputFrameOf(event.clipFrame);
+        const ClockPiece& piece = clock.pieceAt(frame / static_cast<double>(ratio));
+        return {delayFrames + static_cast<std::int64_t>(std::floor(frame + 0.5)), piece.rate,
+                transpositionRatio * piece.pitch};
     }
 
     DecoderParams params;
@@ -585,8 +640,9 @@ private:
     std::vector<double> wantedEnvelope;
     std::vector<float> inner, ready, added;
     std::int64_t innerFrame = 0;
+    bool hopDue = false; // after skip(): a decoder that had played would have made the next hop
     std::size_t readyFrom = 0;
-    std::size_t skip = 0;
+    std::size_t unheard = 0; // of the frames that come next
     std::int64_t position = 0;
 };
 

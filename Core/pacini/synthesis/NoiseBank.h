@@ -86,6 +86,19 @@ public:
         frame += static_cast<std::int64_t>(re.size());
     }
 
+    /// Goes on by `frames` without sound. The random numbers do not: what follows is other noise of the same kind.
+    /// [audio]
+    void skip(std::int64_t frames) noexcept
+    {
+        for (std::size_t i = 0; i < bands.size(); ++i)
+        {
+            double& phase = states[i].phase;
+            phase += std::min(bands[i].centre * clock.pitch, 0.45) * static_cast<double>(frames);
+            phase -= std::floor(phase);
+        }
+        frame += frames;
+    }
+
     [[nodiscard]] bool empty() const noexcept { return bands.empty(); }
 
 private:

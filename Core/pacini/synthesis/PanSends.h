@@ -116,6 +116,17 @@ public:
             startChord();
     }
 
+    /// Goes on by any number of frames, unheard. [audio]
+    void jump(std::size_t frames) noexcept
+    {
+        if (chordLeft == forever)
+            return;
+        pan.jump(frames);
+        settle();
+        if (!pan.resting())
+            startChord();
+    }
+
 private:
     static constexpr std::size_t chord = 32;
     static constexpr std::size_t forever = std::numeric_limits<std::size_t>::max();

@@ -90,8 +90,10 @@ enum class Fader
     play,
     intensity,
     group,
-    fade ///< in and out
+    leave, ///< out where it is stopped, paused or left out, and in again
+    fade   ///< in at the start, and from one pass of a loop into the next
 };
+inline constexpr std::size_t faderCount = 5;
 
 /// What the decoder of a voice is made for.
 struct VoiceParams
@@ -169,7 +171,37 @@ public:
     void goOnAt(std::int64_t frame, std::int64_t played) noexcept { moveTo(frame - played); }
 
     /// It was not played for `frames`. [audio]
-    void shift(std::int64_t frames) noexcept { start += frames; }
+    void shift(std::int64_t frames) noexcept
+    {
+        start += frames;
+        reached += frames;
+    }
+
+    /// Live controls stand at frame `now` where they would if it had been mixed until then. [audio]
+    void passGlides(std::int64_t now) noexcept
+    {
+        if (now <= reached)
+            return;
+        const auto frames = static_cast<std::size_t>(now - reached);
+        for (Glide& fader : faders)
+            fader.jump(frames);
+        lateness.jump(frames);
+        if (panned)
+            sends->jump(frames);
+        reached = now;
+    }
+
+    /// Goes on at frame `now`, unheard since it was mixed last: see Decoder::skip(). [audio]
+    void catchUp(std::int64_t now) noexcept
+    {
+        passGlides(now);
+        const std::int64_t behind = now - start - decoder->framesPlayed();
+        if (behind <= 0)
+            return;
+        decoder->skip(behind);
+        if (delay)
+            delay->reset();
+    }
 
     /// Plays the next `frames` frames unheard, for goOnAt(). [worker]
     void skip(std::int64_t frames, MixBuffers& buffers) noexcept
@@ -231,6 +263,7 @@ public:
             decoder->process(target.out.front().subspan(target.at + from, n));
         else
             addTo(play, target.out, target.at + from, now, std::span(buffers.mono).first(n), buffers);
+        reached = now + static_cast<std::int64_t>(n);
         over =
             now + static_cast<std::int64_t>(n) >= start + decoder->totalFrames() + tail + latest && !decoder->rings();
     }
@@ -245,6 +278,7 @@ private:
     void moveTo(std::int64_t frame) noexcept
     {
         start = frame;
+        reached = frame;
         over = false;
         std::fill(levels.begin(), levels.end(), Level{});
     }
@@ -387,6 +421,7 @@ private:
 
     double fs;
     std::int64_t start;
+    std::int64_t reached = 0; // frame that is mixed next
     std::unique_ptr<Decoder> decoder;
     std::optional<DelayTap> delay;
     std::int64_t tail = 0, latest = 0; // frames that sound longer because of the scene's delays and live ones
@@ -394,7 +429,7 @@ private:
     std::optional<PanSends> sends;
     bool panned = false; // live: the sends count, not the scene's curves
     double longestLive = 0.0;
-    std::array<Glide, 4> faders{Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0)};
+    std::array<Glide, faderCount> faders{Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0)};
     Glide lateness{0.0};
     bool over = false;
 };

@@ -68,6 +68,15 @@ public:
             ++firstSounding;
     }
 
+    /// Goes on at frame `position`: pulses that began before are cut off. [audio]
+    template <typename StartOf>
+    void skipTo(std::int64_t position, StartOf&& startOf) noexcept
+    {
+        while (next < events.size() && startOf(events[next].event).frame < position)
+            ++next;
+        firstSounding = next;
+    }
+
 private:
     struct Voice
     {

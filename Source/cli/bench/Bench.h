@@ -82,13 +82,14 @@ struct Bench
 [[nodiscard]] Bench equalizersBench();
 [[nodiscard]] Bench liveBench();
 [[nodiscard]] Bench matchBench();
+[[nodiscard]] Bench runtimeBench();
 
 /// All of them.
 [[nodiscard]] inline std::vector<Bench> allBenches()
 {
     return {simplifyBench(),    decimateBench(), filtersBench(),   analysisBench(),   synthesisBench(),
             oscillatorsBench(), scenesBench(),   actuatorsBench(), equalizersBench(), liveBench(),
-            bodyBench(),        stagesBench(),   methodsBench(),   matchBench()};
+            bodyBench(),        stagesBench(),   methodsBench(),   matchBench(),      runtimeBench()};
 }
 
 } // namespace pacini::cli

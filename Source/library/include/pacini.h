@@ -147,14 +147,14 @@ extern "C"
         uint32_t actuator_count; /* 1 to 16, in a row from pan 0 to pan 1 */
         double sample_rate;      /* Hz, 2000 to 768000 */
         pacini_actuator actuators[PACINI_MAX_ACTUATORS];
-        int32_t pan_law;       /* pacini_pan_law */
-        int32_t protect;       /* 1: keep within full drive and the limits of the profile */
-        double pan_delay;      /* s for the whole row, 0 to 0.1 */
-        double longest_delay;  /* s that a play may be delayed by, 0 to 1 */
-        double strength;       /* 0 (as flat as can be) to 1 (as strong as can be) */
-        uint32_t max_plays;    /* at a time, 1 to 10000 */
-        uint32_t max_commands; /* that wait, 16 to 1000000 */
-        double budget; /* microseconds for a block of `budget_frames` that plays may take, by prediction; 0: all */
+        int32_t pan_law;        /* pacini_pan_law */
+        int32_t protect;        /* 1: keep within full drive and the limits of the profile */
+        double pan_delay;       /* s for the whole row, 0 to 0.1 */
+        double longest_delay;   /* s that a play may be delayed by, 0 to 1 */
+        double strength;        /* 0 (as flat as can be) to 1 (as strong as can be) */
+        uint32_t max_plays;     /* at a time, 1 to 10000 */
+        uint32_t max_commands;  /* that wait, 16 to 1000000 */
+        double budget;          /* microseconds that a block of `budget_frames` may take, by prediction; 0: all */
         uint32_t budget_frames; /* frames of that block */
         uint32_t budget_voices; /* plays that sound at a time; 0: all */
     } pacini_engine_config;
