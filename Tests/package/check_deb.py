@@ -57,9 +57,11 @@ def expected_files(architecture):
     files |= {f"usr/share/pacini/{folder.name}/{path.name}"
               for folder in (SOURCE / "profiles", resources / "schema", resources / "demo") for path in folder.iterdir()}
     libraries = f"usr/lib/{architecture}-linux-gnu"
+    header = (SOURCE / "Source/library/include/pacini.h").read_text()
+    interface = ".".join(re.search(rf"PACINI_API_{part} (\d+)", header)[1] for part in ("MAJOR", "MINOR"))
     files |= {f"{libraries}/cmake/Pacini/{name}.cmake" for name in (
         "pacini-config", "pacini-config-version", "PaciniTargets", "PaciniLibraryTargets", "PaciniLibraryTargets-release")}
-    files |= {f"{libraries}/{name}" for name in ("libpacini.so", "libpacini.so.1", "libpacini.so.1.0.0", "libpacini.a",
+    files |= {f"{libraries}/{name}" for name in ("libpacini.so", "libpacini.so.1", f"libpacini.so.{interface}.0", "libpacini.a",
                                                 "pkgconfig/pacini.pc")}
     files.add("usr/include/pacini.h")
     files |= {f"usr/lib/lv2/Pacini.lv2/{name}" for name in ("libPacini.so", "manifest.ttl", "dsp.ttl", "ui.ttl")}
