@@ -52,8 +52,9 @@ def main():
             continue
         else:
             path = os.path.relpath(path, ROOT)
-        # A header that GCC has precompiled means nothing to Clang.
-        entry["command"] = re.sub(r"-Winvalid-pch|-include \S*cmake_pch\.hxx", "", entry["command"])
+        # A header that GCC has precompiled means nothing to Clang, nor do options of GCC alone.
+        entry["command"] = re.sub(r"-Winvalid-pch|-include \S*cmake_pch\.hxx|-fno-gnu-unique|-flto=auto|-ffat-lto-objects", "",
+                                  entry["command"])
         known[path] = entry
     database = build / "tidy"
     database.mkdir(exist_ok=True)

@@ -30,7 +30,7 @@ AudioDevices::~AudioDevices()
 
 juce::String AudioDevices::open(const juce::XmlElement* saved, const juce::String& deviceType)
 {
-    const auto error = openDevice(manager, maxChannels, maxChannels, saved, deviceType);
+    auto error = openDevice(manager, maxChannels, maxChannels, saved, deviceType);
     manager.addAudioCallback(this);
     running = true;
     return error;

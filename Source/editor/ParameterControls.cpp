@@ -125,7 +125,7 @@ void ParameterToggle::refresh()
         setToggleState(on, juce::dontSendNotification);
 }
 
-ParameterChoice::ParameterChoice(juce::AudioProcessorParameter& shownParameter, std::vector<int> values,
+ParameterChoice::ParameterChoice(juce::AudioProcessorParameter& shownParameter, const std::vector<int>& values,
                                  const juce::String& name, const juce::String& help)
     : parameter(shownParameter)
 {

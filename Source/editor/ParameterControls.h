@@ -54,7 +54,7 @@ class ParameterChoice final : public juce::ComboBox, public Refreshed
 {
 public:
     /// `values` are the numbers of the choices that the menu has.
-    ParameterChoice(juce::AudioProcessorParameter& shown, std::vector<int> values, const juce::String& name,
+    ParameterChoice(juce::AudioProcessorParameter& shown, const std::vector<int>& values, const juce::String& name,
                     const juce::String& help);
     void refresh() override;
 

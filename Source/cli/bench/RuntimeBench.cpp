@@ -22,7 +22,7 @@ constexpr double runtimeExcerpt = 5.0; // s of each sound
 constexpr double runtimeRate = 48000.0;
 constexpr std::size_t runtimePlays = 48;
 constexpr std::size_t runtimeBlock = 512;
-constexpr std::size_t runtimeBlocks = 6 * 94; // some 6 s
+constexpr std::size_t runtimeBlocks = 564; // some 6 s
 
 using Clips = std::vector<std::shared_ptr<const LoadedClip>>;
 
