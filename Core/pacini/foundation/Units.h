@@ -15,7 +15,7 @@ struct Hertz
 
     constexpr Hertz() = default;
     constexpr explicit Hertz(double hertz) : value(hertz) {}
-    constexpr auto operator<=>(const Hertz&) const = default;
+    constexpr auto operator<=>(const Hertz&) const = default; // NOLINT(modernize-use-nullptr): none is meant
 };
 
 /// A duration or a point of time in seconds.
@@ -25,7 +25,7 @@ struct Seconds
 
     constexpr Seconds() = default;
     constexpr explicit Seconds(double seconds) : value(seconds) {}
-    constexpr auto operator<=>(const Seconds&) const = default;
+    constexpr auto operator<=>(const Seconds&) const = default; // NOLINT(modernize-use-nullptr): none is meant
 
     /// The duration as a number of frames at `fs` hertz, not rounded.
     [[nodiscard]] constexpr double frames(double fs) const noexcept { return value * fs; }
@@ -38,7 +38,7 @@ struct Decibels
 
     constexpr Decibels() = default;
     constexpr explicit Decibels(double decibels) : value(decibels) {}
-    constexpr auto operator<=>(const Decibels&) const = default;
+    constexpr auto operator<=>(const Decibels&) const = default; // NOLINT(modernize-use-nullptr): none is meant
 
     /// The amplitude ratio, 1 at 0 dB.
     [[nodiscard]] double gain() const noexcept { return std::pow(10.0, value / 20.0); }
