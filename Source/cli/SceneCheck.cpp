@@ -65,7 +65,18 @@ void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector
                              fmt::format("comes after plays[{}], which ends at {:.3f} s", change.play, timed.end)});
         else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
             found.push_back({indexed("changes", i), "is a pan, but the scene has one actuator"});
+        else if (const auto role = roleOf(change.parameter);
+                 role && !hasRole(scene.clips[scene.plays[change.play].clip], *role))
+            found.push_back({indexed("changes", i), fmt::format("is of {}, but the clip has none", nameOf(*role))});
     }
+}
+
+void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+        for (const Role role : allRoles)
+            if (roleLevel(scene.plays[i], role) != 0.0 && !hasRole(scene.clips[scene.plays[i].clip], role))
+                found.push_back({indexed("plays", i) + "." + nameOf(role), "does nothing: the clip has none"});
 }
 
 void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
@@ -89,6 +100,7 @@ std::vector<SceneFinding> checkScene(const Scene& scene)
     checkEnds(timeline, found);
     checkChanges(scene, timeline, found);
     checkPans(scene, found);
+    checkRoles(scene, found);
     return found;
 }
 
