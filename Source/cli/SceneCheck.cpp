@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace pacini::cli
 {
@@ -27,6 +28,13 @@ void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
             found.push_back({indexed("clips", i), "is never played"});
 }
 
+/// Whether a place is a role of a play: to mute one does something.
+bool isRole(const std::string& where)
+{
+    return std::any_of(allRoles.begin(), allRoles.end(),
+                       [&](Role role) { return where.ends_with(std::string(".") + nameOf(role)); });
+}
+
 void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
 {
     const auto plan = compilePlan(scene);
@@ -36,10 +44,11 @@ void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
         return;
     }
     for (const LeftOut& item : plan->leftOut)
-        found.push_back(
-            {item.where,
-             fmt::format("is not played: it {}{}", item.reason,
-                         std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error) : std::string())});
+        if (!isRole(item.where))
+            found.push_back(
+                {item.where, fmt::format("is not played: it {}{}", item.reason,
+                                         std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error)
+                                                                   : std::string())});
 }
 
 void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
