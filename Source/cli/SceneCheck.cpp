@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace pacini::cli
 {
@@ -27,6 +28,13 @@ void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
             found.push_back({indexed("clips", i), "is never played"});
 }
 
+/// Whether a place is a role of a play: to mute one does something.
+bool isRole(const std::string& where)
+{
+    return std::any_of(allRoles.begin(), allRoles.end(),
+                       [&](Role role) { return where.ends_with(std::string(".") + nameOf(role)); });
+}
+
 void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
 {
     const auto plan = compilePlan(scene);
@@ -36,10 +44,11 @@ void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
         return;
     }
     for (const LeftOut& item : plan->leftOut)
-        found.push_back(
-            {item.where,
-             fmt::format("is not played: it {}{}", item.reason,
-                         std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error) : std::string())});
+        if (!isRole(item.where))
+            found.push_back(
+                {item.where, fmt::format("is not played: it {}{}", item.reason,
+                                         std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error)
+                                                                   : std::string())});
 }
 
 void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
@@ -65,7 +74,18 @@ void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector
                              fmt::format("comes after plays[{}], which ends at {:.3f} s", change.play, timed.end)});
         else if (change.parameter == SceneParameter::pan && scene.actuators == 1)
             found.push_back({indexed("changes", i), "is a pan, but the scene has one actuator"});
+        else if (const auto role = roleOf(change.parameter);
+                 role && !hasRole(scene.clips[scene.plays[change.play].clip], *role))
+            found.push_back({indexed("changes", i), fmt::format("is of {}, but the clip has none", nameOf(*role))});
     }
+}
+
+void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
+{
+    for (std::size_t i = 0; i < scene.plays.size(); ++i)
+        for (const Role role : allRoles)
+            if (roleLevel(scene.plays[i], role) != 0.0 && !hasRole(scene.clips[scene.plays[i].clip], role))
+                found.push_back({indexed("plays", i) + "." + nameOf(role), "does nothing: the clip has none"});
 }
 
 void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
@@ -89,6 +109,7 @@ std::vector<SceneFinding> checkScene(const Scene& scene)
     checkEnds(timeline, found);
     checkChanges(scene, timeline, found);
     checkPans(scene, found);
+    checkRoles(scene, found);
     return found;
 }
 

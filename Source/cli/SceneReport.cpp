@@ -70,6 +70,9 @@ std::string playText(const TimedPlay& timed, const Scene& scene)
         text += fmt::format(", {:+g} semitones", play.transposition);
     if (play.stretch != 1.0)
         text += fmt::format(", stretched {:g} times", play.stretch);
+    for (const Role role : allRoles)
+        if (const double level = roleLevel(play, role); level != 0.0)
+            text += fmt::format(", {} {:+g} dB", nameOf(role), level);
     if (play.variation.amount > 0.0)
         text += fmt::format(", varied by {:g}", play.variation.amount);
     if (timed.changes > 0)
@@ -117,6 +120,9 @@ nlohmann::ordered_json sceneReport(const Scene& scene)
                          {"delay", play.delay},
                          {"transposition", play.transposition},
                          {"stretch", play.stretch},
+                         {"tones", play.tones},
+                         {"events", play.events},
+                         {"noise", play.noise},
                          {"priority", play.priority},
                          {"changes", timed.changes}});
     }

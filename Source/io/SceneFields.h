@@ -55,11 +55,14 @@ struct Draft : Scene
 
 inline constexpr std::array<Choice<PanLaw>, 3> panLaws{
     {{"constantPower", PanLaw::constantPower}, {"delay", PanLaw::delay}, {"both", PanLaw::both}}};
-inline constexpr std::array<Choice<SceneParameter>, 5> parameters{{{"gain", SceneParameter::gain},
+inline constexpr std::array<Choice<SceneParameter>, 8> parameters{{{"gain", SceneParameter::gain},
                                                                    {"pan", SceneParameter::pan},
                                                                    {"delay", SceneParameter::delay},
                                                                    {"transposition", SceneParameter::transposition},
-                                                                   {"stretch", SceneParameter::stretch}}};
+                                                                   {"stretch", SceneParameter::stretch},
+                                                                   {"tones", SceneParameter::tones},
+                                                                   {"events", SceneParameter::events},
+                                                                   {"noise", SceneParameter::noise}}};
 inline constexpr std::array<Choice<VariationScope>, 2> variationScopes{
     {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}}};
 
@@ -167,6 +170,9 @@ inline constexpr auto playFields = [](auto& play, auto& visitor)
     visitor.number("delay", play.delay, Need::usual);
     visitor.number("transposition", play.transposition, Need::usual);
     visitor.number("stretch", play.stretch, Need::usual);
+    visitor.number("tones", play.tones, Need::usual);
+    visitor.number("events", play.events, Need::usual);
+    visitor.number("noise", play.noise, Need::usual);
     visitor.integer("priority", play.priority, priority);
     visitor.object("variation", play.variation, Need::usual, variationFields,
                    "a number, or an object with amount, scope and seed", takeAmount);

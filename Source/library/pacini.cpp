@@ -513,7 +513,7 @@ pacini_result finish(const Result<void>& done)
 
 bool isControl(std::int32_t control)
 {
-    return control >= PACINI_GAIN && control <= PACINI_PRIORITY;
+    return control >= PACINI_GAIN && control <= PACINI_NOISE;
 }
 
 Seconds glideOf(double seconds)

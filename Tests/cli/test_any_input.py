@@ -104,7 +104,7 @@ class AnyInput(CommandTest):
     def test_lint_finds_what_in_a_scene_does_nothing(self):
         self.scene(name="hall.json", duration=2, clips=["door.json", "rumble.haptic"], plays=[
             {"clip": "door.json"}, {"clip": "door.json", "start": 5}, {"clip": "door.json", "gain": -200},
-            {"clip": "door.json", "start": 1.8}, {"clip": "door.json", "pan": 1}],
+            {"clip": "door.json", "start": 1.8}, {"clip": "door.json", "pan": 1, "noise": -3, "events": -130}],
             changes=[{"time": 1, "play": 0, "parameter": "gain", "value": 0},
                      {"time": 2.5, "play": 0, "parameter": "gain", "value": 0}])
         report = self.report("lint", "hall.json")["files"][0]
@@ -116,10 +116,11 @@ class AnyInput(CommandTest):
             "plays[3]": "is cut by the end of the scene 0.300 s before its own",
             "changes[0]": "comes after plays[0], which ends at 0.500 s",
             "changes[1]": "comes after the end of the scene",
-            "plays[4].pan": "does nothing: the scene has one actuator"})
+            "plays[4].pan": "does nothing: the scene has one actuator",
+            "plays[4].noise": "does nothing: the clip has none"})
         self.assertTrue(report["ok"])
         self.assertIn("hall.json: clips[1]: is never played", self.succeeds("lint", "hall.json"))
-        self.fails(1, ["lint", "hall.json", "--fail-on", "scene"], "7 losses are more than is allowed")
+        self.fails(1, ["lint", "hall.json", "--fail-on", "scene"], "8 losses are more than is allowed")
         losses = self.report("lint", "hall.json", "--target", "tact")["files"][0]["losses"]
         self.assertEqual({loss["clip"] for loss in losses}, {0, 1})
         self.scene(name="good.json", plays=[{"clip": "door.json"}])

@@ -146,6 +146,22 @@ TEST_CASE("A loop of true is the whole clip, a variation may be just a number, p
     CHECK((scene.changes[1] == SceneChange{1.0, 0, SceneParameter::stretch, 2.0, 0.0}));
 }
 
+TEST_CASE("A play has levels of its clip's roles in dB, which change over time", "[io][scene]")
+{
+    const Scene scene = sceneOf(R"("plays": [{"clip": "a.pacb", "tones": -6, "noise": -120}],
+        "changes": [{"time": 1, "play": 0, "parameter": "tones", "value": 0, "glide": 0.5},
+                    {"time": 2, "play": 0, "parameter": "events", "value": 3},
+                    {"time": 3, "play": 0, "parameter": "noise", "value": -3}])");
+    CHECK(scene.plays[0].tones == -6.0);
+    CHECK(scene.plays[0].events == 0.0);
+    CHECK(scene.plays[0].noise == -120.0);
+    CHECK((scene.changes[0] == SceneChange{1.0, 0, SceneParameter::tones, 0.0, 0.5}));
+    CHECK((scene.changes[1] == SceneChange{2.0, 0, SceneParameter::events, 3.0, 0.005}));
+    CHECK((scene.changes[2] == SceneChange{3.0, 0, SceneParameter::noise, -3.0, 0.005}));
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "noise": 61}])") == "plays[0].noise");
+    CHECK(whereOf(R"("plays": [{"clip": "a.pacb", "tones": "loud"}])") == "plays[0].tones");
+}
+
 TEST_CASE("A bad scene is refused with its place", "[io][scene]")
 {
     CHECK(whereOf(R"("plays": 1)") == "plays");

@@ -115,6 +115,18 @@ TEST_CASE("A clip is loaded from memory in any format, played, changed and stopp
     require(pacini_clip_reload(clip, faintHum.data(), faintHum.size()));
     rendered(engine, 400);
     CHECK(largest(rendered(engine, 1000)) == Approx(0.1).margin(0.02));
+    // Levels of roles, of the play and of its group.
+    require(pacini_play_set(play, PACINI_TONES, 0.5, 0.0, 0));
+    require(pacini_play_set(play, PACINI_EVENTS, 0.0, 0.0, 0));
+    rendered(engine, 400);
+    CHECK(largest(rendered(engine, 1000)) == Approx(0.05).margin(0.01));
+    require(pacini_group_set(engine, 0, PACINI_TONES, 0.0, 0.01, 0));
+    rendered(engine, 400);
+    CHECK(largest(rendered(engine, 1000)) == 0.0f);
+    CHECK(pacini_play_set(play, PACINI_NOISE, -1.0, 0.0, 0) == PACINI_INVALID);
+    CHECK(lastError() == "noise: must be 0 to 1000");
+    CHECK(pacini_play_set(play, PACINI_NOISE + 1, 1.0, 0.0, 0) == PACINI_INVALID);
+    require(pacini_group_set(engine, 0, PACINI_TONES, 1.0, 0.0, 0));
     require(pacini_play_seek(play, 0.9, 0));
     require(pacini_play_pause(play, 0.0, 0));
     rendered(engine, 200);
@@ -129,7 +141,7 @@ TEST_CASE("A clip is loaded from memory in any format, played, changed and stopp
     pacini_engine_info state;
     pacini_engine_info_init(&state);
     require(pacini_engine_get_info(engine, &state));
-    CHECK(state.frame == 1000 + 1000 + 200 + 500 + 400 + 1000 + 200 + 400);
+    CHECK(state.frame == 1000 + 1000 + 200 + 500 + 400 + 1000 + 1400 + 1400 + 200 + 400);
     CHECK(state.latency == 8);
     CHECK(state.playing == 0);
     require(pacini_engine_destroy(engine));
@@ -322,7 +334,7 @@ TEST_CASE("Controllers that are not there, and engines without one, are errors t
     require(pacini_engine_destroy(engine));
     CHECK(pacini_engine_detach(engine) == PACINI_STALE);
     CHECK(pacini_engine_get_attachment(engine, &info) == PACINI_STALE);
-    CHECK(pacini_api_version() == 1001);
+    CHECK(pacini_api_version() == 1002);
 }
 
 TEST_CASE("Structs of version 1 never grow: their init functions would write beyond those of older programs")

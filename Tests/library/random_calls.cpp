@@ -115,7 +115,7 @@ bool sequence(Handles& handles)
         const std::uint64_t engine = handles.of(engines), clip = handles.of(clips), play = handles.of(plays);
         const double x = number(), y = number();
         const auto frame = static_cast<std::int64_t>(next() % 4 == 0 ? next() : 0);
-        const auto control = static_cast<std::int32_t>(next() % 9) - 1;
+        const auto control = static_cast<std::int32_t>(next() % 12) - 1;
         switch (next() % 19)
         {
         case 0:

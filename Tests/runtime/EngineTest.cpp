@@ -46,6 +46,15 @@ Clip knocking(double seconds)
     return clip;
 }
 
+/// Tones, noise and events.
+Clip rustling(double seconds)
+{
+    Clip clip = knocking(seconds);
+    clip.bands.push_back({250.0, 280.0, 310.0, 1, {{0.0, 0.2}}, {}});
+    clip.noise = {{60.0, 150.0, {{0.0, 0.1}}}, {200.0, 400.0, {{0.0, 0.15}, {seconds, 0.05}}}};
+    return clip;
+}
+
 std::shared_ptr<const LoadedClip> loaded(const Clip& clip)
 {
     const auto made = LoadedClip::ofClip(clip);
@@ -151,9 +160,9 @@ Scene sceneOf(int actuators, std::size_t plays)
         scene.plays.push_back(play);
     }
     if (plays > 2)
-        scene.changes = {{0.1, 1, SceneParameter::pan, 1.0, 0.1},
-                         {0.12, 2, SceneParameter::delay, 0.01, 0.05},
-                         {0.2, 0, SceneParameter::gain, -12.0, 0.03}};
+        scene.changes = {{0.1, 1, SceneParameter::pan, 1.0, 0.1},        {0.12, 2, SceneParameter::delay, 0.01, 0.05},
+                         {0.13, 0, SceneParameter::tones, -130.0, 0.02}, {0.2, 0, SceneParameter::gain, -12.0, 0.03},
+                         {0.22, 2, SceneParameter::events, -12.0, 0.03}, {0.25, 0, SceneParameter::tones, 0.0, 0.01}};
     return scene;
 }
 } // namespace
@@ -290,6 +299,109 @@ TEST_CASE("Gain, intensity and a group's fader multiply, and a group sets what p
     renderBlocks(*engine, 200);
     CHECK(largest(renderBlocks(*engine, 500)[0]) == 0.0);
     CHECK(engine->meters().playing == 0);
+}
+
+TEST_CASE("Roles of a play and of a group have live levels, exact to the frame and without a step", "[runtime]")
+{
+    const auto clip = loaded(rustling(2.0));
+    EngineParams params = paramsOf(1);
+    params.protect = false;
+    using Change = std::pair<LiveControl, double>;
+    const auto played = [&](const std::vector<Change>& changes, std::size_t block, bool group, double glide = 0.0)
+    {
+        const auto engine = engineOf(params);
+        PlaySettings settings;
+        settings.group = 2;
+        const PlayId id = started(*engine, clip, settings);
+        for (const auto& [control, value] : changes)
+            REQUIRE((group ? engine->setGroup(2, control, value, Seconds(glide), 4000)
+                           : engine->set(id, control, value, Seconds(glide), 4000))
+                        .ok());
+        return renderBlocks(*engine, 12000, block)[0];
+    };
+    const auto whole = played({}, 100, false);
+    PerRole<std::vector<double>> parts;
+    for (const Role role : allRoles)
+    {
+        const auto half = played({{controlOf(role), 0.5}}, 100, false);
+        for (std::size_t i = 0; i < whole.size(); ++i)
+        {
+            if (i < 4000)
+                REQUIRE(half[i] == whole[i]);
+            parts[role].push_back(2.0 * (static_cast<double>(whole[i]) - static_cast<double>(half[i])));
+        }
+        CHECK(std::any_of(parts[role].begin(), parts[role].end(), [](double x) { return std::abs(x) > 0.05; }));
+        CHECK(played({{controlOf(role), 0.5}}, 333, true) == half);
+    }
+    const auto mixed =
+        played({{LiveControl::tones, 0.2}, {LiveControl::events, 1.5}, {LiveControl::noise, 0.7}}, 250, false, 0.1);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+    {
+        const double way = std::clamp((static_cast<double>(i) - 4000.0) / 800.0, 0.0, 1.0);
+        REQUIRE(static_cast<double>(mixed[i]) ==
+                Approx(static_cast<double>(whole[i]) - way * 0.8 * parts[Role::tones][i] +
+                       way * 0.5 * parts[Role::events][i] - way * 0.3 * parts[Role::noise][i])
+                    .margin(1e-5));
+    }
+
+    // Faders of a play and of its group multiply, and plays to come are under the group's.
+    const auto engine = engineOf(params);
+    const auto hum = loaded(humming(5.0, 0.8));
+    PlaySettings settings;
+    settings.controls.roles[Role::tones] = 0.5;
+    REQUIRE(engine->setGroup(0, LiveControl::tones, 0.25, Seconds(0.0)).ok());
+    renderBlocks(*engine, 100);
+    const PlayId id = started(*engine, hum, settings);
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == Approx(0.1).epsilon(0.02));
+    // They stay where it seeks to and where another clip takes its place.
+    REQUIRE(engine->seek(id, 1.0).ok());
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == Approx(0.1).epsilon(0.02));
+    REQUIRE(engine->replace(id, loaded(humming(5.0, 0.4))).ok());
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == Approx(0.05).epsilon(0.02));
+    REQUIRE(engine->set(id, LiveControl::tones, 0.0).ok());
+    renderBlocks(*engine, 500);
+    CHECK(largest(renderBlocks(*engine, 1000)[0]) == 0.0);
+    REQUIRE(engine->set(id, LiveControl::tones, 1.0).ok());
+    const Channels back = renderBlocks(*engine, 1000);
+    CHECK(largest(back[0]) == Approx(0.1).epsilon(0.02));
+    CHECK(largestStep(back[0]) < 1.1 * 0.1 * 2.0 * 3.1416 * 110.0 / fs + 0.1 / 40.0);
+    CHECK(engine->set(id, LiveControl::noise, -0.1).error().where == "noise");
+    CHECK(engine->set(id, LiveControl::events, 1001.0).error().where == "events");
+    settings.controls.roles[Role::noise] = -1.0;
+    CHECK(engine->play(hum, settings).error().where == "noise");
+}
+
+TEST_CASE("A role at 0 is not predicted to cost anything, nor to be missed", "[runtime]")
+{
+    EngineParams params = paramsOf(1);
+    const auto clip = loaded(rustling(5.0));
+    const auto costOf = [&](const std::vector<LiveControl>& silent)
+    {
+        const auto engine = engineOf(params);
+        const PlayId id = started(*engine, clip);
+        for (const LiveControl control : silent)
+            REQUIRE(engine->set(id, control, 0.0).ok());
+        renderBlocks(*engine, 1000);
+        return engine->meters().cost;
+    };
+    const double all = costOf({});
+    CHECK(costOf({LiveControl::noise}) < all - 2.0 * 28.0 * 0.5);
+    CHECK(costOf({LiveControl::tones}) < all - 2.0 * 4.0 * 0.5);
+    CHECK(costOf({LiveControl::events}) < all);
+    CHECK(costOf({LiveControl::tones, LiveControl::noise}) < 0.2 * all);
+    // Of two plays the one whose tones are at 0 brings less.
+    params.budget.voices = 1;
+    const auto engine = engineOf(params);
+    const PlayId loud = started(*engine, loaded(humming(5.0, 0.6)));
+    const PlayId soft = started(*engine, loaded(humming(5.0, 0.3)));
+    renderBlocks(*engine, 1000);
+    CHECK(engine->status(soft).state == PlayState::leftOut);
+    REQUIRE(engine->set(loud, LiveControl::tones, 0.1).ok());
+    renderBlocks(*engine, 1000);
+    CHECK(engine->status(loud).state == PlayState::leftOut);
 }
 
 TEST_CASE("A play pauses and goes on where it was", "[runtime]")
@@ -494,7 +606,7 @@ struct Performance
         {
             at += static_cast<std::int64_t>(random.next() % 300);
             steps.push_back({at, static_cast<int>(random.next() % 10), random.next() % 64, random.uniform(0.0, 1.0),
-                             static_cast<LiveControl>(random.next() % 7)});
+                             static_cast<LiveControl>(random.next() % 10)});
         }
     }
 };
@@ -511,6 +623,10 @@ double valueOf(LiveControl control, double x)
         return 0.25 + 2.0 * x;
     case LiveControl::priority:
         return std::floor(3.0 * x);
+    case LiveControl::tones:
+    case LiveControl::events:
+    case LiveControl::noise:
+        return std::max(0.0, 1.8 * x - 0.8);
     default:
         return x;
     }
@@ -520,7 +636,7 @@ Channels perform(const Performance& performance, const EngineParams& params, std
                  std::size_t ahead)
 {
     const auto engine = engineOf(params);
-    const std::vector<std::shared_ptr<const LoadedClip>> clips{loaded(knocking(0.3)), loaded(humming(0.4, 0.2, 70.0)),
+    const std::vector<std::shared_ptr<const LoadedClip>> clips{loaded(knocking(0.3)), loaded(rustling(0.4)),
                                                                loaded(knocking(0.05))};
     std::vector<PlayId> plays;
     std::size_t next = 0;
@@ -550,8 +666,9 @@ Channels perform(const Performance& performance, const EngineParams& params, std
                     static_cast<void>(step.value < 0.5 ? engine->pause(target, Seconds(0.01), step.frame)
                                                        : engine->resume(target, Seconds(0.01), step.frame));
                 else
-                    static_cast<void>(engine->setGroup(static_cast<std::uint32_t>(step.play % 3), LiveControl::gain,
-                                                       step.value, Seconds(0.05), step.frame));
+                    static_cast<void>(engine->setGroup(static_cast<std::uint32_t>(step.play % 3),
+                                                       step.play % 2 == 0 ? LiveControl::gain : step.control,
+                                                       valueOf(step.control, step.value), Seconds(0.05), step.frame));
             }
         });
 }
@@ -582,7 +699,7 @@ TEST_CASE("Rendering touches no heap, whatever is started, changed, replaced and
     EngineParams params = paramsOf(3, lra());
     params.actuators[1].profile.reset();
     const auto engine = engineOf(params);
-    const auto clip = loaded(knocking(0.3));
+    const auto clip = loaded(rustling(0.3));
     Random random(5);
     std::vector<PlayId> plays;
     Channels out(3, std::vector<float>(300));
@@ -598,6 +715,7 @@ TEST_CASE("Rendering touches no heap, whatever is started, changed, replaced and
         static_cast<void>(engine->seek(target, 0.2));
         static_cast<void>(engine->set(target, LiveControl::pan, random.uniform(0.0, 1.0)));
         static_cast<void>(engine->set(target, LiveControl::transposition, 3.0));
+        static_cast<void>(engine->set(target, static_cast<LiveControl>(7 + i % 3), i % 5 == 0 ? 1.0 : 0.0));
         if (i % 2 == 0)
             static_cast<void>(engine->stop(target));
         const test::HeapGuard guard;

@@ -54,11 +54,14 @@ inline Scene randomScene(std::uint64_t seed)
         play.stretch = random.uniform(0.5, 2.0);
         play.priority = static_cast<int>(below(9.0)) - 4;
         play.variation = {random.uniform(), static_cast<VariationScope>(below(2.0)), random.next()};
+        play.tones = random.uniform(-140.0, 6.0);
+        play.events = below(2.0) == 0 ? 0.0 : random.uniform(-140.0, 6.0);
+        play.noise = random.uniform(-6.0, 6.0);
         scene.plays.push_back(play);
     }
     for (double time = 0.0; time < 1.0; time += random.uniform(0.0, 0.2))
     {
-        const auto parameter = static_cast<SceneParameter>(below(4.0));
+        const auto parameter = static_cast<SceneParameter>(below(8.0));
         scene.changes.push_back({time, below(static_cast<double>(scene.plays.size())), parameter,
                                  0.5 + 0.5 * random.uniform(), random.uniform()});
     }

@@ -63,6 +63,9 @@ TEST_CASE("What a scene, a play and a change are unless told otherwise", "[scene
     CHECK(play.pan == 0.5);
     CHECK(play.transposition == 0.0);
     CHECK(play.stretch == 1.0);
+    CHECK(play.tones == 0.0);
+    CHECK(play.events == 0.0);
+    CHECK(play.noise == 0.0);
     CHECK(play.priority == 0);
     CHECK(play.variation.amount == 0.0);
     CHECK(play.variation.scope == VariationScope::breakpoint);
@@ -100,7 +103,8 @@ TEST_CASE("Each parameter of a play has its range, ends included", "[scene]")
     for (const Range& range :
          {Range{SceneParameter::gain, -1000.0, 60.0}, Range{SceneParameter::pan, 0.0, 1.0},
           Range{SceneParameter::delay, 0.0, 1.0}, Range{SceneParameter::transposition, -96.0, 96.0},
-          Range{SceneParameter::stretch, 0.01, 100.0}})
+          Range{SceneParameter::stretch, 0.01, 100.0}, Range{SceneParameter::tones, -1000.0, 60.0},
+          Range{SceneParameter::events, -1000.0, 60.0}, Range{SceneParameter::noise, -1000.0, 60.0}})
     {
         CAPTURE(range.low, range.high);
         CHECK(inRange(range.parameter, range.low));
@@ -110,7 +114,7 @@ TEST_CASE("Each parameter of a play has its range, ends included", "[scene]")
         CHECK_FALSE(inRange(range.parameter, std::nextafter(range.high, 2000.0)));
         CHECK_FALSE(inRange(range.parameter, notANumber));
     }
-    CHECK_FALSE(inRange(static_cast<SceneParameter>(5), 0.5));
+    CHECK_FALSE(inRange(static_cast<SceneParameter>(8), 0.5));
 }
 
 TEST_CASE("A scene keeps its rules to the last value that each of them allows", "[scene]")

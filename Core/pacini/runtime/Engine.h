@@ -130,10 +130,9 @@ public:
         play->group = settings.group;
         play->priority = settings.priority;
         play->order = sent;
-        play->power = (*content)->power();
-        play->cost = (*content)->cost();
         play->controls = settings.controls;
         play->content = std::move(content).value();
+        play->measureContent();
         play->fadeIn = framesOfGlide(settings.fadeIn, fs);
         free.pop_back();
         entry.clip = clip;
@@ -165,7 +164,8 @@ public:
         return send(LiveCommand::Kind::set, play, control, value, glide, frame);
     }
 
-    /// As set(), for all plays of a group. Its gain is a fader of its own, which plays to come are under too.
+    /// As set(), for all plays of a group. Its gain and the levels of its roles are faders of their own, which plays to
+    /// come are under too.
     Result<void> setGroup(std::uint32_t group, LiveControl control, double value, Seconds glide = Seconds(0.005),
                           std::int64_t frame = 0)
     {
@@ -379,7 +379,7 @@ private:
         active.reserve(wanted.maxPlays);
         order.reserve(wanted.maxPlays);
         bySlot.assign(wanted.maxPlays, nullptr);
-        groupGains.assign(limits::groups, Glide(1.0));
+        groups.resize(limits::groups);
         for (const ActuatorKind& kind : kinds)
             latency = std::max(latency, kind.player->latencyFrames());
         preRoll = latency;
@@ -430,27 +430,33 @@ private:
             double low, high;
             const char* message;
         };
-        const std::array<Range, 7> ranges{{{"gain", 0.0, 1000.0, "must be 0 to 1000"},
-                                           {"intensity", 0.0, 1.0, "must be 0 to 1"},
-                                           {"pan", 0.0, 1.0, "must be 0 to 1"},
-                                           {"delay", 0.0, longestDelay, "must be 0 to the engine's longest delay"},
-                                           {"transposition", -96.0, 96.0, "must be -96 to 96 semitones"},
-                                           {"speed", 0.01, 100.0, "must be 0.01 to 100"},
-                                           {"priority", -1e9, 1e9, "must be -1e9 to 1e9"}}};
+        const std::array<Range, 10> ranges{{{"gain", 0.0, 1000.0, "must be 0 to 1000"},
+                                            {"intensity", 0.0, 1.0, "must be 0 to 1"},
+                                            {"pan", 0.0, 1.0, "must be 0 to 1"},
+                                            {"delay", 0.0, longestDelay, "must be 0 to the engine's longest delay"},
+                                            {"transposition", -96.0, 96.0, "must be -96 to 96 semitones"},
+                                            {"speed", 0.01, 100.0, "must be 0.01 to 100"},
+                                            {"priority", -1e9, 1e9, "must be -1e9 to 1e9"},
+                                            {"tones", 0.0, 1000.0, "must be 0 to 1000"},
+                                            {"events", 0.0, 1000.0, "must be 0 to 1000"},
+                                            {"noise", 0.0, 1000.0, "must be 0 to 1000"}}};
         const Range& range = ranges[static_cast<std::size_t>(control)];
         if (!(value >= range.low && value <= range.high))
             return Error{ErrorCode::invalidArgument, range.where, range.message};
         return {};
     }
 
-    [[nodiscard]] static std::array<std::pair<LiveControl, double>, 6> values(const PlayControls& c)
+    [[nodiscard]] static std::array<std::pair<LiveControl, double>, 9> values(const PlayControls& c)
     {
         return {{{LiveControl::gain, c.gain},
                  {LiveControl::intensity, c.intensity},
                  {LiveControl::pan, c.pan},
                  {LiveControl::delay, c.delay},
                  {LiveControl::transposition, c.transposition},
-                 {LiveControl::speed, c.speed}}};
+                 {LiveControl::speed, c.speed},
+                 {LiveControl::tones, c.roles[Role::tones]},
+                 {LiveControl::events, c.roles[Role::events]},
+                 {LiveControl::noise, c.roles[Role::noise]}}};
     }
 
     /// What a new content of the play would begin with.
@@ -480,6 +486,11 @@ private:
             break;
         case LiveControl::speed:
             controls.speed = value;
+            break;
+        case LiveControl::tones:
+        case LiveControl::events:
+        case LiveControl::noise:
+            controls.roles[*roleOf(control)] = value;
             break;
         case LiveControl::priority:
             break;
@@ -636,8 +647,8 @@ private:
         }
         for (std::size_t a = 0; a < std::min(out.size(), gains.size()); ++a)
             finish(a, out[a].subspan(at, n));
-        for (Glide& gain : groupGains)
-            gain.skip(n);
+        for (GroupFaders& group : groups)
+            group.skip(n);
     }
 
     void finish(std::size_t a, std::span<float> samples) noexcept
@@ -664,10 +675,12 @@ private:
             return;
         case Kind::setGroup:
             if (command.control == LiveControl::gain)
-                groupGains[command.slot].glideTo(command.value, command.glide);
+                groups[command.slot].gain.glideTo(command.value, command.glide);
+            if (const auto role = roleOf(command.control))
+                groups[command.slot].roles[*role].glideTo(command.value, command.glide);
             for (LivePlay* play : active)
                 if (play->group == command.slot)
-                    setControl(*play, command, Fader::group);
+                    setControl(*play, command, true);
             return;
         case Kind::stopGroup:
             for (LivePlay* play : active)
@@ -711,17 +724,13 @@ private:
             decisionDue = limited();
         }
         else if (command.kind == Kind::set)
-            setControl(*play, command, Fader::play);
+            setControl(*play, command, false);
     }
 
     void begin(LivePlay* play) noexcept
     {
         play->started = now;
-        const Glide& group = groupGains[play->group];
-        play->content->begin(now, play->controls, group.now(), play->fadeIn);
-        if (!group.resting())
-            play->content->forVoices([&](PlayVoice& voice)
-                                     { voice.setFader(Fader::group, group.goal(), group.framesLeft()); });
+        play->content->begin(now, play->controls, groups[play->group], play->fadeIn);
         active.push_back(play);
         bySlot[play->slot] = play;
         decisionDue = limited(); // before anything of it sounds
@@ -735,8 +744,7 @@ private:
         command.content->takeOver(*play.content, now, play.controls, command.glide);
         play.leaving = play.content.release();
         play.content.reset(command.content);
-        play.power = play.content->power();
-        play.cost = play.content->cost();
+        play.measureContent();
         if (play.paused || play.pausing || play.stopping)
             play.content->fadeOut(0);
         else if (play.leftOut)
@@ -775,7 +783,8 @@ private:
         play.content->fadeOut(frames);
     }
 
-    void setControl(LivePlay& play, const LiveCommand& command, Fader gainFader) noexcept
+    /// `ofGroup`: by its group, whose faders are beside those of the play.
+    void setControl(LivePlay& play, const LiveCommand& command, bool ofGroup) noexcept
     {
         if (play.leftOut && !play.paused)
         {
@@ -788,7 +797,8 @@ private:
         const std::size_t glide = command.glide;
         if (command.control == LiveControl::priority)
             play.priority = static_cast<int>(value);
-        if (command.control != LiveControl::gain || gainFader == Fader::play)
+        const std::optional<Role> role = roleOf(command.control);
+        if (!ofGroup || (command.control != LiveControl::gain && !role))
             apply(play.controls, command.control, value);
         const auto each = [&](auto&& use)
         {
@@ -799,7 +809,7 @@ private:
         switch (command.control)
         {
         case LiveControl::gain:
-            each([&](PlayVoice& voice) { voice.setFader(gainFader, value, glide); });
+            each([&](PlayVoice& voice) { voice.setFader(ofGroup ? Fader::group : Fader::play, value, glide); });
             return;
         case LiveControl::intensity:
             each([&](PlayVoice& voice) { voice.setFader(Fader::intensity, value, glide); });
@@ -813,6 +823,12 @@ private:
         case LiveControl::transposition:
         case LiveControl::speed:
             play.content->change(play.controls);
+            return;
+        case LiveControl::tones:
+        case LiveControl::events:
+        case LiveControl::noise:
+            each([&](PlayVoice& voice)
+                 { voice.setRole(*role, ofGroup ? RoleFader::group : RoleFader::play, value, glide); });
             return;
         case LiveControl::priority:
             return;
@@ -875,7 +891,8 @@ private:
         std::size_t voices = 0, left = 0;
         for (LivePlay* play : order)
         {
-            play->energy = play->energyUnder(groupGains[play->group].goal());
+            play->energy = play->energyUnder(groups[play->group]);
+            play->cost = play->costUnder(groups[play->group]);
             play->worth = play->energy / (budget.nanosecondsPerFrame > 0.0 ? play->cost : 1.0);
             if (play->leftOut)
                 play->worth *= 0.5;
@@ -977,7 +994,7 @@ private:
     std::vector<LivePlay*> active; // in order of start
     std::vector<LivePlay*> order;
     std::vector<LivePlay*> bySlot;
-    std::vector<Glide> groupGains;
+    std::vector<GroupFaders> groups;
     std::vector<Glide> gains;
     std::vector<std::optional<Tap>> taps;
     std::size_t latency = 0, preRoll = 0;

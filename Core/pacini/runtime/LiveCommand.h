@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pacini
@@ -21,8 +22,26 @@ enum class LiveControl
     delay,         ///< s, 0 to EngineParams::longestDelay
     transposition, ///< semitones, -96 to 96; steps
     speed,         ///< 0.01 to 100, pitches stay; steps
-    priority       ///< 0 is kept longest; steps
+    priority,      ///< 0 is kept longest; steps
+    tones,         ///< linear, 0 to 1000, as are the next two: levels of the roles of the clip
+    events,
+    noise
 };
+
+/// The control that is the level of a role.
+[[nodiscard]] constexpr LiveControl controlOf(Role role) noexcept
+{
+    return role == Role::tones ? LiveControl::tones : role == Role::events ? LiveControl::events : LiveControl::noise;
+}
+
+/// The role whose level a control is, if it is one.
+[[nodiscard]] constexpr std::optional<Role> roleOf(LiveControl control) noexcept
+{
+    for (const Role role : allRoles)
+        if (controlOf(role) == control)
+            return role;
+    return {};
+}
 
 /// One command, for a frame of the output.
 struct LiveCommand
@@ -35,7 +54,8 @@ struct LiveCommand
         pause,   ///< fades out within `glide` and waits
         resume,
         set,      ///< `control` of a play
-        setGroup, ///< `control` of a group: a gain is a fader of its own, the rest is set in all plays that it has now
+        setGroup, ///< `control` of a group: gain and levels of roles are faders of its own, the rest is set in all
+                  ///< plays that it has now
         stopGroup,
         setActuator, ///< gain of actuator `slot`, 0 to 1
         setBudget    ///< `value`: see EngineBudget

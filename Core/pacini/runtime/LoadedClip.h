@@ -5,6 +5,7 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/synthesis/Roles.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -46,7 +47,9 @@ public:
     [[nodiscard]] double duration() const noexcept { return length; } ///< s
     [[nodiscard]] std::size_t events() const noexcept { return transients; }
     [[nodiscard]] std::size_t bytes() const noexcept { return packed.size(); }
-    [[nodiscard]] double power() const noexcept { return meanPower; } ///< mean of the drive's square, 1 = full drive
+
+    /// Mean of the drive's square, 1 = full drive, shared by tones and noise; events are not counted.
+    [[nodiscard]] const PerRole<double>& power() const noexcept { return meanPower; }
 
 private:
     LoadedClip(const Clip& clip, std::vector<std::byte> bytes)
@@ -72,22 +75,25 @@ private:
         return duration > 0.0 ? sum / duration : 0.0;
     }
 
-    static double powerOf(const Clip& clip)
+    static PerRole<double> powerOf(const Clip& clip)
     {
-        if (!clip.envelope.empty())
-            return powerOf(clip.envelope, clip.duration);
-        double sum = 0.0;
+        PerRole<double> power;
+        double noise = 0.0, sum = 0.0;
         for (const Band& band : clip.bands)
             sum += powerOf(band.amplitude, clip.duration);
         for (const NoiseBand& band : clip.noise)
-            sum += powerOf(band.amplitude, clip.duration);
-        return sum;
+            noise += powerOf(band.amplitude, clip.duration);
+        sum += noise;
+        const double whole = clip.envelope.empty() ? sum : powerOf(clip.envelope, clip.duration);
+        power[Role::noise] = sum > 0.0 ? whole * (noise / sum) : 0.0;
+        power[Role::tones] = whole - power[Role::noise];
+        return power;
     }
 
     std::string title;
     double length;
     std::size_t transients;
-    double meanPower;
+    PerRole<double> meanPower;
     std::vector<std::byte> packed;
 };
 

@@ -27,6 +27,22 @@ namespace pacini
 struct PlayControls
 {
     double gain = 1.0, intensity = 1.0, pan = 0.5, delay = 0.0, transposition = 0.0, speed = 1.0;
+    PerRole<double> roles{1.0};
+};
+
+/// The faders of a group, which all of its plays are under.
+struct GroupFaders
+{
+    Glide gain{1.0};
+    PerRole<Glide> roles{Glide(1.0)};
+
+    /// Goes on by `frames`. [audio]
+    void skip(std::size_t frames) noexcept
+    {
+        gain.skip(frames);
+        for (Glide& role : roles)
+            role.skip(frames);
+    }
 };
 
 /// What plays of a clip from some place on: a voice for each kind of actuator, twice where it loops without end, so
@@ -51,7 +67,7 @@ public:
         std::int64_t played = 0;    ///< frames that the voices of the first pass have played already
         double transposition = 0.0; ///< semitones with which the decoders were made
         double speed = 1.0;
-        double power = 0.0; ///< of the clip
+        PerRole<double> power; ///< of the roles of the clip
     };
 
     /// `madePasses[i]`: voices of pass i, in the order of the engine's kinds of actuators, prepared; one pass or two.
@@ -61,7 +77,7 @@ public:
     }
 
     /// Begins at frame `frame` with what is set. [audio]
-    void begin(std::int64_t frame, const PlayControls& controls, double groupGain, std::size_t fadeIn) noexcept
+    void begin(std::int64_t frame, const PlayControls& controls, const GroupFaders& group, std::size_t fadeIn) noexcept
     {
         current = 0;
         sounding = {true, false};
@@ -71,7 +87,14 @@ public:
                 v.voice.goOnAt(frame, pass == 0 ? params.played : 0);
                 v.voice.setFader(Fader::play, controls.gain, 0);
                 v.voice.setFader(Fader::intensity, controls.intensity, 0);
-                v.voice.setFader(Fader::group, groupGain, 0);
+                follow(group.gain,
+                       [&](double value, std::size_t frames) { v.voice.setFader(Fader::group, value, frames); });
+                for (const Role role : allRoles)
+                {
+                    v.voice.setRole(role, RoleFader::play, controls.roles[role], 0);
+                    follow(group.roles[role], [&](double value, std::size_t frames)
+                           { v.voice.setRole(role, RoleFader::group, value, frames); });
+                }
                 v.voice.setPan(controls.pan, 0);
                 v.voice.setDelay(controls.delay, 0);
                 v.voice.setFader(Fader::leave, 1.0, 0);
@@ -84,7 +107,7 @@ public:
     /// Begins at frame `frame` in the place of another one, which fades out. [audio]
     void takeOver(PlayContent& other, std::int64_t frame, const PlayControls& controls, std::size_t frames) noexcept
     {
-        begin(frame, controls, 1.0, frames);
+        begin(frame, controls, {}, frames);
         for (std::size_t kind = 0; kind < passes[0].size(); ++kind)
             passes[0][kind].voice.follow(other.passes[other.current][kind].voice);
         leaving = other.leaving;
@@ -230,23 +253,37 @@ public:
                                  : passes[current].front().voice.startFrame() + firstDecoder().totalFrames();
     }
 
-    /// Predicted time on the audio thread for a frame, ns. Of joints, which are rare, nothing is counted.
-    [[nodiscard]] double cost() const noexcept
+    /// Predicted time on the audio thread for a frame, ns, while some of the roles are heard. Of joints, which are
+    /// rare, nothing is counted.
+    [[nodiscard]] double cost(const PerRole<bool>& heard) const noexcept
     {
         double sum = 0.0;
         for (const Voice& v : passes[0])
         {
             const auto seconds = static_cast<double>(v.voice.decoding()->totalFrames()) / params.sampleRate;
-            sum +=
-                PlayCost::of(v.voice.decoding()->report(), seconds, v.planned.timeline.gains.size(), params.sampleRate);
+            DecoderReport made = v.voice.decoding()->report();
+            made.carriers = heard[Role::tones] ? made.carriers : 0;
+            made.noiseBands = heard[Role::noise] ? made.noiseBands : 0;
+            made.pulses = heard[Role::events] ? made.pulses : 0;
+            made.levelled = made.levelled && made.carriers + made.noiseBands > 0;
+            sum += PlayCost::of(made, seconds, v.planned.timeline.gains.size(), params.sampleRate);
         }
         return sum;
     }
 
-    /// Mean of the clip's power at gain 1, full drive = 1.
-    [[nodiscard]] double power() const noexcept { return params.power; }
+    /// Mean of the power of the roles of the clip at gain 1, full drive = 1.
+    [[nodiscard]] const PerRole<double>& power() const noexcept { return params.power; }
 
 private:
+    /// set(value, frames) stands and glides as `fader` does.
+    template <typename Set>
+    static void follow(const Glide& fader, Set&& set) noexcept
+    {
+        set(fader.now(), 0);
+        if (!fader.resting())
+            set(fader.goal(), fader.framesLeft());
+    }
+
     [[nodiscard]] const Decoder& firstDecoder() const noexcept { return *passes[current].front().voice.decoding(); }
 
     /// Whether another pass has taken its place.
@@ -278,8 +315,7 @@ struct LivePlay
     std::uint32_t group = 0;
     int priority = 0;
     std::uint64_t order = 0; ///< among all plays that were started
-    double power = 0.0;      ///< of its content
-    double cost = 0.0;       ///< of its content, ns for a frame
+    PerRole<double> power;   ///< of its content
     std::size_t fadeIn = 0;  ///< frames
     PlayControls controls;
     std::unique_ptr<PlayContent> content;
@@ -289,15 +325,48 @@ struct LivePlay
     std::int64_t started = 0;
     std::int64_t pausedAt = 0;
     bool pausing = false, paused = false, stopping = false, leftOut = false;
-    bool cold = false;                ///< paused without having been played up to there
-    double energy = 0.0, worth = 0.0; ///< at the last decision what is left out
+    bool cold = false;                            ///< paused without having been played up to there
+    double energy = 0.0, cost = 0.0, worth = 0.0; ///< at the last decision what is left out
 
     /// What it brings in a second, full drive = 1.
-    [[nodiscard]] double energyUnder(double groupGain) const noexcept
+    [[nodiscard]] double energyUnder(const GroupFaders& faders) const noexcept
     {
-        const double gain = controls.gain * controls.intensity * groupGain;
-        return gain * gain * power;
+        const double gain = controls.gain * controls.intensity * faders.gain.goal();
+        double sum = 0.0;
+        for (const Role role : allRoles)
+        {
+            const double level = controls.roles[role] * faders.roles[role].goal();
+            sum += level * level * power[role];
+        }
+        return gain * gain * sum;
     }
+
+    /// What it costs while the roles are heard that are not at 0, ns for a frame.
+    [[nodiscard]] double costUnder(const GroupFaders& faders) const noexcept
+    {
+        std::size_t heard = 0;
+        for (const Role role : allRoles)
+            heard |= controls.roles[role] * faders.roles[role].goal() != 0.0 ? bitOf(role) : 0;
+        return costs[heard];
+    }
+
+    /// Takes over what is predicted of its content.
+    void measureContent() noexcept
+    {
+        power = content->power();
+        for (std::size_t heard = 0; heard < costs.size(); ++heard)
+        {
+            PerRole<bool> roles;
+            for (const Role role : allRoles)
+                roles[role] = (heard & bitOf(role)) != 0;
+            costs[heard] = content->cost(roles);
+        }
+    }
+
+private:
+    static constexpr std::size_t bitOf(Role role) noexcept { return std::size_t{1} << static_cast<std::size_t>(role); }
+
+    std::array<double, std::size_t{1} << roleCount> costs{}; // by the roles that are heard
 };
 
 } // namespace pacini

@@ -206,6 +206,7 @@ private:
         play.variation.seed = settings.variation.seed;
         DecoderParams decoder = detail::planDecoder(kind.plan, clip, play, kind.compile, kind.fit);
         decoder.headroom = settings.headroom;
+        decoder.apart = true;
         PlayContent::Voice made{{0, std::move(clip), 0.0, decoder, steadyTimeline(kind.actuators.size())},
                                 PlayVoice({}, kind.actuators.size(), fs)};
         made.voice.prepare(made.planned, {nullptr, 0, &kind.plan.row, liveDelay});

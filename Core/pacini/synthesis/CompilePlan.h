@@ -66,7 +66,8 @@ inline void limitVoices(RenderPlan& plan, const Scene& scene, const Profile& pro
         const ScenePlay& play = scene.plays[planned.play];
         const double length = playLength(play, planned.timeline, planned.clip.duration);
         const double end = std::min(planned.start + length, plan.duration);
-        claims.push_back({planned.start, std::max(end, planned.start), planned.clip.bands.size(), play.priority,
+        const std::size_t voices = planned.decoder.leftOut[Role::tones] ? 0 : planned.clip.bands.size();
+        claims.push_back({planned.start, std::max(end, planned.start), voices, play.priority,
                           energies[i].most / std::max(end - planned.start, 1e-3)});
     }
     const auto losses = voiceLosses(claims, static_cast<std::size_t>(profile.polyphony));
@@ -168,8 +169,8 @@ inline std::vector<PlayTimeline> planTimelines(RenderPlan& plan, const Scene& sc
     return timelines;
 }
 
-/// Why nothing of a play can be heard, in plain words; empty when something may be.
-inline std::string whyUnheard(const ScenePlay& play, const PlayTimeline& timeline, double duration)
+/// Why nothing of a play of `clip` can be heard, in plain words; empty when something may be.
+inline std::string whyUnheard(const Clip& clip, const ScenePlay& play, const PlayTimeline& timeline, double duration)
 {
     if (play.start >= duration)
         return "starts after the end of the scene";
@@ -177,7 +178,23 @@ inline std::string whyUnheard(const ScenePlay& play, const PlayTimeline& timelin
         timeline.gains.begin(), timeline.gains.end(),
         [](const Curve& curve)
         { return std::all_of(curve.begin(), curve.end(), [](const Breakpoint& p) { return p.value == 0.0; }); });
-    return muted ? "is muted" : "";
+    const bool roles = hasRoleLevels(timeline) &&
+                       std::all_of(allRoles.begin(), allRoles.end(),
+                                   [&](Role role) { return !hasRole(clip, role) || isMuted(timeline, role); });
+    return muted || roles ? "is muted" : "";
+}
+
+/// Tones and noise at levels of their own; what is silent throughout is left out, and noted.
+inline void planRoles(RenderPlan& plan, const Clip& clip, const PlayTimeline& timeline, const std::string& where,
+                      bool leaveOut, DecoderParams& decoder)
+{
+    decoder.apart = hasRoleLevels(timeline);
+    for (const Role role : allRoles)
+        if (leaveOut && isMuted(timeline, role) && hasRole(clip, role))
+        {
+            decoder.leftOut[role] = true;
+            plan.leftOut.push_back({where + "." + nameOf(role), "is muted", -std::numeric_limits<double>::infinity()});
+        }
 }
 
 /// How often a play with a loop passes through it until the scene ends.
@@ -247,7 +264,7 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
         const ScenePlay& play = scene.plays[i];
         const std::string where = indexed("plays", i);
         if (params.leaveOut)
-            if (std::string why = whyUnheard(play, timelines[i], plan.duration); !why.empty())
+            if (std::string why = whyUnheard(clips[play.clip], play, timelines[i], plan.duration); !why.empty())
             {
                 plan.leftOut.push_back({where, std::move(why), -std::numeric_limits<double>::infinity()});
                 continue;
@@ -255,7 +272,8 @@ inline Result<void> planPlays(RenderPlan& plan, const Scene& scene, const std::v
         auto played = bakedClip(clips[play.clip], play, timelines[i], plan.duration, where, points);
         if (!played)
             return played.error();
-        const DecoderParams decoder = planDecoder(plan, *played, play, params, fit);
+        DecoderParams decoder = planDecoder(plan, *played, play, params, fit);
+        planRoles(plan, *played, timelines[i], where, params.leaveOut, decoder);
         plan.plays.push_back({i, std::move(*played), play.start, decoder, std::move(timelines[i])});
     }
     return {};

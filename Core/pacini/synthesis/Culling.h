@@ -73,8 +73,9 @@ inline std::vector<Dispensable> dispensables(const RenderPlan& plan, std::span<c
     for (std::size_t i = 0; i < plan.plays.size(); ++i)
     {
         candidates.push_back({energies[i].most, i, {}});
-        if (plan.plays[i].decoder.carriers == CarrierMode::centroid)
-            continue; // bands are placed by the mean of all centres: each counts
+        const DecoderParams& decoder = plan.plays[i].decoder;
+        if (decoder.carriers == CarrierMode::centroid || decoder.leftOut[Role::tones])
+            continue; // bands are placed by the mean of all centres, or share an envelope unheard: each counts
         for (std::size_t k = 0; k < energies[i].bands.size(); ++k)
             candidates.push_back({energies[i].bands[k], i, k});
     }

@@ -18,6 +18,7 @@
 #include <pacini/synthesis/PlayClock.h>
 #include <pacini/synthesis/PulseLevel.h>
 #include <pacini/synthesis/PulseTrain.h>
+#include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/Variation.h>
 
 #include <algorithm>
@@ -41,6 +42,11 @@ namespace pacini
 /// (they end at 1-2 kHz), levelled to the envelope, raised to the output rate by a polyphase filter whose delay is
 /// taken out, and the pulses of the transients are added at full rate: an event tops the level of the bands up to its
 /// own amplitude, so its energy is never played twice. Values outside their ranges are clamped as stated.
+///
+/// Roles have levels at the output rate, exact to the frame. A role at 0 is not computed: with tones and noise at 0
+/// nothing is until one of them is heard, when as much of the past is made up for as what follows depends on. Where
+/// tones and noise are levelled together and one of them is at 0, the other goes on at its share of the envelope; the
+/// one that was not computed comes back when the leveller has got to it, up to some 30 ms late.
 class Decoder
 {
 public:
@@ -74,6 +80,17 @@ public:
         wantedEnvelope.resize(hopFrames);
         inner.resize(hopFrames);
         ready.resize(hopFrames * ratio);
+        if (apart)
+        {
+            noiseInterpolator = std::make_unique<PolyphaseInterpolator>(*interpolator);
+            innerNoise.resize(inner.size());
+            readyNoise.resize(ready.size());
+            envelopeBefore.resize(leveller ? hopFrames : 0);
+            presenceFrames = static_cast<std::int64_t>(std::ceil(0.005 * fs));
+        }
+        // What a frame of the output depends on: both windows of the leveller, and the interpolator's taps.
+        const std::size_t past = (leveller ? 2 * leveller->latencyFrames() : 0) + interpolator->taps();
+        warmHops = static_cast<std::int64_t>((past + hopFrames - 1) / hopFrames);
         reset();
     }
 
@@ -82,6 +99,7 @@ public:
     /// the rest. An event's start is then decided up to a hop ahead. Allocates; before the first frame. [worker]
     void filterBy(const BiquadCascadeCoefficients& filter, std::int64_t until)
     {
+        assert(!apart && !hollow);
         filtering = std::make_unique<FilteringInterpolator>(*interpolator, filter);
         cutFrame = until;
         added.assign(plan.pulses > 0 ? ready.size() : 0, 0.0f);
@@ -122,10 +140,11 @@ public:
             return;
         // The clock holds no change ahead of what is computed but scheduled ones. Events are begun where the output is,
         // the envelope is read back by the leveller's delay.
-        const auto made = static_cast<double>(innerFrame + (hopDue ? static_cast<std::int64_t>(hopFrames) : 0));
+        const auto made = static_cast<double>(framesMade());
         clock.dropAfter(made);
+        passSources();
         clock.forgetBefore(static_cast<double>(position - delayFrames) / static_cast<double>(ratio) -
-                           static_cast<double>(leveller ? leveller->latencyFrames() + hopFrames : hopFrames));
+                           static_cast<double>((warmHops + 1) * static_cast<std::int64_t>(hopFrames)));
         addChange(std::max(static_cast<double>(position - delayFrames) / static_cast<double>(ratio), made),
                   transposition, stretch);
     }
@@ -144,11 +163,16 @@ public:
             part.carriers.reset();
             part.noise.reset();
         }
-        if (leveller)
-            leveller->reset();
-        for (std::size_t pass = 0; pass < envelopes.size(); ++pass)
-            envelopeReaders[pass] = CurveReader(envelopes[pass]);
-        interpolator->reset();
+        for (Levels& set : levels)
+            for (std::size_t pass = 0; pass < set.envelopes.size(); ++pass)
+                set.readers[pass] = CurveReader(set.envelopes[pass]);
+        forgetPast();
+        awake = PerRole<bool>(true);
+        presence = PerRole<Presence>();
+        sourceFrame = PerRole<std::int64_t>(0);
+        levelling = levellingBefore = 0;
+        turn = longAgo;
+        quiet = stale = mixing = hollow;
         if (filtering)
             filtering->reset();
         innerFrame = 0;
@@ -165,6 +189,11 @@ public:
         if (filtering)
         {
             processFiltered(out);
+            return;
+        }
+        if (mixing)
+        {
+            process(out, RoleGains());
             return;
         }
         std::size_t done = 0;
@@ -190,6 +219,46 @@ public:
         position += static_cast<std::int64_t>(out.size());
     }
 
+    /// The same at levels of the roles, 0 or more. Tones and noise have one of their own each if DecoderParams::apart
+    /// says so, else both have that of the tones, or of what there is. Not with a filter. [audio]
+    void process(std::span<float> out, const RoleGains& gains) noexcept
+    {
+        assert(!filtering);
+        mixing = true;
+        std::size_t done = 0;
+        if (position < delayFrames)
+        {
+            done = static_cast<std::size_t>(
+                std::min<std::int64_t>(delayFrames - position, static_cast<std::int64_t>(out.size())));
+            std::fill_n(out.begin(), done, 0.0f);
+        }
+        while (done < out.size() && position + static_cast<std::int64_t>(done) < endFrame)
+        {
+            if (readyFrom == ready.size())
+                goOn(gains, done);
+            const auto left = static_cast<std::size_t>(endFrame - position) - done;
+            std::size_t n = std::min({out.size() - done, ready.size() - readyFrom, left});
+            if (quiet)
+            {
+                n = unheardFrames(gains, done, n);
+                if (n == 0)
+                {
+                    warm(gains, done);
+                    continue;
+                }
+                std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(done), n, 0.0f);
+            }
+            else
+                mixRoles(out.subspan(done, n), gains, done);
+            readyFrom += n;
+            done += n;
+        }
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(done), out.end(), 0.0f);
+        pulses.process(
+            out.first(done), position, [this](const PulseEvent& event) { return startOf(event); }, gains[Role::events]);
+        position += static_cast<std::int64_t>(out.size());
+    }
+
     /// How long after skip() the leveller and the interpolator have no past, s.
     static constexpr double settling = 0.03;
 
@@ -205,8 +274,12 @@ public:
         pulses.skipTo(position, [this](const PulseEvent& event) { return startOf(event); });
         if (position <= delayFrames)
             return;
-        // Where the output is among all frames that the interpolator puts out.
-        const std::int64_t raised = position - delayFrames + static_cast<std::int64_t>(allSkipped());
+        if (stale)
+        {
+            readyFrom = ready.size();
+            return;
+        }
+        const std::int64_t raised = raisedAt(position);
         const auto perHop = static_cast<std::int64_t>(ready.size());
         const std::int64_t from = raised / perHop * static_cast<std::int64_t>(hopFrames);
         if (from < innerFrame) // that hop has been made
@@ -214,25 +287,9 @@ public:
             readyFrom = static_cast<std::size_t>(raised % perHop);
             return;
         }
-        while (innerFrame < from)
-        {
-            const auto at = static_cast<double>(innerFrame);
-            const double left = std::ceil(clock.nextChange(at) - at);
-            const std::int64_t most = from - innerFrame;
-            const std::int64_t n =
-                left < static_cast<double>(most) ? std::max<std::int64_t>(1, static_cast<std::int64_t>(left)) : most;
-            for (Part& part : parts)
-            {
-                part.carriers.follow(clock.pieceAt(at));
-                part.noise.follow(clock.pieceAt(at));
-                part.carriers.skip(n);
-                part.noise.skip(n);
-            }
-            innerFrame += n;
-        }
-        if (leveller)
-            leveller->reset();
-        interpolator->reset();
+        innerFrame = from;
+        passSources();
+        forgetPast();
         readyFrom = ready.size();
         unheard = static_cast<std::size_t>(raised % perHop);
         hopDue = unheard > 0;
@@ -303,7 +360,23 @@ private:
         CarrierBank carriers;
         NoiseBank noise;
         std::vector<double> re, im; // one hop
+        std::vector<double> share;  // of the noise in `im`, where it is kept apart
     };
+
+    /// What the parts and their sum, in this order, are levelled to; times in inner frames.
+    struct Levels
+    {
+        std::vector<Curve> envelopes;
+        std::vector<CurveReader> readers;
+    };
+
+    /// Whether a role that is kept apart is there, and the frame of the output from which it has been.
+    struct Presence
+    {
+        bool there = true;
+        std::int64_t from = longAgo;
+    };
+    static constexpr std::int64_t longAgo = std::numeric_limits<std::int64_t>::min() / 4;
 
     /// The parts of the clip in which something sounds, at least one, and the envelopes that they and their sum are
     /// levelled to, times in inner frames.
@@ -311,6 +384,12 @@ private:
     {
         auto carriers = makeCarriers(clip);
         auto noise = makeNoise(clip);
+        there[Role::tones] = plan.carriers > 0;
+        there[Role::noise] = plan.noiseBands > 0;
+        apart = params.apart && there[Role::tones] && there[Role::noise];
+        const bool lacks = (params.leftOut[Role::tones] && hasRole(clip, Role::tones)) ||
+                           (params.leftOut[Role::noise] && hasRole(clip, Role::noise));
+        hollow = lacks && !there[Role::tones] && !there[Role::noise];
         const auto inFrames = [&](Curve curve)
         {
             for (Breakpoint& point : curve)
@@ -322,7 +401,8 @@ private:
         {
             const std::size_t bands = noise[part].size();
             parts.push_back({CarrierBank(std::move(carriers[part])), NoiseBank(std::move(noise[part]), seed),
-                             std::vector<double>(hopFrames), std::vector<double>(hopFrames)});
+                             std::vector<double>(hopFrames), std::vector<double>(hopFrames),
+                             std::vector<double>(apart ? hopFrames : 0)});
             seed += bands; // noise of one band is unlike that of another
         };
         plan.levelled = params.followEnvelope && !clip.envelope.empty();
@@ -337,21 +417,45 @@ private:
             return;
         }
         auto shared = partEnvelopes(clip);
+        // Only the sum has the gaps: what comes before it measures over 10 ms.
+        const Curve whole = withEventGaps(clip.envelope, clip.transients, params.gaps);
+        std::vector<std::size_t> sounding;
         for (std::size_t part = 0; part < clipParts; ++part)
             if (!shared[part].empty())
             {
                 addPart(part);
-                envelopes.push_back(inFrames(std::move(shared[part])));
+                sounding.push_back(part);
             }
+        Levels all;
+        for (const std::size_t part : sounding)
+            all.envelopes.push_back(inFrames(std::move(shared[part])));
         if (parts.empty())
         {
             addPart(0);
-            envelopes.push_back(inFrames(clip.envelope));
+            all.envelopes.push_back(inFrames(clip.envelope));
         }
-        // Only the sum has the gaps: what comes before it measures over 10 ms.
-        envelopes.push_back(inFrames(withEventGaps(clip.envelope, clip.transients, params.gaps)));
-        envelopeReaders.resize(envelopes.size());
-        leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames, parts.size());
+        all.envelopes.push_back(inFrames(whole));
+        const auto alone = [&](Role role)
+        {
+            const auto shares = roleShares(clip, role);
+            Levels of;
+            for (const std::size_t part : sounding)
+                of.envelopes.push_back(inFrames(productOf(clip.envelope, shares[part])));
+            of.envelopes.push_back(inFrames(productOf(whole, shares[clipParts])));
+            return of;
+        };
+        if (lacks && !hollow)
+            levels.push_back(alone(there[Role::tones] ? Role::tones : Role::noise));
+        else
+            levels.push_back(std::move(all));
+        if (apart)
+        {
+            levels.push_back(alone(Role::tones));
+            levels.push_back(alone(Role::noise));
+        }
+        for (Levels& set : levels)
+            set.readers.resize(set.envelopes.size());
+        leveller = std::make_unique<EnvelopeLeveller>(innerRate, hopFrames, parts.size(), apart);
     }
 
     /// The sinusoids of each part.
@@ -359,6 +463,8 @@ private:
     {
         std::array<std::vector<Carrier>, clipParts> result;
         const double reference = referenceFrequency(clip);
+        if (params.leftOut[Role::tones])
+            return result;
         for (const Band& band : clip.bands)
         {
             Carrier carrier;
@@ -399,6 +505,8 @@ private:
     [[nodiscard]] std::array<std::vector<NoiseCarrier>, clipParts> makeNoise(const Clip& clip)
     {
         std::array<std::vector<NoiseCarrier>, clipParts> result;
+        if (params.leftOut[Role::noise])
+            return result;
         for (const NoiseBand& band : clip.noise)
         {
             const double most = 0.45 * params.sampleRate;
@@ -421,6 +529,8 @@ private:
     {
         const double fs = params.sampleRate;
         pulses = PulseTrain(params.pulses, fs);
+        if (params.leftOut[Role::events])
+            return;
         pulses.reserve(clip.transients.size());
         for (std::size_t i = 0; i < clip.transients.size(); ++i)
         {
@@ -481,7 +591,7 @@ private:
             {
                 std::array<LevelledPart, clipParts> signals;
                 for (std::size_t i = 0; i < parts.size(); ++i)
-                    signals[i] = {parts[i].re, parts[i].im};
+                    signals[i] = {parts[i].re, parts[i].im, parts[i].share};
                 leveller->process(std::span(signals).first(parts.size()),
                                   [this](std::size_t pass) { return envelopeOf(pass); });
             }
@@ -491,11 +601,222 @@ private:
                 raiseFiltered();
             else
                 interpolator->process(inner, ready);
+            if (apart)
+                raiseNoise();
             innerFrame += static_cast<std::int64_t>(hopFrames);
             const std::size_t skipped = std::min(unheard, ready.size());
             unheard -= skipped;
             readyFrom = skipped;
         } while (readyFrom == ready.size());
+    }
+
+    /// The hop of the noise by itself, at the output rate.
+    void raiseNoise() noexcept
+    {
+        for (std::size_t n = 0; n < hopFrames; ++n)
+            innerNoise[n] = toSample(parts[0].share[n]);
+        noiseInterpolator->process(innerNoise, readyNoise);
+    }
+
+    /// Where the output is among all frames that the interpolator puts out.
+    [[nodiscard]] std::int64_t raisedAt(std::int64_t frame) const noexcept
+    {
+        return frame - delayFrames + static_cast<std::int64_t>(allSkipped());
+    }
+
+    /// Inner frames up to which a decoder has computed that has heard all of it.
+    [[nodiscard]] std::int64_t framesMade() const noexcept
+    {
+        if (!stale)
+            return innerFrame + (hopDue ? static_cast<std::int64_t>(hopFrames) : 0);
+        const auto perHop = static_cast<std::int64_t>(ready.size());
+        const std::int64_t raised = raisedAt(std::max(position, delayFrames));
+        return (raised + perHop - 1) / perHop * static_cast<std::int64_t>(hopFrames);
+    }
+
+    /// The inner frame from which a hop that has been passed over is made again, so that it is what it would have been.
+    [[nodiscard]] std::int64_t warmFrom(std::int64_t frame) const noexcept
+    {
+        const std::int64_t hop = raisedAt(frame) / static_cast<std::int64_t>(ready.size());
+        return std::max(innerFrame, (hop - warmHops) * static_cast<std::int64_t>(hopFrames));
+    }
+
+    void forgetPast() noexcept
+    {
+        if (leveller)
+            leveller->reset();
+        interpolator->reset();
+        if (apart)
+            noiseInterpolator->reset();
+    }
+
+    /// Sinusoids and noise that were not made go on to where the next hop is, or would be made up from. In time that
+    /// depends on the number of breakpoints.
+    void passSources() noexcept
+    {
+        const std::int64_t to = stale ? warmFrom(std::max(position, delayFrames)) : innerFrame;
+        passSource(Role::tones, to);
+        passSource(Role::noise, to);
+    }
+
+    void passSource(Role role, std::int64_t to) noexcept
+    {
+        for (std::int64_t& from = sourceFrame[role]; from < to;)
+        {
+            const auto at = static_cast<double>(from);
+            const double left = std::ceil(clock.nextChange(at) - at);
+            const std::int64_t most = to - from;
+            const std::int64_t n =
+                left < static_cast<double>(most) ? std::max<std::int64_t>(1, static_cast<std::int64_t>(left)) : most;
+            for (Part& part : parts)
+                if (role == Role::tones)
+                {
+                    part.carriers.follow(clock.pieceAt(at));
+                    part.carriers.skip(n);
+                }
+                else
+                {
+                    part.noise.follow(clock.pieceAt(at));
+                    part.noise.skip(n);
+                }
+            from += n;
+        }
+    }
+
+    [[nodiscard]] bool isUnheard(Role role, const RoleGains& gains, std::size_t frame) const noexcept
+    {
+        return !there[role] || gains[role].at(frame) == 0.0;
+    }
+
+    /// How many of the next `count` frames of a block, from its frame `from` on, have neither tones nor noise.
+    [[nodiscard]] std::size_t unheardFrames(const RoleGains& gains, std::size_t from, std::size_t count) const noexcept
+    {
+        const auto none = [&](std::size_t n)
+        {
+            return isUnheard(Role::tones, gains, from + n) && isUnheard(Role::noise, gains, from + n);
+        };
+        if (gains[Role::tones].steady() && gains[Role::noise].steady())
+            return none(0) ? count : 0;
+        std::size_t n = 0;
+        while (n < count && none(n))
+            ++n;
+        return n;
+    }
+
+    /// The hop that begins at or contains frame `from` of a block: none while nothing of it is heard.
+    void goOn(const RoleGains& gains, std::size_t from) noexcept
+    {
+        if (unheardFrames(gains, from, 1) > 0)
+        {
+            quiet = stale = true;
+            readyFrom = static_cast<std::size_t>(raisedAt(position + static_cast<std::int64_t>(from)) %
+                                                 static_cast<std::int64_t>(ready.size()));
+            return;
+        }
+        if (stale)
+        {
+            warm(gains, from);
+            return;
+        }
+        if (apart)
+            chooseRoles(gains, from);
+        makeHop();
+    }
+
+    /// Makes the hop in which frame `from` of a block lies, after hops that were not heard.
+    void warm(const RoleGains& gains, std::size_t from) noexcept
+    {
+        const std::int64_t frame = position + static_cast<std::int64_t>(from);
+        const std::int64_t first = warmFrom(frame);
+        if (apart)
+            takeRoles(gains, from);
+        quiet = stale = hopDue = false;
+        if (first > innerFrame)
+            forgetPast();
+        innerFrame = first;
+        readyFrom = ready.size();
+        unheard = static_cast<std::size_t>(raisedAt(frame) - innerFrame * static_cast<std::int64_t>(ratio));
+        makeHop();
+    }
+
+    /// Which of tones and noise is computed from now on: all that is heard.
+    void takeRoles(const RoleGains& gains, std::size_t from) noexcept
+    {
+        for (const Role role : {Role::tones, Role::noise})
+        {
+            awake[role] = gains[role].at(from) != 0.0;
+            presence[role] = {awake[role], longAgo};
+        }
+        levelling = levellingBefore = levellingOfAwake();
+        turn = longAgo;
+    }
+
+    /// The same in a change from the hop that is made next on. Before another change the leveller must have got
+    /// through.
+    void chooseRoles(const RoleGains& gains, std::size_t from) noexcept
+    {
+        if (innerFrame == 0)
+        {
+            takeRoles(gains, from);
+            return;
+        }
+        const bool tones = gains[Role::tones].at(from) != 0.0, noise = gains[Role::noise].at(from) != 0.0;
+        if ((tones == awake[Role::tones] && noise == awake[Role::noise]) || innerFrame - turn < 3 * turnFrames())
+            return;
+        for (const Role role : {Role::tones, Role::noise})
+        {
+            const bool heard = role == Role::tones ? tones : noise;
+            if (heard != awake[role])
+                presence[role] = {heard, delayFrames + innerFrame * static_cast<std::int64_t>(ratio)};
+            awake[role] = heard;
+        }
+        levellingBefore = levelling;
+        levelling = levellingOfAwake();
+        turn = innerFrame;
+    }
+
+    /// Half of the time in which one envelope gives way to another, as the leveller's window moves over the change.
+    [[nodiscard]] std::int64_t turnFrames() const noexcept
+    {
+        return leveller ? static_cast<std::int64_t>(leveller->delayOfPass(0)) : 0;
+    }
+
+    [[nodiscard]] std::size_t levellingOfAwake() const noexcept
+    {
+        return awake[Role::tones] && awake[Role::noise] ? 0 : awake[Role::tones] ? 1 : 2;
+    }
+
+    /// Fades in what is there again.
+    [[nodiscard]] double presenceAt(Role role, std::int64_t frame) const noexcept
+    {
+        const Presence& of = presence[role];
+        if (!of.there)
+            return 0.0;
+        return clampTo(static_cast<double>(frame - of.from) / static_cast<double>(presenceFrames), 0.0, 1.0);
+    }
+
+    /// What is ready of the hop, at the levels of its roles.
+    void mixRoles(std::span<float> out, const RoleGains& gains, std::size_t from) const noexcept
+    {
+        const auto at = [](const std::vector<float>& signal, std::size_t n)
+        {
+            return static_cast<double>(signal[n]);
+        };
+        if (!apart)
+        {
+            const RoleGain gain = gains[there[Role::tones] ? Role::tones : Role::noise];
+            for (std::size_t n = 0; n < out.size(); ++n)
+                out[n] = static_cast<float>(gain.at(from + n) * at(ready, readyFrom + n));
+            return;
+        }
+        for (std::size_t n = 0; n < out.size(); ++n)
+        {
+            const std::int64_t frame = position + static_cast<std::int64_t>(from + n);
+            const double tones = gains[Role::tones].at(from + n) * presenceAt(Role::tones, frame);
+            const double noise = gains[Role::noise].at(from + n) * presenceAt(Role::noise, frame);
+            out[n] =
+                static_cast<float>(tones * at(ready, readyFrom + n) + (noise - tones) * at(readyNoise, readyFrom + n));
+        }
     }
 
     /// The hop at the output rate, with its events, cut where the clip begins and ends, behind the filter.
@@ -532,6 +853,9 @@ private:
     /// One hop of the sinusoids and noise of each part.
     void sumSources() noexcept
     {
+        for (const Role role : {Role::tones, Role::noise})
+            if (awake[role])
+                passSource(role, innerFrame);
         for (Part& part : parts)
         {
             std::fill(part.re.begin(), part.re.end(), 0.0);
@@ -544,12 +868,25 @@ private:
                       {
                           const auto re = std::span(part.re).subspan(done, n);
                           const auto im = std::span(part.im).subspan(done, n);
-                          part.carriers.follow(piece);
-                          part.noise.follow(piece);
-                          part.carriers.process(re, im);
-                          part.noise.process(re, im);
+                          if (awake[Role::tones])
+                          {
+                              part.carriers.follow(piece);
+                              part.carriers.process(re, im);
+                          }
+                          const auto share = std::span(part.share).subspan(apart ? done : 0, apart ? n : 0);
+                          std::copy_n(im.begin(), share.size(), share.begin());
+                          if (awake[Role::noise])
+                          {
+                              part.noise.follow(piece);
+                              part.noise.process(re, im);
+                          }
+                          for (std::size_t i = 0; i < share.size(); ++i)
+                              share[i] = im[i] - share[i];
                       }
                   });
+        for (const Role role : {Role::tones, Role::noise})
+            if (awake[role])
+                sourceFrame[role] = innerFrame + static_cast<std::int64_t>(hopFrames);
     }
 
     /// Calls use(done, n, piece) for the n frames of a hop from `done` on that lie in one piece of the clock; the hop
@@ -572,7 +909,31 @@ private:
     /// The envelope at the frames that pass `pass` of the leveller puts out in this hop.
     std::span<const double> envelopeOf(std::size_t pass) noexcept
     {
+        readEnvelope(levelling, pass, wantedEnvelope);
+        if (levelling == levellingBefore)
+            return wantedEnvelope;
+        const std::int64_t half = std::max<std::int64_t>(turnFrames(), 1);
+        const std::int64_t first = innerFrame - static_cast<std::int64_t>(leveller->delayOfPass(pass));
+        if (first >= turn + half)
+        {
+            if (pass + 1 == levels[levelling].envelopes.size())
+                levellingBefore = levelling; // the last one is through
+            return wantedEnvelope;
+        }
+        readEnvelope(levellingBefore, pass, envelopeBefore);
+        for (std::size_t i = 0; i < hopFrames; ++i)
+        {
+            const double way = static_cast<double>(first + static_cast<std::int64_t>(i) - (turn - half)) /
+                               static_cast<double>(2 * half);
+            wantedEnvelope[i] = envelopeBefore[i] + clampTo(way, 0.0, 1.0) * (wantedEnvelope[i] - envelopeBefore[i]);
+        }
+        return wantedEnvelope;
+    }
+
+    void readEnvelope(std::size_t set, std::size_t pass, std::span<double> values) noexcept
+    {
         const auto first = static_cast<double>(innerFrame) - static_cast<double>(leveller->delayOfPass(pass));
+        CurveReader& reader = levels[set].readers[pass];
         forPieces(first,
                   [&](std::size_t done, std::size_t n, const ClockPiece& piece)
                   {
@@ -582,13 +943,12 @@ private:
                       };
                       for (std::size_t i = done; i < done + n;)
                       {
-                          const CurveLine line = envelopeReaders[pass].lineAt(timeOf(i));
+                          const CurveLine line = reader.lineAt(timeOf(i));
                           const std::size_t end = firstFrom(line.until, i, done + n, timeOf);
                           for (; i < end; ++i)
-                              wantedEnvelope[i] = params.gain * line.at(timeOf(i));
+                              values[i] = params.gain * line.at(timeOf(i));
                       }
                   });
-        return wantedEnvelope;
     }
 
     /// The first frame after `from` and before `to` whose time is not before `until`, or `to`.
@@ -632,14 +992,27 @@ private:
     std::unique_ptr<PolyphaseInterpolator> interpolator;
     std::unique_ptr<FilteringInterpolator> filtering; ///< in its place, with a filter
     std::int64_t cutFrame = std::numeric_limits<std::int64_t>::max();
-    std::vector<Curve> envelopes; // of each pass, time in inner frames
-    std::vector<CurveReader> envelopeReaders;
+    std::vector<Levels> levels; // of all; where tones and noise are apart also of tones alone, of noise alone
     PulseTrain pulses;
     DecoderReport plan;
+    PerRole<bool> there; // tones and noise: whether there are any
+    bool apart = false;  // both, at levels of their own
+    bool hollow = false; // neither: they have been left out
+    std::unique_ptr<PolyphaseInterpolator> noiseInterpolator;
+    std::int64_t warmHops = 0; // of the past that a hop depends on
 
-    std::vector<double> wantedEnvelope;
-    std::vector<float> inner, ready, added;
+    std::vector<double> wantedEnvelope, envelopeBefore;
+    std::vector<float> inner, ready, added, innerNoise, readyNoise;
     std::int64_t innerFrame = 0;
+    PerRole<std::int64_t> sourceFrame; // inner frame up to which tones and noise have been made or passed over
+    PerRole<bool> awake;               // tones and noise: whether they are computed
+    PerRole<Presence> presence;
+    std::int64_t presenceFrames = 1;
+    std::size_t levelling = 0, levellingBefore = 0; // index into `levels`, changed at inner frame `turn`
+    std::int64_t turn = longAgo;
+    bool mixing = false; // levels of roles were given
+    bool quiet = false;  // what is ready is not heard and has not been made
+    bool stale = false;  // hops before the next one have not been made
     bool hopDue = false; // after skip(): a decoder that had played would have made the next hop
     std::size_t readyFrom = 0;
     std::size_t unheard = 0; // of the frames that come next

@@ -4,6 +4,7 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/synthesis/EventGaps.h>
+#include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/TransientPulse.h>
 #include <pacini/synthesis/Variation.h>
 
@@ -40,6 +41,8 @@ struct DecoderParams
     double delay = 0.0;         ///< s of silence before the clip, 0 to 3600
     double headroom = 0.0;      ///< semitones by which changes while playing may raise the transposition, 0 to 192
     double reach = 0.0;         ///< Hz; the inner rate is made for the clip's frequencies and at least this
+    bool apart = false;         ///< tones and noise may get levels of their own: see Decoder::process()
+    PerRole<bool> leftOut;      ///< roles that are not made; what is levelled with them keeps its share
     bool operator==(const DecoderParams&) const = default;
 };
 

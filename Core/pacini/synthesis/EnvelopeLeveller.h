@@ -120,6 +120,7 @@ private:
 struct LevelledPart
 {
     std::span<double> re, im;
+    std::span<double> share = {}; ///< what of `im` is to come out by itself, too; empty where nothing is
 };
 
 /// Envelope correction. Sinusoids that stand for bands beat against each other, which the source did not. The leveller
@@ -134,8 +135,8 @@ public:
     static constexpr double largestGain = 8.0; ///< beats are not filled deeper than 18 dB
 
     /// Frames are those of the decoder's inner rate `fs`; hops have `hopFrames` frames.
-    EnvelopeLeveller(double fs, std::size_t hopFrames, std::size_t parts = 1)
-        : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames), passes(parts + 1, Pass(box, hop))
+    EnvelopeLeveller(double fs, std::size_t hopFrames, std::size_t parts = 1, bool shares = false)
+        : box(boxFrames(fs)), hop(hopFrames), magnitude(hopFrames), passes(parts + 1, Pass(box, hop, shares))
     {
         assert(parts > 0);
     }
@@ -148,8 +149,9 @@ public:
             pass.reset();
     }
 
-    /// Levels one hop of each part and their sum, which is then in the first of `parts`. `target(k)` is the wanted
-    /// envelope for this hop of part k, or of the sum where k is their number, delayOfPass(k) before the input.
+    /// Levels one hop of each part and their sum, which is then in the first of `parts`; the same for shares, which all
+    /// or none have. `target(k)` is the wanted envelope for this hop of part k, or of the sum where k is their number,
+    /// delayOfPass(k) before the input.
     template <typename Target>
     void process(std::span<const LevelledPart> parts, Target&& target) noexcept
     {
@@ -162,6 +164,9 @@ public:
                 parts[0].re[n] += parts[k].re[n];
                 parts[0].im[n] += parts[k].im[n];
             }
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            for (std::size_t n = 0; n < parts[k].share.size(); ++n)
+                parts[0].share[n] += parts[k].share[n];
         level(passes.back(), parts[0], target(parts.size()));
     }
 
@@ -178,7 +183,12 @@ private:
 
     struct Pass
     {
-        Pass(std::size_t box, std::size_t hop) : first(box, hop), second(box, hop), re(box - 1, hop), im(box - 1, hop)
+        Pass(std::size_t box, std::size_t hop, bool shares)
+            : first(box, hop),
+              second(box, hop),
+              re(box - 1, hop),
+              im(box - 1, hop),
+              share(shares ? box - 1 : 0, shares ? hop : 0)
         {
         }
 
@@ -188,17 +198,20 @@ private:
             second.reset();
             re.reset();
             im.reset();
+            share.reset();
         }
 
         MovingAverage first;
         MovingAverage second;
         HopHistory re; ///< delayed as the averages are
         HopHistory im;
+        HopHistory share;
     };
 
     void level(Pass& pass, const LevelledPart& part, std::span<const double> wanted) noexcept
     {
-        const auto [re, im] = part;
+        const auto& re = part.re;
+        const auto& im = part.im;
         for (std::size_t n = 0; n < hop; ++n)
             magnitude[n] = std::sqrt(re[n] * re[n] + im[n] * im[n]);
         MovingAverage::process(pass.first, pass.second, magnitude);
@@ -210,6 +223,16 @@ private:
             re[n] = delayedRe[n] * gain;
             im[n] = delayedIm[n] * gain;
         }
+        if (!part.share.empty())
+            levelShare(pass, part.share, wanted);
+    }
+
+    /// By the gains of the whole.
+    void levelShare(Pass& pass, std::span<double> share, std::span<const double> wanted) const noexcept
+    {
+        const double* const delayed = pass.share.delayed(share);
+        for (std::size_t n = 0; n < hop; ++n)
+            share[n] = delayed[n] * std::min((wanted[n] + tiny) / (magnitude[n] + tiny), largestGain);
     }
 
     std::size_t box;

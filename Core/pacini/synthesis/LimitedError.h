@@ -119,6 +119,19 @@ public:
         CellTrack track = squares(gain, [](double time) { return time; });
         for (double& value : track.values)
             value *= planned.decoder.gain * planned.decoder.gain;
+        if (!hasRoleLevels(planned.timeline))
+            return track;
+        // The highest level of any role is that of all: a limiter is then expected to do more than it may.
+        CellTrack levels = none();
+        for (const Curve& curve : planned.timeline.roles)
+        {
+            const CellTrack level = curve.empty() ? squares({{0.0, 1.0}}, [](double time) { return time; })
+                                                  : squares(curve, [](double time) { return time; });
+            for (std::size_t i = 0; i < levels.values.size(); ++i)
+                levels.values[i] = std::max(levels.values[i], level.values[i]);
+        }
+        for (std::size_t i = 0; i < track.values.size(); ++i)
+            track.values[i] *= levels.values[i];
         return track;
     }
 

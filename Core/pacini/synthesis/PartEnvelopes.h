@@ -3,6 +3,7 @@
 // Envelopes of the low and the high part of a clip, to which each is levelled before their sum is.
 
 #include <pacini/clip/Clip.h>
+#include <pacini/synthesis/Roles.h>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,83 @@ constexpr std::size_t clipParts = 2;
             envelopes[part].push_back({time, total > 0.0 ? whole * std::sqrt(power[part] / total) : 0.0});
     }
     return envelopes;
+}
+
+/// Product of two curves, both constant outside their points; empty where one is. Between points of either it is taken
+/// as straight.
+[[nodiscard]] inline Curve productOf(const Curve& a, const Curve& b)
+{
+    Curve product;
+    if (a.empty() || b.empty())
+        return product;
+    product.reserve(a.size() + b.size());
+    CurveReader readA(a), readB(b);
+    for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();)
+    {
+        const double time = k == b.size() || (i < a.size() && a[i].time <= b[k].time) ? a[i].time : b[k].time;
+        while (i < a.size() && a[i].time <= time)
+            ++i;
+        while (k < b.size() && b[k].time <= time)
+            ++k;
+        product.push_back({time, readA.at(time) * readB.at(time)});
+    }
+    return product;
+}
+
+/// The share of tones or noise in the amplitude of a clip, over its time: the root of that of their power. First what
+/// they have of all in each part, empty where nothing of them sounds, then what they have of all in the whole.
+[[nodiscard]] inline std::array<Curve, clipParts + 1> roleShares(const Clip& clip, Role role)
+{
+    struct Level
+    {
+        std::size_t part;
+        bool counts; // is of the role
+        CurveReader reader;
+        double powerOfSquare;
+    };
+    std::vector<Level> levels;
+    std::vector<double> times;
+    std::array<bool, clipParts + 1> sounds{};
+    const auto add = [&](const Curve& curve, double frequency, double powerOfSquare, Role of)
+    {
+        if (std::all_of(curve.begin(), curve.end(), [](const Breakpoint& point) { return point.value == 0.0; }))
+            return;
+        const std::size_t part = clipPartOf(frequency);
+        levels.push_back({part, of == role, CurveReader(curve), powerOfSquare});
+        if (of == role)
+            sounds[part] = sounds[clipParts] = true;
+        for (const Breakpoint& point : curve)
+            times.push_back(point.time);
+    };
+    for (const Band& band : clip.bands)
+        add(band.amplitude, band.centreFrequency, 1.0, Role::tones);
+    for (const NoiseBand& band : clip.noise)
+        add(band.amplitude, 0.5 * (band.lowFrequency + band.highFrequency), 2.0, Role::noise);
+    std::sort(times.begin(), times.end());
+    std::array<Curve, clipParts + 1> shares;
+    constexpr double nearest = 0.001; // s
+    double last = -1.0;
+    for (const double time : times)
+    {
+        if (time < last + nearest)
+            continue;
+        last = time;
+        double total = 0.0;
+        std::array<double, clipParts + 1> power{};
+        for (Level& level : levels)
+        {
+            const double a = level.reader.at(time);
+            total += level.powerOfSquare * a * a;
+            if (level.counts)
+                power[level.part] += level.powerOfSquare * a * a;
+        }
+        for (std::size_t part = 0; part < clipParts; ++part)
+            power[clipParts] += power[part];
+        for (std::size_t k = 0; k <= clipParts; ++k)
+            if (sounds[k])
+                shares[k].push_back({time, total > 0.0 ? std::sqrt(power[k] / total) : 0.0});
+    }
+    return shares;
 }
 
 } // namespace pacini

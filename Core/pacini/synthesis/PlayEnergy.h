@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -96,6 +97,30 @@ inline double energyOfProduct(const Curve& a, const Curve& b, double from, doubl
     return sum;
 }
 
+/// Gains times a level (empty: 1), between `from` and `to`. Where both move the product is straight over a sixteenth.
+inline std::vector<Curve> withLevel(const std::vector<Curve>& gains, const Curve& level, double from, double to)
+{
+    if (level.empty())
+        return gains;
+    std::vector<Curve> products;
+    for (const Curve& gain : gains)
+    {
+        std::vector<double> times = bends(gain, level, 16);
+        for (const double time : bends(level, gain, 16))
+            times.push_back(time);
+        times.push_back(from);
+        times.push_back(to);
+        std::sort(times.begin(), times.end());
+        times.erase(std::unique(times.begin(), times.end()), times.end());
+        Curve product;
+        for (const double time : times)
+            if (time >= from && time <= to)
+                appendSides(product, time, [&](double t) { return valueAt(gain, t) * valueAt(level, t); });
+        products.push_back(std::move(product));
+    }
+    return products;
+}
+
 /// Smallest and largest power gain of an equaliser between two frequencies.
 struct PowerRange
 {
@@ -137,13 +162,22 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
         highest = std::max(highest, change.transposition);
     }
     const double end = std::min(duration, start + clock.frameOf(clip.duration));
-    const auto energy = [&](const Curve& curve)
+    const auto energyBy = [&](const Curve& curve, const std::vector<Curve>& gains)
     {
         const Curve inScene = detail::inSceneTime(curve, clock, start);
         double sum = 0.0;
-        for (const Curve& gain : timeline.gains)
+        for (const Curve& gain : gains)
             sum += detail::energyOfProduct(inScene, gain, start, end);
         return sum * params.gain * params.gain;
+    };
+    const bool mixed = hasRoleLevels(timeline);
+    PerRole<std::vector<Curve>> gainsOf;
+    for (const Role role : allRoles)
+        if (mixed)
+            gainsOf[role] = detail::withLevel(timeline.gains, timeline.roles[role], start, end);
+    const auto energy = [&](const Curve& curve)
+    {
+        return energyBy(curve, timeline.gains);
     };
     const auto power = [&](double low, double high)
     {
@@ -154,7 +188,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
     PlayEnergy result;
     const bool levelled = params.followEnvelope && !clip.envelope.empty();
     result.levelled = levelled;
-    double sum = 0.0, least = 0.0;
+    double sum = 0.0, least = 0.0, heardSum = 0.0;
     detail::PowerRange whole;
     for (const Band& band : clip.bands)
     {
@@ -167,40 +201,47 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
             high = std::max(b->value, low);
         }
         const double own = 0.5 * energy(band.amplitude);
+        const double ownHeard = mixed ? 0.5 * energyBy(band.amplitude, gainsOf[Role::tones]) : own;
         const auto range = power(low, high);
-        result.bands.push_back(own * range.most);
+        result.bands.push_back(ownHeard * range.most);
         result.gains.bands.push_back(std::sqrt(range.most));
         sum += own;
+        heardSum += ownHeard;
         if (own > 0.0)
         {
-            least += own * range.least;
+            least += ownHeard * range.least;
             whole.include(range.most);
         }
     }
     for (const NoiseBand& band : clip.noise)
     {
         const double own = energy(band.amplitude);
+        const double ownHeard = mixed ? energyBy(band.amplitude, gainsOf[Role::noise]) : own;
         const auto range = power(std::max(1.0, band.lowFrequency), std::max(2.0, band.highFrequency));
-        result.noise.push_back(own * range.most);
+        result.noise.push_back(ownHeard * range.most);
         result.gains.noise.push_back(std::sqrt(range.most));
         sum += own;
+        heardSum += ownHeard;
         if (own > 0.0)
         {
-            least += own * range.least;
+            least += ownHeard * range.least;
             whole.include(range.most);
         }
     }
-    double most = sum * whole.most;
+    double most = heardSum * whole.most;
     if (levelled && sum > 0.0)
     {
         const double wanted = 0.5 * energy(clip.envelope);
         least *= wanted / sum;
-        most = wanted * whole.most * PlayEnergy::fastBeats;
+        most = (mixed ? heardSum / sum * wanted : wanted) * whole.most * PlayEnergy::fastBeats;
         result.bandErrors = 4.0 * std::max(1.0, wanted / sum);
         for (double& band : result.bands)
             band *= result.bandErrors;
         for (double& band : result.noise)
             band *= result.bandErrors;
+        // A band that is missing raises what is levelled with it, which may be at another level.
+        if (mixed && !clip.bands.empty() && !clip.noise.empty())
+            std::fill(result.bands.begin(), result.bands.end(), std::numeric_limits<double>::infinity());
     }
 
     const auto broad = power(40.0, 400.0);
@@ -211,7 +252,7 @@ inline PowerRange equalizerPower(const BiquadCascadeCoefficients& equalizer, dou
         if (at >= end)
             break;
         double gain = 0.0;
-        for (const Curve& curve : timeline.gains)
+        for (const Curve& curve : mixed ? gainsOf[Role::events] : timeline.gains)
             gain += std::pow(valueAt(curve, at), 2.0);
         // A sine under a squared sine: 3 / 16 of its length, which is at most 20 ms alone and at least 5 ms in trains.
         const double unit = 3.0 / 16.0 * gain * params.gain * params.gain * event.amplitude * event.amplitude;

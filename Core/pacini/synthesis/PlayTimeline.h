@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,8 +27,23 @@ struct PlayTimeline
     Curve level;                        ///< as gains, without the pan
     Curve delay;                        ///< as delays, without the pan; empty where it is 0
     std::vector<DecoderChange> changes; ///< times from the play's start; in order
+    PerRole<Curve> roles;               ///< levels of the roles of the clip, linear; empty where one is always 1
     bool operator==(const PlayTimeline&) const = default;
 };
+
+/// Whether anything moves the levels of roles apart from 1.
+[[nodiscard]] inline bool hasRoleLevels(const PlayTimeline& timeline) noexcept
+{
+    return std::any_of(timeline.roles.begin(), timeline.roles.end(), [](const Curve& curve) { return !curve.empty(); });
+}
+
+/// Whether a role is silent throughout.
+[[nodiscard]] inline bool isMuted(const PlayTimeline& timeline, Role role) noexcept
+{
+    const Curve& curve = timeline.roles[role];
+    return !curve.empty() &&
+           std::all_of(curve.begin(), curve.end(), [](const Breakpoint& point) { return point.value == 0.0; });
+}
 
 /// The clock of a play that begins with `stretch`: from seconds after its start to seconds of the clip.
 [[nodiscard]] inline PlayClock makeClock(double stretch, const PlayTimeline& timeline)
@@ -117,6 +133,10 @@ void appendSides(Curve& result, double time, Value&& at)
     const ScenePlay& play = scene.plays[index];
     PlayTimeline timeline;
     detail::GlideCurve level(sceneGain(play.gain)), pan(play.pan), delay(play.delay);
+    PerRole<std::optional<detail::GlideCurve>> roles;
+    for (const Role role : allRoles)
+        if (const double start = sceneGain(roleLevel(play, role)); start != 1.0)
+            roles[role].emplace(start);
     bool late = play.delay > 0.0;
     double transposition = play.transposition, stretch = play.stretch;
     for (const SceneChange& change : changes)
@@ -139,9 +159,23 @@ void appendSides(Curve& result, double time, Value&& at)
         case SceneParameter::stretch:
             stretch = change.value;
             break;
+        case SceneParameter::tones:
+        case SceneParameter::events:
+        case SceneParameter::noise:
+        {
+            auto& role = roles[*roleOf(change.parameter)];
+            if (!role)
+                role.emplace(1.0);
+            role->glideTo(sceneGain(change.value), change.time, change.glide);
+            continue;
+        }
         }
         timeline.changes.push_back({std::max(0.0, change.time - play.start), transposition, stretch});
     }
+
+    for (const Role role : allRoles)
+        if (roles[role])
+            timeline.roles[role] = roles[role]->curve();
 
     // Levels follow a pan along a cosine, which 64 chords between neighbours hold within -80 dB.
     const auto times = detail::bends(level.curve(), pan.curve(), 64 * std::max(1, scene.actuators - 1));

@@ -73,6 +73,7 @@ struct MixBuffers
     static constexpr std::size_t frames = 1024;
     std::array<float, frames> mono{}, delayed{};
     std::array<double, frames> delays{}, lateness{}, gains{};
+    PerRole<std::array<double, frames>> roles;
 };
 
 /// Where a block is mixed to: frames [at, at + frames) of `out`, one span for each actuator; the first is frame `now`
@@ -94,6 +95,14 @@ enum class Fader
     fade   ///< in at the start, and from one pass of a loop into the next
 };
 inline constexpr std::size_t faderCount = 5;
+
+/// The live faders of the level of a role, which multiply with each other and with the scene's.
+enum class RoleFader
+{
+    play,
+    group
+};
+inline constexpr std::size_t roleFaderCount = 2;
 
 /// What the decoder of a voice is made for.
 struct VoiceParams
@@ -128,6 +137,7 @@ public:
             decoder->filterBy(*voice.filter, voice.until - start);
         if (voice.row != nullptr)
             sends.emplace(*voice.row);
+        mixesRoles = mixesRoles || hasRoleLevels(play.timeline);
         longestLive = voice.liveDelay.value;
         double longest = 0.0;
         for (const Curve& curve : play.timeline.delays)
@@ -153,6 +163,13 @@ public:
     void setFader(Fader fader, double wanted, std::size_t frames) noexcept
     {
         faders[static_cast<std::size_t>(fader)].glideTo(wanted, frames);
+    }
+
+    /// The same for the level of a role: 0 or more. [audio]
+    void setRole(Role role, RoleFader fader, double wanted, std::size_t frames) noexcept
+    {
+        roles[role][static_cast<std::size_t>(fader)].glideTo(wanted, frames);
+        mixesRoles = mixesRoles || wanted != 1.0;
     }
 
     [[nodiscard]] const Glide& fader(Fader which) const noexcept { return faders[static_cast<std::size_t>(which)]; }
@@ -185,6 +202,9 @@ public:
         const auto frames = static_cast<std::size_t>(now - reached);
         for (Glide& fader : faders)
             fader.jump(frames);
+        for (RoleFaders& role : roles)
+            for (Glide& fader : role)
+                fader.jump(frames);
         lateness.jump(frames);
         if (panned)
             sends->jump(frames);
@@ -237,6 +257,8 @@ public:
     void follow(const PlayVoice& other) noexcept
     {
         std::copy_n(other.faders.begin(), static_cast<std::size_t>(Fader::fade), faders.begin());
+        roles = other.roles;
+        mixesRoles = mixesRoles || other.mixesRoles;
         lateness = other.lateness;
         latest = other.latest;
         panned = other.panned;
@@ -281,7 +303,10 @@ private:
         reached = frame;
         over = false;
         std::fill(levels.begin(), levels.end(), Level{});
+        roleNext = PerRole<std::size_t>();
     }
+
+    using RoleFaders = std::array<Glide, roleFaderCount>;
 
     /// How far the curves towards one actuator have been read.
     struct Level
@@ -297,7 +322,7 @@ private:
     {
         const auto& gains = play.timeline.gains;
         return channels == 1 && gains.size() == 1 && gains[0].size() == 1 && gains[0][0].value == 1.0 && !panned &&
-               !delay &&
+               !delay && !mixesRoles &&
                std::all_of(faders.begin(), faders.end(), [](const Glide& fader) { return fader.restsAt(1.0); });
     }
 
@@ -313,10 +338,42 @@ private:
         return gains;
     }
 
+    /// The levels of the roles in the frames from `now` on: one value where a level rests.
+    [[nodiscard]] RoleGains roleGains(const PlannedPlay& play, std::int64_t now, std::size_t frames,
+                                      MixBuffers& buffers) noexcept
+    {
+        RoleGains gains;
+        for (const Role role : allRoles)
+        {
+            const Curve& curve = play.timeline.roles[role];
+            RoleFaders& ways = roles[role];
+            bool rests = std::all_of(ways.begin(), ways.end(), [](const Glide& fader) { return fader.resting(); });
+            const auto values = std::span(buffers.roles[role]).first(rests && curve.empty() ? 1 : frames);
+            if (curve.empty())
+                std::fill(values.begin(), values.end(), 1.0);
+            else
+                forCurvePieces(curve, roleNext[role], now, frames, fs,
+                               [&](std::size_t i, std::size_t end, const CurvePiece& piece)
+                               {
+                                   rests = rests && piece.slope == 0.0 && i == 0;
+                                   for (; i < end; ++i)
+                                       values[i] = std::max(0.0, piece.at(now + static_cast<std::int64_t>(i)));
+                               });
+            for (Glide& fader : ways)
+                for (double& value : values)
+                    value *= fader.next();
+            gains[role] = RoleGain(rests ? values.first(1) : values);
+        }
+        return gains;
+    }
+
     void addTo(const PlannedPlay& play, std::span<const std::span<float>> out, std::size_t at, std::int64_t now,
                std::span<float> block, MixBuffers& buffers) noexcept
     {
-        decoder->process(block);
+        if (mixesRoles)
+            decoder->process(block, roleGains(play, now, block.size(), buffers));
+        else
+            decoder->process(block);
         const std::span<const double> gains = gainsOf(block.size(), buffers);
         if (delay)
             delay->write(block);
@@ -430,6 +487,9 @@ private:
     bool panned = false; // live: the sends count, not the scene's curves
     double longestLive = 0.0;
     std::array<Glide, faderCount> faders{Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0), Glide(1.0)};
+    PerRole<RoleFaders> roles{RoleFaders{Glide(1.0), Glide(1.0)}};
+    PerRole<std::size_t> roleNext; // points of the scene's levels that are reached next
+    bool mixesRoles = false;       // some level was or will be another than 1
     Glide lateness{0.0};
     bool over = false;
 };

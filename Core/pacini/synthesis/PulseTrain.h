@@ -2,6 +2,7 @@
 
 // Pulse synthesis: the events of a clip, played one after another.
 
+#include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/TransientPulse.h>
 
 #include <algorithm>
@@ -51,21 +52,22 @@ public:
     template <typename StartOf>
     void process(std::span<float> out, std::int64_t position, StartOf&& startOf) noexcept
     {
-        for (std::size_t i = firstSounding; i < next; ++i)
-            events[i].voice.addTo(out, events[i].event.gain);
-        for (; next < events.size(); ++next)
-        {
-            Voice& voice = events[next];
-            const PulseStart start = startOf(voice.event);
-            if (start.frame >= position + static_cast<std::int64_t>(out.size()))
-                break;
-            voice.voice = PulseVoice(makePulse(params, voice.event.sharpness, voice.event.gap / start.rate, sampleRate,
-                                               start.transposition));
-            const auto from = static_cast<std::size_t>(std::max(start.frame - position, std::int64_t{0}));
-            voice.voice.addTo(out.subspan(from), voice.event.gain);
-        }
-        while (firstSounding < next && events[firstSounding].voice.finished())
-            ++firstSounding;
+        play(out, position, startOf,
+             [](Voice& voice, std::span<float> to, std::size_t) { voice.voice.addTo(to, voice.event.gain); });
+    }
+
+    /// The same at the level of a role. [audio]
+    template <typename StartOf>
+    void process(std::span<float> out, std::int64_t position, StartOf&& startOf, const RoleGain& level) noexcept
+    {
+        play(out, position, startOf,
+             [&](Voice& voice, std::span<float> to, std::size_t from)
+             {
+                 if (level.steady() && level.at(0) == 0.0)
+                     voice.voice.pass(to.size());
+                 else
+                     voice.voice.addTo(to, [&](std::size_t n) { return voice.event.gain * level.at(from + n); });
+             });
     }
 
     /// Goes on at frame `position`: pulses that began before are cut off. [audio]
@@ -83,6 +85,27 @@ private:
         PulseEvent event;
         PulseVoice voice;
     };
+
+    /// add(voice, to, from) adds what sounds of an event from frame `from` on.
+    template <typename StartOf, typename Add>
+    void play(std::span<float> out, std::int64_t position, StartOf&& startOf, Add&& add) noexcept
+    {
+        for (std::size_t i = firstSounding; i < next; ++i)
+            add(events[i], out, std::size_t{0});
+        for (; next < events.size(); ++next)
+        {
+            Voice& voice = events[next];
+            const PulseStart start = startOf(voice.event);
+            if (start.frame >= position + static_cast<std::int64_t>(out.size()))
+                break;
+            voice.voice = PulseVoice(makePulse(params, voice.event.sharpness, voice.event.gap / start.rate, sampleRate,
+                                               start.transposition));
+            const auto from = static_cast<std::size_t>(std::max(start.frame - position, std::int64_t{0}));
+            add(voice, out.subspan(from), from);
+        }
+        while (firstSounding < next && events[firstSounding].voice.finished())
+            ++firstSounding;
+    }
 
     PulseParams params;
     double sampleRate = 48000.0;

@@ -4,12 +4,14 @@
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/synthesis/Roles.h>
 #include <pacini/synthesis/Variation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,17 +30,18 @@ enum class PanLaw
 struct ScenePlay
 {
     std::string name;
-    std::size_t clip = 0;       ///< index into the scene's clips
-    double start = 0.0;         ///< s
-    double loop = 0.0;          ///< s of the clip that are repeated; 0 plays it once
-    std::size_t passes = 0;     ///< how often a loop is played; 0 = until the scene ends
-    double gain = 0.0;          ///< dB; silent at -120 and below
-    double pan = 0.5;           ///< 0 = first actuator, 1 = last
-    double transposition = 0.0; ///< semitones
-    double stretch = 1.0;       ///< 2 = twice as long
-    int priority = 0;           ///< 0 is kept longest when voices run out
-    VariationParams variation;  ///< every pass of a loop varies anew
-    double delay = 0.0;         ///< s, 0 to 1, by which it comes later than its start
+    std::size_t clip = 0;                          ///< index into the scene's clips
+    double start = 0.0;                            ///< s
+    double loop = 0.0;                             ///< s of the clip that are repeated; 0 plays it once
+    std::size_t passes = 0;                        ///< how often a loop is played; 0 = until the scene ends
+    double gain = 0.0;                             ///< dB; silent at -120 and below
+    double pan = 0.5;                              ///< 0 = first actuator, 1 = last
+    double transposition = 0.0;                    ///< semitones
+    double stretch = 1.0;                          ///< 2 = twice as long
+    int priority = 0;                              ///< 0 is kept longest when voices run out
+    VariationParams variation;                     ///< every pass of a loop varies anew
+    double delay = 0.0;                            ///< s, 0 to 1, by which it comes later than its start
+    double tones = 0.0, events = 0.0, noise = 0.0; ///< dB, levels of the roles of its clip; silent at -120 and below
     bool operator==(const ScenePlay&) const = default;
 };
 
@@ -49,10 +52,40 @@ enum class SceneParameter
     pan,           ///< 0-1
     delay,         ///< s, 0 to 1; while it glides, pitches bend as they do when a source moves
     transposition, ///< semitones
-    stretch
+    stretch,
+    tones, ///< dB, as are the next two: levels of the roles of its clip
+    events,
+    noise
 };
 
-/// Automation event: a parameter of a play that changes while it plays. Gain, pan and delay glide in a straight line;
+/// The role whose level a parameter is, if it is one.
+[[nodiscard]] constexpr std::optional<Role> roleOf(SceneParameter parameter) noexcept
+{
+    switch (parameter)
+    {
+    case SceneParameter::tones:
+        return Role::tones;
+    case SceneParameter::events:
+        return Role::events;
+    case SceneParameter::noise:
+        return Role::noise;
+    case SceneParameter::gain:
+    case SceneParameter::pan:
+    case SceneParameter::delay:
+    case SceneParameter::transposition:
+    case SceneParameter::stretch:
+        break;
+    }
+    return {};
+}
+
+/// The level of a role with which a play begins, dB.
+[[nodiscard]] inline double roleLevel(const ScenePlay& play, Role role) noexcept
+{
+    return role == Role::tones ? play.tones : role == Role::events ? play.events : play.noise;
+}
+
+/// Automation event: a parameter of a play that changes while it plays. Levels, pan and delay glide in a straight line;
 /// transposition and stretch step.
 struct SceneChange
 {
@@ -60,7 +93,7 @@ struct SceneChange
     std::size_t play = 0; ///< index into the scene's plays
     SceneParameter parameter = SceneParameter::gain;
     double value = 0.0;
-    double glide = 0.005; ///< s until a gain, pan or delay is reached
+    double glide = 0.005; ///< s until a level, pan or delay is reached
     bool operator==(const SceneChange&) const = default;
 };
 
@@ -95,13 +128,16 @@ inline constexpr double playDelay = 1.0;     ///< s
     return dB <= limits::silentGain ? 0.0 : std::pow(10.0, dB / 20.0);
 }
 
-/// Whether a value is one that a parameter takes: gains -1000 to 60 dB, pan 0-1, delay 0 to 1 s, transposition -96 to
-/// 96, stretch 0.01 to 100.
+/// Whether a value is one that a parameter takes: gains and levels -1000 to 60 dB, pan 0-1, delay 0 to 1 s,
+/// transposition -96 to 96, stretch 0.01 to 100.
 [[nodiscard]] inline bool inRange(SceneParameter parameter, double value) noexcept
 {
     switch (parameter)
     {
     case SceneParameter::gain:
+    case SceneParameter::tones:
+    case SceneParameter::events:
+    case SceneParameter::noise:
         return value >= -1000.0 && value <= 60.0;
     case SceneParameter::pan:
         return value >= 0.0 && value <= 1.0;
@@ -119,9 +155,11 @@ inline constexpr double playDelay = 1.0;     ///< s
 [[nodiscard]] inline Result<void> validate(const Scene& scene)
 {
     using namespace detail;
-    constexpr const char* ranges[] = {"must be -1000 to 60 dB", "must be 0 to 1", "must be 0 to 1 s",
-                                      "must be -96 to 96 semitones", "must be 0.01 to 100"};
-    constexpr const char* names[] = {".gain", ".pan", ".delay", ".transposition", ".stretch"};
+    constexpr const char* ranges[] = {"must be -1000 to 60 dB",      "must be 0 to 1",        "must be 0 to 1 s",
+                                      "must be -96 to 96 semitones", "must be 0.01 to 100",   "must be -1000 to 60 dB",
+                                      "must be -1000 to 60 dB",      "must be -1000 to 60 dB"};
+    constexpr const char* names[] = {".gain",    ".pan",   ".delay",  ".transposition",
+                                     ".stretch", ".tones", ".events", ".noise"};
     const auto outside = [&](SceneParameter parameter, const std::string& where)
     {
         return brokenRule(where, ranges[static_cast<std::size_t>(parameter)]);
@@ -154,7 +192,8 @@ inline constexpr double playDelay = 1.0;     ///< s
             return brokenRule(where + ".loop", "is longer than the clip");
         if (play.loop > 0.0 && play.passes == 0 && scene.duration == 0.0)
             return brokenRule(where + ".passes", "is needed, or a duration of the scene: the loop would never end");
-        const double values[] = {play.gain, play.pan, play.delay, play.transposition, play.stretch};
+        const double values[] = {play.gain,    play.pan,   play.delay,  play.transposition,
+                                 play.stretch, play.tones, play.events, play.noise};
         for (std::size_t k = 0; k < std::size(values); ++k)
             if (!inRange(static_cast<SceneParameter>(k), values[k]))
                 return outside(static_cast<SceneParameter>(k), where + names[k]);

@@ -214,8 +214,8 @@ private:
         if (!plan.profile || plan.motor || plan.actuators != 1 || plan.plays.size() != 1)
             return false;
         const PlayTimeline& timeline = plan.plays.front().timeline;
-        return timeline.delays.empty() && timeline.gains.size() == 1 && timeline.gains[0].size() == 1 &&
-               timeline.gains[0][0].value == 1.0;
+        return !hasRoleLevels(timeline) && timeline.delays.empty() && timeline.gains.size() == 1 &&
+               timeline.gains[0].size() == 1 && timeline.gains[0][0].value == 1.0;
     }
 
     void prepare(PlayVoice& voice, const PlannedPlay& planned)

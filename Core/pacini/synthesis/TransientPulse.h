@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -91,19 +92,30 @@ public:
     /// Adds the next frames, scaled by `gain`, to `out`; what lies after the pulse's end is left alone. [audio]
     void addTo(std::span<float> out, double gain) noexcept
     {
+        addTo(out, [gain](std::size_t) { return gain; });
+    }
+
+    /// The same; frame n is scaled by gainAt(n). [audio]
+    template <typename GainAt>
+    requires std::invocable<GainAt, std::size_t>
+    void addTo(std::span<float> out, GainAt&& gainAt) noexcept
+    {
         const std::size_t count = std::min(pulse.frames - frame, out.size());
         for (std::size_t n = 0; n < count;)
         {
             const std::size_t at = frame % lanes;
-            if (at == 0)
+            while (groups <= frame / lanes) // more than one after pass()
                 makeGroup();
             const std::size_t now = std::min(lanes - at, count - n);
             for (std::size_t i = 0; i < now; ++i)
-                out[n + i] += static_cast<float>(gain * group[at + i]);
+                out[n + i] += static_cast<float>(gainAt(n + i) * group[at + i]);
             n += now;
             frame += now;
         }
     }
+
+    /// Goes on by `frames` unheard, for nothing until it is heard again. [audio]
+    void pass(std::size_t frames) noexcept { frame += std::min(pulse.frames - frame, frames); }
 
     [[nodiscard]] bool finished() const noexcept { return frame >= pulse.frames; }
 
@@ -142,7 +154,7 @@ private:
     {
         for (std::size_t i = 0; i < lanes; ++i)
         {
-            const double cycle = static_cast<double>(frame + i) * pulse.cyclesPerFrame;
+            const double cycle = static_cast<double>(lanes * groups + i) * pulse.cyclesPerFrame;
             if (pulse.shape == PulseShape::adaptive)
                 group[i] = (0.5 - 0.5 * window.re[i]) * carrier.im[i];
             else if (pulse.shape == PulseShape::square)
@@ -152,10 +164,12 @@ private:
         }
         carrier.advance();
         window.advance();
+        ++groups;
     }
 
     Pulse pulse;
     std::size_t frame = 0;
+    std::size_t groups = 0; // made; the last of them is `group`
     std::array<double, lanes> group{};
     Phasors carrier, window;
 };

@@ -57,7 +57,7 @@ extern "C"
 
 /* Version of this header. A library of the same major version and at least this minor one can be used with it. */
 #define PACINI_API_MAJOR 1
-#define PACINI_API_MINOR 1
+#define PACINI_API_MINOR 2
 
     /* The library's: major * 1000 + minor. [any thread] */
     PACINI_API uint32_t pacini_api_version(void);
@@ -217,7 +217,12 @@ extern "C"
         PACINI_DELAY = 3,         /* s, 0 to pacini_engine_config.longest_delay */
         PACINI_TRANSPOSITION = 4, /* semitones, -96 to 96; steps */
         PACINI_SPEED = 5,         /* 0.01 to 100, pitches stay; steps */
-        PACINI_PRIORITY = 6       /* whole numbers; 0 is kept longest; steps */
+        PACINI_PRIORITY = 6,      /* whole numbers; 0 is kept longest; steps */
+
+        /* Levels of the roles of the clip, linear, 0 to 1000; a play begins with 1. Since 1.2. */
+        PACINI_TONES = 7,  /* the bands */
+        PACINI_EVENTS = 8, /* the transients */
+        PACINI_NOISE = 9   /* the bands of noise */
     } pacini_control;
 
     typedef struct pacini_play_settings
@@ -243,7 +248,9 @@ extern "C"
     PACINI_API pacini_result pacini_play_start(pacini_engine engine, pacini_clip clip,
                                                const pacini_play_settings* settings, pacini_play* play);
 
-    /* `control`: a pacini_control. Glides (s) in a straight line, from `frame` on. [any thread but audio] */
+    /* `control`: a pacini_control. Glides (s) in a straight line, from `frame` on. What a play is to begin with and
+     * pacini_play_settings does not have, is set right after pacini_play_start() for the same frame. [any thread but
+     * audio] */
     PACINI_API pacini_result pacini_play_set(pacini_play play, int32_t control, double value, double glide,
                                              int64_t frame);
 
@@ -279,8 +286,8 @@ extern "C"
      * audio] */
     PACINI_API pacini_result pacini_play_get_info(pacini_play play, pacini_play_info* info);
 
-    /* Sets a control of all plays of a group. The gain of a group is a fader of its own, which plays to come are under
-     * too. [any thread but audio] */
+    /* Sets a control of all plays of a group. Its gain and the levels of its roles are faders of their own, which plays
+     * to come are under too. [any thread but audio] */
     PACINI_API pacini_result pacini_group_set(pacini_engine engine, uint32_t group, int32_t control, double value,
                                               double glide, int64_t frame);
     PACINI_API pacini_result pacini_group_stop(pacini_engine engine, uint32_t group, double fade, int64_t frame);

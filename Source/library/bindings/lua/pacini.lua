@@ -12,7 +12,7 @@
 -- SPDX-License-Identifier: MIT
 local ffi = require "ffi"
 
--- What pacini.h 1.1 declares.
+-- What pacini.h 1.2 declares.
 ffi.cdef [[
 uint32_t pacini_api_version(void);
 typedef enum pacini_result {
@@ -171,11 +171,12 @@ end
 
 local library = loadLibrary()
 local version = library.pacini_api_version()
-if version < 1001 or version >= 2000 then
-    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.1 or a newer 1.x", 0)
+if version < 1002 or version >= 2000 then
+    error("pacini: libpacini has the interface " .. version / 1000 .. ", this file is for 1.2 or a newer 1.x", 0)
 end
 
-local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6}
+local controls = {gain = 0, intensity = 1, pan = 2, delay = 3, transposition = 4, speed = 5, priority = 6,
+    tones = 7, events = 8, noise = 9}
 local panLaws = {power = 0, delay = 1, both = 2}
 local states = {[0] = "ended", "waiting", "playing", "paused", "left out"}
 local haptics = {[0] = "HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"}
@@ -401,7 +402,8 @@ end
 
 ---- Plays
 
---- A control ("gain", "intensity", "pan", "delay", "transposition", "speed", "priority"), in a glide (s), from a frame on.
+--- A control ("gain", "intensity", "pan", "delay", "transposition", "speed", "priority", "tones", "events",
+--- "noise"), in a glide (s), from a frame on.
 function Play:set(control, value, glide, frame)
     check(library.pacini_play_set(self.handle, number(controls, control, "control"), value, glide or 0, frame or 0))
 end

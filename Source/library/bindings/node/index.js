@@ -24,11 +24,11 @@ function loadLibrary() {
 
 const library = loadLibrary();
 const apiVersion = library.func('uint32_t pacini_api_version()');
-if (apiVersion() < 1001 || apiVersion() >= 2000) {
-  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.1 or a newer 1.x`);
+if (apiVersion() < 1002 || apiVersion() >= 2000) {
+  throw new Error(`libpacini has the interface ${apiVersion() / 1000}, this module is for 1.2 or a newer 1.x`);
 }
 
-// What pacini.h 1.1 declares.
+// What pacini.h 1.2 declares.
 const structs = {};
 structs.pacini_clip_info = koffi.struct('pacini_clip_info', {
   struct_size: 'uint32_t', events: 'uint32_t', duration: 'double', bytes: 'uint64_t', name: koffi.array('char', 64, 'String'),
@@ -113,7 +113,8 @@ export const layout = structs;
 export const version = apiVersion();
 
 const codes = ['ok', 'invalid', 'stale', 'bad data', 'newer', 'too many', 'io', 'no memory', 'internal', 'busy'];
-const controls = { gain: 0, intensity: 1, pan: 2, delay: 3, transposition: 4, speed: 5, priority: 6 };
+const controls = { gain: 0, intensity: 1, pan: 2, delay: 3, transposition: 4, speed: 5, priority: 6,
+  tones: 7, events: 8, noise: 9 };
 const panLaws = { power: 0, delay: 1, both: 2 };
 const states = ['ended', 'waiting', 'playing', 'paused', 'left out'];
 const haptics = ['HD rumble', 'DualShock 4', 'DualSense', 'Xbox', 'waveforms', 'Steam Controller', 'Steam Deck'];
@@ -318,7 +319,8 @@ export class Play {
 
   constructor(handle) { this.#handle = handle; }
 
-  /** 'gain', 'intensity', 'pan', 'delay', 'transposition', 'speed' or 'priority', in a glide (s), from a frame on. */
+  /** 'gain', 'intensity', 'pan', 'delay', 'transposition', 'speed', 'priority', 'tones', 'events' or 'noise',
+   * in a glide (s), from a frame on. */
   set(control, value, glide = 0, frame = 0) {
     check(c.playSet(this.#handle, number(controls, control, 'control'), value, glide, frame));
   }

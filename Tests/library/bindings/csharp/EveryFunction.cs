@@ -92,7 +92,9 @@ static class EveryFunction
         Largest(engine, 1000);
         float faint = Largest(engine, 1000);
         Check(faint > 0.05 && faint < 0.15, "the other content plays");
-        engine.SetGroup(0, Control.Gain, 0);
+        play.Set(Control.Noise, 0.5);
+        play.Set(Control.Events, 0.5);
+        engine.SetGroup(0, Control.Tones, 0); // all that is in this clip
         Largest(engine, 1000);
         Check(Largest(engine, 1000) == 0, "the fader is down");
         play.Seek(0.5);

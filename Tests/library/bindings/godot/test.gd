@@ -63,7 +63,8 @@ func every_function():
 	engine.render(1000)
 	var faint = largest(engine.render(1000), 1)
 	check(faint > 0.05 and faint < 0.15, "the other content plays")
-	check(engine.set_group(0, "gain", 0.0), "group")
+	check(play.set_control("noise", 0.5) and play.set_control("events", 0.5), "roles")
+	check(engine.set_group(0, "tones", 0.0), "group") # all that is in this clip
 	engine.render(1000)
 	check(largest(engine.render(1000), 1) == 0.0, "the fader is down")
 	check(play.seek(0.5) and play.pause(0.01), "seek and pause")

@@ -41,7 +41,10 @@ namespace Pacini
         Delay = 3,
         Transposition = 4,
         Speed = 5,
-        Priority = 6
+        Priority = 6,
+        Tones = 7,
+        Events = 8,
+        Noise = 9
     }
 
     public enum PlayState
@@ -71,8 +74,8 @@ namespace Pacini
         /// <summary>Throws when this binding is not for it.</summary>
         internal static void Check()
         {
-            if (Version < 1001 || Version >= 2000)
-                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.1 or a newer 1.x");
+            if (Version < 1002 || Version >= 2000)
+                throw new PaciniException(Result.Newer, "libpacini has the interface " + Version / 1000.0 + ", this binding is for 1.2 or a newer 1.x");
         }
     }
 

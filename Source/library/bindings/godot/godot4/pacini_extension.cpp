@@ -88,7 +88,10 @@ public:
         DELAY = PACINI_DELAY,
         TRANSPOSITION = PACINI_TRANSPOSITION,
         SPEED = PACINI_SPEED,
-        PRIORITY = PACINI_PRIORITY
+        PRIORITY = PACINI_PRIORITY,
+        TONES = PACINI_TONES,
+        EVENTS = PACINI_EVENTS,
+        NOISE = PACINI_NOISE
     };
 
     ~PaciniEngine() override { close(); }
@@ -174,6 +177,9 @@ protected:
         BIND_ENUM_CONSTANT(TRANSPOSITION);
         BIND_ENUM_CONSTANT(SPEED);
         BIND_ENUM_CONSTANT(PRIORITY);
+        BIND_ENUM_CONSTANT(TONES);
+        BIND_ENUM_CONSTANT(EVENTS);
+        BIND_ENUM_CONSTANT(NOISE);
     }
 
 private:

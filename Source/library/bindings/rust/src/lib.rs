@@ -247,7 +247,7 @@ pub struct Config {
 
 impl Default for Config {
     fn default() -> Self {
-        assert!((1001..2000).contains(&library_version()), "libpacini has another interface than this crate");
+        assert!((1002..2000).contains(&library_version()), "libpacini has another interface than this crate");
         let usual = filled(sys::pacini_engine_config_init);
         Config {
             actuators: vec![Actuator::default()],
@@ -541,6 +541,9 @@ pub enum Control {
     Transposition = 4,
     Speed = 5,
     Priority = 6,
+    Tones = 7,
+    Events = 8,
+    Noise = 9,
 }
 
 /// How a clip is played; the defaults are the library's: once, now, in the middle, as it is. pacini.h has the ranges.

@@ -51,7 +51,9 @@ fn a_clip_plays_and_is_changed() {
     largest(&mut renderer, 1000);
     let faint = largest(&mut renderer, 1000)[1];
     assert!(faint > 0.05 && faint < 0.15, "{}", faint);
-    engine.set_group(0, Control::Gain, 0.0, 0.0, 0).unwrap();
+    play.set(Control::Noise, 0.5, 0.0, 0).unwrap();
+    play.set(Control::Events, 0.5, 0.0, 0).unwrap();
+    engine.set_group(0, Control::Tones, 0.0, 0.0, 0).unwrap(); // all that is in this clip
     largest(&mut renderer, 1000);
     assert_eq!(largest(&mut renderer, 1000), [0.0, 0.0]);
     play.seek(0.5, 0).unwrap();

@@ -12,7 +12,8 @@
 # SPDX-License-Identifier: MIT
 extends Reference
 
-const CONTROLS = ["gain", "intensity", "pan", "delay", "transposition", "speed", "priority"]
+const CONTROLS = ["gain", "intensity", "pan", "delay", "transposition", "speed", "priority", "tones", "events",
+	"noise"]
 const PAN_LAWS = ["power", "delay", "both"]
 const STATES = ["ended", "waiting", "playing", "paused", "left out"]
 const HAPTICS = ["HD rumble", "DualShock 4", "DualSense", "Xbox", "waveforms", "Steam Controller", "Steam Deck"]
@@ -28,8 +29,8 @@ var _native
 func _init():
 	_native = Native.new()
 	var version = _native.run("version", [])
-	if version != null and (version < 1001 or version >= 2000):
-		_native.fail("libpacini has the interface %s, this script is for 1.1 or a newer 1.x" % (version / 1000.0))
+	if version != null and (version < 1002 or version >= 2000):
+		_native.fail("libpacini has the interface %s, this script is for 1.2 or a newer 1.x" % (version / 1000.0))
 
 var last_error setget , _get_last_error
 
