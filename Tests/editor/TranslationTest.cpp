@@ -58,11 +58,11 @@ TEST_CASE("Menus, buttons and pages are in the chosen language, and in English w
         CHECK(menuNames(bench.view).contains("Bearbeiten"));
         CHECK(bench.view.sidePanel().getTabNames().contains("Analyse"));
         CHECK(anyTooltip(bench.view, "Zum Anfang"));
-        CHECK_FALSE(anyTooltip(bench.view, "To start"));
+        CHECK_FALSE(anyTooltip(bench.view, "Go to start"));
     }
     test::EditorBench bench;
     CHECK(menuNames(bench.view).contains("Edit"));
-    CHECK(anyTooltip(bench.view, "To start"));
+    CHECK(anyTooltip(bench.view, "Go to start"));
     const Language unknown("tlh");
     CHECK(editor::tr("Edit") == "Edit");
 }
