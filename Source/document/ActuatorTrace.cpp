@@ -242,8 +242,9 @@ std::string ActuatorTrace::textOf(std::size_t i) const
     for (const auto& [bit, name] : {std::pair(Limit::fullDrive, "full drive"), std::pair(Limit::travel, "travel"),
                                     std::pair(Limit::heat, "heat")})
         if ((limits[i] & bit) != 0)
-            why += (why.empty() ? ": " : " and ") + std::string(name);
-    return fmt::format("protection reduces by {:.1f} dB{}", reductions[i], why);
+            why += (why.empty() ? "" : ", ") + std::string(name);
+    return why.empty() ? fmt::format("protection reduces by {:.1f} dB", reductions[i])
+                       : fmt::format("protection reduces by {:.1f} dB: {}", reductions[i], why);
 }
 
 std::string ActuatorTrace::textOf(const Source& source, std::size_t i) const

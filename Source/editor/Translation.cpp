@@ -234,7 +234,11 @@ juce::String translateMessage(const juce::String& english)
     }
     if (const int colon = english.indexOf(": "); colon > 0)
         return english.substring(0, colon + 2) + translateMessage(english.substring(colon + 2));
-    return english;
+    juce::StringArray list = juce::StringArray::fromTokens(english, ",", {}); // "travel, heat"
+    list.trim();
+    for (auto& one : list)
+        one = tr(one);
+    return list.size() > 1 ? list.joinIntoString(", ") : english;
 }
 
 void translateTexts(juce::Component& root)

@@ -35,7 +35,7 @@ std::string listed(std::span<const std::string> names)
 {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + ("'" + names[i] + "'");
+        text += (i == 0 ? "" : ", ") + ("'" + names[i] + "'");
     return text.empty() ? "the recording" : text;
 }
 

@@ -35,6 +35,7 @@ MeasurementController::MeasurementController(Actuators& profiles, Transport& pla
         if (profile.body && profile.technology != Technology::erm)
             simulated.push_back(i);
     }
+    nextName = tr("Placement {0}", {juce::String(placementNumber)}).toStdString();
     chooseRig(0);
 }
 

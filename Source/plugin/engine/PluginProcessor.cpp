@@ -266,7 +266,7 @@ std::optional<juce::String> PluginProcessor::restoreActuator(ParameterValues& va
     {
         values.set(id, static_cast<double>(ownProfileSlot + first));
         note = channel == 0 ? juce::String("using the session's own version of the actuator")
-                            : "the session's own version of actuator " + juce::String(channel + 1) + " is used";
+                            : "using the session's own version of actuator " + juce::String(channel + 1);
     }
     if (values.index(id) == ownProfileSlot + first)
     {

@@ -12,9 +12,9 @@ namespace pacini::editor
 
 namespace
 {
-juce::String nameWithStep(const char* name, const std::string& step)
+juce::String nameWithStep(const char* name, const char* named, const std::string& step)
 {
-    return step.empty() ? tr(name) : tr(juce::String(name) + ": {0}", {translateMessage(toText(step))});
+    return step.empty() ? tr(name) : tr(named, {translateMessage(toText(step))});
 }
 
 std::optional<Lane> focusedLane()
@@ -49,14 +49,14 @@ Menu editMenu(EditorView& view)
             [&session] { return session.model.document().canUndo(); }, {ctrl('z')})
         .fullName = [&session]
     {
-        return nameWithStep("Undo", session.model.document().undoName());
+        return nameWithStep("Undo", "Undo: {0}", session.model.document().undoName());
     };
     menu.add(
             redo, "Redo", "Redoes the last undone step", [&session] { session.model.redo(); },
             [&session] { return session.model.document().canRedo(); }, {ctrlShift('z'), ctrl('y')})
         .fullName = [&session]
     {
-        return nameWithStep("Redo", session.model.document().redoName());
+        return nameWithStep("Redo", "Redo: {0}", session.model.document().redoName());
     };
     menu.addLine();
     menu.add(cut, "Cut", "Cuts the selection or the time range", [&session] { session.clipSelection.cut(); }, anyClip,
