@@ -20,6 +20,9 @@ DOCUMENT = ("Source/document",)
 LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|ClipFormat|.*AndroidEffects|"
                     r".*AndroidWaveform|.*EnvelopeFit|.*SumLimit|.*HjifVoices|.*DriveSamples)\.cpp$")
 
+# Names of presets of the plugin; what is said of them is for the command.
+PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
+
 # Files without a text for users of windows.
 FILES = {
     "names in files": [
@@ -45,7 +48,7 @@ LITERALS = {
     "names of threads, folders and settings": [
         "Pacini capture", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
-        "files", "clip", ".sound-"],
+        "files", "clip", ".sound-", "md"],
     "names that a new thing gets in the project, which is the same file in every language": [
         "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement",
         "Simulated actuator", "Nothing connected", "Sensor, axis x", "Sensor, axis y", "Sensor, axis z"],
@@ -149,6 +152,9 @@ def check(root, tables):
             for line, text in literals(path):
                 if text not in no_texts and is_text(text, name):
                     wanted.setdefault(numbered(text), f"{name}:{line}")
+    for line, text in literals(root / PRESETS):
+        if re.match(r"[A-Z]", text):
+            wanted.setdefault(text, f"{PRESETS.as_posix()}:{line}")
     problems = []
     for code, pairs in tables.items():
         keys = {numbered(key) for key in pairs}

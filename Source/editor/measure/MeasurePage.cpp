@@ -71,6 +71,8 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
         refresh();
     };
     shared->setOpen(true);
+    for (StepPanel* step : std::initializer_list<StepPanel*>{&setUp, &sweep, &response, &equalizer, &verify, &save})
+        translateTexts(*step); // only the one in front is inside of the page
     scroll.setViewedComponent(&panel(), false);
     refresh();
     startTimerHz(30);
