@@ -142,7 +142,7 @@ TEST_CASE("Several files come in their order, the first is shown, and what fails
     CHECK(names == std::vector<std::string>{"a", "b", "c"});
     CHECK(session.model.item()->clip->name == "a");
     REQUIRE(messages.titles.size() == 1);
-    CHECK(messages.titles[0] == "2 of 5 files were not opened");
+    CHECK(messages.titles[0] == "2 of 5 files not opened");
     CHECK(messages.texts[0].find("broken.wav") != std::string::npos);
     CHECK(messages.texts[0].find("empty.flac") != std::string::npos);
 }

@@ -104,7 +104,7 @@ TEST_CASE("A clip without a sound cannot be analysed, and says why")
     pages.session.sounds.add({{}, nullptr, {}, clip, {}});
     CHECK_FALSE(get<juce::Slider>(pages.analysis, "Bands").isEnabled());
     CHECK_FALSE(get<juce::ComboBox>(pages.analysis, "Preset").isEnabled());
-    CHECK(get<juce::Label>(pages.analysis, "Source sound").getText().contains("without a sound"));
+    CHECK(get<juce::Label>(pages.analysis, "Source sound").getText().contains("no source sound"));
     CHECK_FALSE(get<juce::ToggleButton>(pages.project, "Embed the sound in the project").isEnabled());
 }
 
@@ -238,12 +238,12 @@ TEST_CASE("Keys of the list choose, rename and remove")
     press(juce::KeyPress(juce::KeyPress::upKey));
     CHECK(list.chosenRow() == 0);
     press(juce::KeyPress(juce::KeyPress::returnKey));
-    auto& field = get<juce::TextEditor>(list, "Name of the clip");
+    auto& field = get<juce::TextEditor>(list, "Clip name");
     CHECK(field.getText() == "knock_wood_bridge");
     field.setText("Knock");
     field.onReturnKey();
     CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern"});
-    CHECK(find<juce::TextEditor>(list, "Name of the clip") == nullptr);
+    CHECK(find<juce::TextEditor>(list, "Clip name") == nullptr);
     press(juce::KeyPress(juce::KeyPress::deleteKey));
     CHECK(pages.names() == Names{"drums_tabla_pattern"});
     pumpFor(0.05);
