@@ -166,7 +166,7 @@ void VerifyStep::resized()
     side.setTop(verdictArea().getBottom() + grid);
     facts.setBounds(side.removeFromTop(facts.wantedHeight()));
     auto row = side.removeFromBottom(stepRow);
-    again.setBounds(row.removeFromRight(7 * grid));
+    again.setBounds(row.removeFromRight(11 * grid));
     row.removeFromRight(grid);
     saveSweep.setBounds(row.removeFromLeft((row.getWidth() - grid) / 2));
     row.removeFromLeft(grid);

@@ -58,7 +58,7 @@ void CapturePanel::resized()
     row.removeFromLeft(grid);
     length.setBounds(row.removeFromLeft(13 * grid));
     row.removeFromLeft(grid);
-    editButton.setBounds(row.removeFromLeft(7 * grid));
+    editButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);
     saveButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);

@@ -427,7 +427,7 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     area.removeFromRight(grid);
     clipsButton.setBounds(area.removeFromRight(8 * grid));
     area.removeFromRight(grid);
-    actuatorsButton.setBounds(area.removeFromRight(10 * grid));
+    actuatorsButton.setBounds(area.removeFromRight(12 * grid));
     area.removeFromRight(2 * grid);
     loadButton.setBounds(area.removeFromRight(9 * grid));
     area.removeFromRight(grid);
