@@ -122,7 +122,6 @@ void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
                     [&session = view.session()](const std::filesystem::path& file)
                     { session.sounds.findSounds(file); });
     };
-    const bool one = missing.size() == 1;
     view.showMessage(std::make_unique<MessageSheet>(
         counted(missing.size(), "A sound is missing", "{0} sounds are missing"),
         tr("The clips can still be edited, played and exported; only re-analysis needs the sound.") + "\n\n" +
