@@ -5,6 +5,7 @@
 #include "app/AudioDevices.h"
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
+#include "editor/Translation.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
@@ -30,6 +31,7 @@ public:
         }
         if (!choices.fresh)
             settings = std::make_unique<juce::PropertiesFile>(settingsOptions());
+        editor::useLanguage({});
         processor = std::make_unique<plugin::Plugin>();
         rig = std::make_unique<AudioDevices>(*processor);
         Routing routing;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/RoutingBar.h"
 
+#include "editor/Translation.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -11,6 +13,7 @@ namespace pacini::app
 namespace
 {
 using editor::grid;
+using editor::tr;
 
 constexpr int none = 1; // menus know no item 0
 constexpr int testItem = 1000;
@@ -26,19 +29,17 @@ juce::String channelText(const juce::StringArray& names, int channel)
 } // namespace
 
 RoutingBar::RoutingBar(AudioDevices& wanted)
-    : rig(wanted),
-      devicesButton("Devices" + juce::String::fromUTF8("…")),
-      fileButton("File" + juce::String::fromUTF8("…"))
+    : rig(wanted), devicesButton(juce::String::fromUTF8("Devices…")), fileButton(juce::String::fromUTF8("File…"))
 {
-    devicesButton.setTitle("Sound devices");
-    devicesButton.setTooltip("Chooses the sound device, its rate and its block size");
+    devicesButton.setTitle("Audio devices");
+    devicesButton.setTooltip("Chooses the audio device, sample rate and block size");
     devicesButton.onClick = [this]
     {
         if (onDevices)
             onDevices();
     };
     fileButton.setTitle("Play a sound file");
-    fileButton.setTooltip("Plays a sound file again and again");
+    fileButton.setTooltip("Plays a sound file in a loop");
     fileButton.onClick = [this]
     {
         chooseFile();
@@ -59,12 +60,11 @@ RoutingBar::RoutingBar(AudioDevices& wanted)
         addAndMakeVisible(box);
     };
     addAndMakeVisible(devicesButton);
-    prepare(input, inputLabel, "Input", "The input that the haptic signal is made from");
+    prepare(input, inputLabel, "Input", "Input the haptic signal is made from");
     addAndMakeVisible(fileButton);
-    prepare(sidechain, sidechainLabel, "Sidechain", "The input that the source Sidechain listens to");
-    prepare(heard, heardLabel, "Sound out", "Where the sound is heard");
-    prepare(haptic, hapticLabel, "Haptic out",
-            "The output, or outputs, that the amplifiers of the actuators are connected to");
+    prepare(sidechain, sidechainLabel, "Sidechain", "Input of the sidechain");
+    prepare(heard, heardLabel, "Sound output", "Output for the sound");
+    prepare(haptic, hapticLabel, "Haptic output", "Output, or outputs, connected to the actuators' amplifiers");
     rig.devices().addChangeListener(this);
     fillMenus();
 }
@@ -109,30 +109,30 @@ void RoutingBar::fillMenus()
     const auto ins = rig.inputNames();
     const auto outs = rig.outputNames();
     input.clear(juce::dontSendNotification);
-    input.addItem("Test signal", testItem);
-    input.addItem("File", fileItem);
+    input.addItem(tr("Test signal"), testItem);
+    input.addItem(tr("File"), fileItem);
     for (int c = 0; c + 1 < ins.size(); c += 2)
-        input.addItem("Inputs " + juce::String(c + 1) + "+" + juce::String(c + 2), c + 2);
+        input.addItem(tr("Inputs {0}+{1}", {juce::String(c + 1), juce::String(c + 2)}), c + 2);
     if (ins.size() == 1)
-        input.addItem("Input 1", 2);
+        input.addItem(tr("Input {0}", {juce::String(1)}), 2);
     input.setSelectedId(now.input == InputChoice::test   ? testItem
                         : now.input == InputChoice::file ? fileItem
                                                          : now.mainInput + 2,
                         juce::dontSendNotification);
     if (input.getSelectedId() == 0)
-        input.setTextWhenNothingSelected("None");
+        input.setTextWhenNothingSelected(tr("None"));
 
     sidechain.clear(juce::dontSendNotification);
-    sidechain.addItem("None", none);
+    sidechain.addItem(tr("None"), none);
     for (int c = 0; c < ins.size(); ++c)
         sidechain.addItem(channelText(ins, c), c + 2);
     sidechain.setSelectedId(now.sidechainInput < ins.size() ? now.sidechainInput + 2 : none,
                             juce::dontSendNotification);
 
     heard.clear(juce::dontSendNotification);
-    heard.addItem("Nowhere", none);
+    heard.addItem(tr("None"), none);
     for (int c = 0; c + 1 < outs.size(); c += 2)
-        heard.addItem("Outputs " + juce::String(c + 1) + "+" + juce::String(c + 2), c + 2);
+        heard.addItem(tr("Outputs {0}+{1}", {juce::String(c + 1), juce::String(c + 2)}), c + 2);
     heard.setSelectedId(now.mainOutput + 1 < outs.size() ? now.mainOutput + 2 : none, juce::dontSendNotification);
 
     fillHapticMenu(now, outs);
@@ -147,7 +147,7 @@ void RoutingBar::fillHapticMenu(const Routing& now, const juce::StringArray& out
     };
     haptic.clear(juce::dontSendNotification);
     auto& menu = *haptic.getRootMenu();
-    menu.addItem(none, "Nowhere");
+    menu.addItem(none, tr("None"));
     for (int c = 0; c < outputs.size(); ++c)
         menu.addItem(c + 2, channelText(outputs, c));
     menu.addSeparator();
@@ -156,8 +156,8 @@ void RoutingBar::fillHapticMenu(const Routing& now, const juce::StringArray& out
         juce::PopupMenu firsts;
         for (int c = 0; c + channels <= outputs.size(); ++c)
             firsts.addItem(rowItems * channels + c,
-                           "Outputs " + juce::String(c + 1) + " to " + juce::String(c + channels));
-        menu.addSubMenu(juce::String(channels) + " actuators", firsts);
+                           tr("Outputs {0} to {1}", {juce::String(c + 1), juce::String(c + channels)}));
+        menu.addSubMenu(tr("{0} actuators", {juce::String(channels)}), firsts);
     }
     if (now.hapticChannels > 1)
     {
@@ -170,10 +170,10 @@ void RoutingBar::fillHapticMenu(const Routing& now, const juce::StringArray& out
             {
                 places.addItem(channelItems + rowItems * channel + to + 1, text, true, to == output);
             };
-            add(-1, "Nowhere");
+            add(-1, tr("None"));
             for (int c = 0; c < outputs.size(); ++c)
                 add(c, channelText(outputs, c));
-            menu.addSubMenu("Actuator " + juce::String(channel + 1) + ": " + outputText(output), places);
+            menu.addSubMenu(tr("Actuator {0}: {1}", {juce::String(channel + 1), outputText(output)}), places);
         }
     }
     const int first = now.hapticOutputs[0];
@@ -225,7 +225,7 @@ void RoutingBar::readMenus()
 
 void RoutingBar::chooseFile()
 {
-    chooser = std::make_unique<juce::FileChooser>("Play a sound file", juce::File(),
+    chooser = std::make_unique<juce::FileChooser>(tr("Play a sound file"), juce::File(),
                                                   "*.wav;*.flac;*.ogg;*.mp3;*.aif;*.aiff;*.caf");
     chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
                          [this](const juce::FileChooser& chosen)
@@ -234,8 +234,9 @@ void RoutingBar::chooseFile()
                                  return;
                              if (const auto played = rig.play(chosen.getResult()); !played)
                                  juce::NativeMessageBox::showMessageBoxAsync(
-                                     juce::MessageBoxIconType::WarningIcon, "Not played",
-                                     chosen.getResult().getFileName() + ": " + juce::String(played.error().text()),
+                                     juce::MessageBoxIconType::WarningIcon, tr("Not played"),
+                                     chosen.getResult().getFileName() + ": " +
+                                         editor::translateMessage(juce::String(played.error().text())),
                                      this);
                              fillMenus();
                          });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/StandaloneWindow.h"
 
+#include "editor/Translation.h"
+
 namespace pacini::app
 {
 
@@ -25,6 +27,7 @@ public:
         {
             showDevices();
         };
+        editor::translateTexts(bar);
         addAndMakeVisible(bar);
         addAndMakeVisible(plugin);
         plugin.setResizable(true, false); // the window has borders of its own
@@ -60,7 +63,7 @@ private:
         selector->setLookAndFeel(&plugin.getLookAndFeel());
         juce::DialogWindow::LaunchOptions options;
         options.content.setOwned(selector.release());
-        options.dialogTitle = "Sound devices";
+        options.dialogTitle = editor::tr("Audio devices");
         options.dialogBackgroundColour = editor::paletteFor(plugin).background;
         options.useNativeTitleBar = true;
         options.resizable = false;

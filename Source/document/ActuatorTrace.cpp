@@ -159,8 +159,8 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, co
         if (shared && std::find(owners.begin(), owners.end(), k) == owners.end())
         {
             source.whole = Loss::noVoice;
-            source.why = plan.motor ? "a motor has one strength and no pitch; this band only adds to the strength"
-                                    : "has no voice of its own; it is played by that of a neighbour";
+            source.why = plan.motor ? "ERM motors have one strength and no pitch; this band only adds to the strength"
+                                    : "is merged into a neighbouring band";
         }
         for (const LeftOut& left : plan.leftOut)
         {
@@ -194,7 +194,8 @@ void addBands(ActuatorTrace& trace, const Clip& clip, const RenderPlan& plan, co
         if (!played)
         {
             source.whole = Loss::dropped;
-            source.why = plan.motor ? "a motor cannot play noise; the envelope has it" : "lies outside the range";
+            source.why =
+                plan.motor ? "ERM motors cannot play noise; the envelope covers it" : "is outside the actuator's range";
         }
         const SourceCurves curves{band.amplitude, nullptr, centre, played ? &found->amplitude : nullptr,
                                   nullptr,        centre};
@@ -233,7 +234,7 @@ std::optional<std::size_t> ActuatorTrace::stepAt(double time) const noexcept
 std::string ActuatorTrace::textOf(std::size_t i) const
 {
     if (losses[i] == Loss::belowTouch)
-        return fmt::format("not felt: {:.0f} dB below the threshold of touch",
+        return fmt::format("not felt: {:.0f} dB below the touch threshold",
                            touch - decibelsOf(static_cast<double>(peaks[i])));
     if (losses[i] != Loss::limited)
         return {};
@@ -241,8 +242,9 @@ std::string ActuatorTrace::textOf(std::size_t i) const
     for (const auto& [bit, name] : {std::pair(Limit::fullDrive, "full drive"), std::pair(Limit::travel, "travel"),
                                     std::pair(Limit::heat, "heat")})
         if ((limits[i] & bit) != 0)
-            why += (why.empty() ? ": " : " and ") + std::string(name);
-    return fmt::format("protection takes {:.1f} dB{}", reductions[i], why);
+            why += (why.empty() ? "" : ", ") + std::string(name);
+    return why.empty() ? fmt::format("protection reduces by {:.1f} dB", reductions[i])
+                       : fmt::format("protection reduces by {:.1f} dB: {}", reductions[i], why);
 }
 
 std::string ActuatorTrace::textOf(const Source& source, std::size_t i) const
@@ -251,8 +253,8 @@ std::string ActuatorTrace::textOf(const Source& source, std::size_t i) const
     {
     case Loss::belowTouch:
         if (source.levels[i] <= silent)
-            return "not felt: nothing is left of it";
-        return fmt::format("not felt: {:.0f} dB below the threshold of touch",
+            return "not felt: nothing left";
+        return fmt::format("not felt: {:.0f} dB below the touch threshold",
                            touch - static_cast<double>(source.levels[i]));
     case Loss::outOfRange:
         return fmt::format("out of range: {} is played at {}", hertz(static_cast<double>(source.wanted[i])),

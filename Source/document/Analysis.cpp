@@ -20,14 +20,14 @@ Result<Clip> analyse(const AudioData& audio, const EncoderParams& params, const 
     if (auto valid = validate(params); !valid)
         return valid.error();
     if (audio.channels < 1 || audio.sampleRate < limits::lowestSampleRate)
-        return Error{ErrorCode::invalidData, "", "is no sound that can be analysed"};
+        return Error{ErrorCode::invalidData, "", "is not a sound that can be analysed"};
     Encoder encoder(params);
     SoundParts parts(audio.samples, audio.channels);
     const auto size = static_cast<double>(std::max<std::size_t>(1, audio.samples.size()));
     const auto next = [&]() -> SoundPart
     {
         if (goOn && !goOn(shareOfReading * (1.0 - static_cast<double>(parts.samplesLeft()) / size)))
-            return Error{ErrorCode::invalidData, "", "was stopped before its end"};
+            return Error{ErrorCode::invalidData, "", "was cancelled"};
         return parts();
     };
     auto clip = encodeSound(encoder, {audio.sampleRate, audio.channels}, next);

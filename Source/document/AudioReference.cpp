@@ -86,8 +86,7 @@ Result<LocatedAudio> locateAudio(const AudioReference& reference, std::span<cons
     std::error_code error;
     if (fs::is_regular_file(reference.path, error))
         return LocatedAudio{reference.path, false, true};
-    return Error{ErrorCode::io, reference.path.string(),
-                 "is not there any more; the clip is kept, show where the sound is to analyse it again"};
+    return Error{ErrorCode::io, reference.path.string(), "is missing; locate the sound to analyse the clip again"};
 }
 
 std::vector<AudioReference> foundBy(const fs::path& chosen, std::span<const AudioReference> missing)

@@ -52,8 +52,7 @@ const std::vector<ClipFormat>& exportFormats()
             {.name = "wav",
              .title = "Drive signal (WAV)",
              .extension = ".wav",
-             .keeps =
-                 "Samples of the drive signal for the chosen actuator, its limits kept. It cannot be edited further.",
+             .keeps = "Drive signal samples for the chosen actuator, within its limits. Cannot be edited further.",
              .isSamples = true});
         return list;
     }();

@@ -67,7 +67,7 @@ Result<Document> Document::recover(const fs::path& recoveryFile)
 Result<void> Document::save()
 {
     if (file.empty())
-        return Error{ErrorCode::invalidArgument, "", "the project has no file yet; choose one"};
+        return Error{ErrorCode::invalidArgument, "", "the project has not been saved yet; choose a file"};
     return saveAs(file);
 }
 

@@ -61,18 +61,18 @@ std::string editTitle(const Edit& edit)
             [](const GainEdit& gain) { return fmt::format("Gain of {:+.1f} dB", gain.decibels); },
             [](const FadeEdit& fade)
             { return std::string(fade.direction == FadeDirection::in ? "Fade in" : "Fade out"); },
-            [](const InvertEdit&) { return std::string("Inverted levels"); },
-            [](const QuantiseEdit&) { return std::string("Quantised to a grid"); },
+            [](const InvertEdit&) { return std::string("Inverted"); },
+            [](const QuantiseEdit&) { return std::string("Quantised"); },
             [](const HumaniseEdit&) { return std::string("Humanised"); },
             [](const TransposeEdit& transpose)
             { return fmt::format("Transposed by {:+.1f} semitones", transpose.semitones); },
             [](const TrimEdit&) { return std::string("Trimmed"); },
-            [](const CutEdit&) { return std::string("Stretch cut out"); },
+            [](const CutEdit&) { return std::string("Range cut"); },
             [](const InsertEdit&) { return std::string("Clip inserted"); },
             [](const RepeatEdit& repeat) { return fmt::format("Repeated {} times", repeat.passes); },
             [](const ReverseEdit&) { return std::string("Reversed"); },
             [](const StretchEdit& stretch) { return fmt::format("Stretched to {:.0f} %", 100.0 * stretch.ratio); },
-            [](const ReplaceEdit&) { return std::string("Whole clip replaced"); },
+            [](const ReplaceEdit&) { return std::string("Clip replaced"); },
             [](const ThinEdit&) { return std::string("Transients thinned"); },
         },
         edit.operation);

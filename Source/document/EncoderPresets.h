@@ -25,12 +25,12 @@ struct EncoderPreset
     {
         std::vector<EncoderPreset> all = {
             {"Standard", "Good for most sounds", {}},
-            {"Fine detail", "More bands and points, for close listening", {}},
+            {"Fine detail", "More bands and points", {}},
             {"Small file", "Few bands and points", {}},
-            {"Events first", "Finds weak and close hits", {}},
-            {"Steady texture", "Only clear hits count as events", {}},
+            {"Transients first", "Finds weak and close hits", {}},
+            {"Steady texture", "Only clear hits become events", {}},
             {"Low rumble", "20 to 300 Hz, for large actuators", {}},
-            {"As recorded", "Nothing of what lies above the range of touch", {}},
+            {"As recorded", "Ignores sound above the range of touch", {}},
         };
         all[1].params.bands = 24;
         all[1].params.breakpoints = 60.0;

@@ -113,7 +113,7 @@ namespace detail
                                       pointsInside(*curveOf(clip, *places[i]), {at, end}, {0.0, limits::frequency}));
     }
     if (result.leftOut > 0 && result.leftOut == places.size() && fragment.transients.empty())
-        return Error{ErrorCode::invalidArgument, "", "this clip has no band near those that were copied"};
+        return Error{ErrorCode::invalidArgument, "", "this clip has no bands near the copied ones"};
     Fragment events;
     events.duration = fragment.duration;
     events.transients = fragment.transients;

@@ -128,7 +128,7 @@ public:
         if (toTheEnd)
             e.range.to = clip.duration + 1e-6; // all that validate() lets be there
         if (before > 0.0 && e.range.from >= clip.duration && clip.duration < length)
-            problem = "lies after the end of the sound";
+            problem = "lies beyond the end of the sound";
     }
 
     void operator()(TransientPatch& e)
@@ -154,7 +154,7 @@ public:
                 e.before->time = wanted;
                 if (e.after)
                     e.after->time = wanted + shift;
-                problem = fmt::format("the event at {:.3f} s is no longer there", wanted);
+                problem = fmt::format("the event at {:.3f} s no longer exists", wanted);
                 return;
             }
             const Transient was = *e.before;
@@ -211,7 +211,7 @@ std::string placeLanes(Edit& edit, const BandFinder& bands)
                       if (lane.index == nowhere)
                           missing += fmt::format("{}{:.0f} Hz", missing.empty() ? "" : ", ", frequency);
                   });
-    return missing.empty() ? missing : "there is no band any more near " + missing;
+    return missing.empty() ? missing : "no band left near " + missing;
 }
 } // namespace
 

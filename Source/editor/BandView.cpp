@@ -27,7 +27,7 @@ juce::String frequencyText(double hertz)
 BandView::BandView()
 {
     setTitle("Bands");
-    setDescription("Level of each band of the sound over the last seconds, with its events");
+    setDescription("Band levels and events over the last seconds");
     setOpaque(false);
 }
 

@@ -15,7 +15,7 @@ Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std:
     if (rate < 8000 || rate > 768000)
         return Error{ErrorCode::invalidArgument, "sample rate", "must be 8 to 768 kHz to be encoded"};
     if (static_cast<double>(capture.samples.size()) < 0.1 * sampleRate)
-        return Error{ErrorCode::invalidData, "", "less than a tenth of a second was heard"};
+        return Error{ErrorCode::invalidData, "", "less than 0.1 s of sound was captured"};
     Encoder encoder{EncoderParams{}};
     auto clip = encodeSound(encoder, {rate, 1}, SoundParts(capture.samples, 1));
     if (clip)

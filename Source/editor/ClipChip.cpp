@@ -26,8 +26,8 @@ Result<juce::File> writeForDragging(const Clip& clip)
 ClipChip::ClipChip()
 {
     setTitle("Captured clip");
-    setDescription("Drag it to a folder or into a program that takes files");
-    setTooltip("Drag it to a folder or into a program that takes files");
+    setDescription("Drag to a folder or another program");
+    setTooltip("Drag to a folder or another program");
     setMouseCursor(juce::MouseCursor::DraggingHandCursor);
     setVisible(false);
 }

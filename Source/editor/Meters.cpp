@@ -95,7 +95,7 @@ std::unique_ptr<juce::AccessibilityHandler> LevelMeter::createAccessibilityHandl
 EventLamp::EventLamp()
 {
     setTitle("Events");
-    setDescription("Lights up with every sudden event in the sound");
+    setDescription("Lights up at every transient in the sound");
 }
 
 void EventLamp::show(unsigned events, double level)

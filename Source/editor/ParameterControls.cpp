@@ -2,6 +2,7 @@
 #include "editor/ParameterControls.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 #include <utility>
@@ -17,7 +18,7 @@ juce::String withRange(const juce::AudioProcessorParameter& parameter, const juc
     {
         return parameter.getText(normal, 0);
     };
-    return help + "\n" + text(0.0f) + " to " + text(1.0f) + ", usually " + text(parameter.getDefaultValue());
+    return tr(help) + "\n" + tr("{0} to {1}, default {2}", {text(0.0f), text(1.0f), text(parameter.getDefaultValue())});
 }
 } // namespace
 

@@ -13,8 +13,56 @@ namespace
 const juce::Identifier quietProperty("quiet");
 constexpr float largestKnob = 32.0f; // radius
 
+/// A font of Japanese that JUCE finds by name, or, on Linux, one in a collection, which it does not list.
+struct JapaneseFont
+{
+    juce::String name;
+    juce::Typeface::Ptr plain, bold;
+    [[nodiscard]] bool isThere() const { return name.isNotEmpty() || plain != nullptr; }
+};
+
+juce::Typeface::Ptr collection(const juce::String& file)
+{
+    juce::MemoryBlock bytes;
+    if (!juce::File(file).loadFileAsData(bytes))
+        return nullptr;
+    return juce::Typeface::createSystemTypefaceFor(bytes.getData(), bytes.getSize());
+}
+
+const JapaneseFont& japaneseFont()
+{
+    static const JapaneseFont found = []
+    {
+        JapaneseFont font;
+        const auto names = juce::Font::findAllTypefaceNames();
+        for (const char* name :
+             {"Noto Sans CJK JP", "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo",
+              "IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "VL PGothic"})
+            if (names.contains(name))
+            {
+                font.name = name;
+                return font;
+            }
+#if JUCE_LINUX || JUCE_BSD
+        const juce::String folder = "/usr/share/fonts/opentype/noto/NotoSansCJK-";
+        font.plain = collection(folder + "Regular.ttc");
+        if (font.plain != nullptr)
+            font.bold = collection(folder + "Bold.ttc");
+#endif
+        return font;
+    }();
+    return found;
+}
+
+bool japaneseNow = false;
+
 juce::Font fontOf(float height, bool bold)
 {
+    if (japaneseNow && japaneseFont().plain != nullptr)
+    {
+        const auto& font = japaneseFont();
+        return juce::Font(bold && font.bold != nullptr ? font.bold : font.plain).withHeight(height);
+    }
     const int style = bold ? juce::Font::bold : juce::Font::plain;
 #if JUCE_MAJOR_VERSION >= 8
     return juce::Font(juce::FontOptions(height, style));
@@ -273,6 +321,20 @@ const Palette& paletteFor(const juce::Component& component)
 {
     const auto* look = dynamic_cast<const Look*>(&component.getLookAndFeel());
     return look ? look->palette() : paletteOf(true);
+}
+
+bool findJapaneseFont()
+{
+    return japaneseFont().isThere();
+}
+
+void useFontOf(const juce::String& language)
+{
+    japaneseNow = language == "ja" && findJapaneseFont();
+    // All fonts without a name get this one, those of JUCE's own components, too.
+    juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(japaneseNow ? japaneseFont().name
+                                                                                           : juce::String());
+    juce::Typeface::clearTypefaceCache();
 }
 
 juce::Font smallFont()

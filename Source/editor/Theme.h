@@ -56,6 +56,12 @@ private:
 /// The look of a component's window; a dark one for a component without.
 [[nodiscard]] const Palette& paletteFor(const juce::Component& component);
 
+/// Whether this system has a font with the characters of Japanese.
+[[nodiscard]] bool findJapaneseFont();
+
+/// Fonts from now on have the characters of this language: Japanese needs one of its own. [message]
+void useFontOf(const juce::String& language);
+
 /// Type sizes: small for units and notes, usual, and large for titles.
 [[nodiscard]] juce::Font smallFont();
 [[nodiscard]] juce::Font usualFont();

@@ -3,14 +3,101 @@
 
 #include "TranslationData.h"
 #include "editor/Text.h"
+#include "editor/Theme.h"
 
 #include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
 
 namespace pacini::editor
 {
 
 namespace
 {
+/// A message with values in it, such as `Gain of {0} dB`.
+struct Template
+{
+    juce::String key;
+    juce::StringArray fixed;      ///< what stands between the values; may be empty at the ends
+    juce::StringArray names;      ///< of the values
+    std::vector<bool> translated; ///< whether a value is a text of the table, too
+    int letters = 0;              ///< fixed ones: of two templates that fit, the more specific one counts
+
+    /// Whether a text that fits is this one: "{0} of {1}" would fit half of all sentences.
+    [[nodiscard]] bool isSpecific() const
+    {
+        constexpr int enough = 12;
+        return letters >= enough || (letters > 0 && juce::CharacterFunctions::isLetter(fixed[0][0]));
+    }
+};
+
+struct Table
+{
+    juce::String code = "en";
+    std::unordered_map<juce::String, juce::String> texts;
+    std::vector<Template> templates;
+};
+
+Table& tableNow()
+{
+    static Table table;
+    return table;
+}
+
+Template templateOf(const juce::String& key)
+{
+    Template made;
+    made.key = key;
+    juce::String rest = key;
+    while (rest.containsChar('{') && rest.containsChar('}'))
+    {
+        made.fixed.add(rest.upToFirstOccurrenceOf("{", false, false));
+        const auto inside = rest.fromFirstOccurrenceOf("{", false, false).upToFirstOccurrenceOf("}", false, false);
+        made.names.add(inside.upToFirstOccurrenceOf(":", false, false));
+        made.translated.push_back(inside.endsWith(":text"));
+        rest = rest.fromFirstOccurrenceOf("}", false, false);
+    }
+    made.fixed.add(rest);
+    for (const auto& part : made.fixed)
+        for (int i = 0; i < part.length(); ++i)
+            made.letters += juce::CharacterFunctions::isLetter(part[i]) ? 1 : 0;
+    return made;
+}
+
+juce::String filled(juce::String text, const juce::StringArray& names, const juce::StringArray& values)
+{
+    juce::String result;
+    while (text.containsChar('{'))
+    {
+        const auto inside = text.fromFirstOccurrenceOf("{", false, false).upToFirstOccurrenceOf("}", false, false);
+        const int which = names.indexOf(inside.upToFirstOccurrenceOf(":", false, false));
+        result << text.upToFirstOccurrenceOf("{", false, false) << (which >= 0 ? values[which] : "{" + inside + "}");
+        text = text.fromFirstOccurrenceOf("}", false, false);
+    }
+    return result + text;
+}
+
+/// The values of a template in a text that fits.
+std::optional<juce::StringArray> valuesOf(const Template& wanted, const juce::String& text)
+{
+    if (!text.startsWith(wanted.fixed[0]))
+        return std::nullopt;
+    juce::StringArray values;
+    int at = wanted.fixed[0].length();
+    for (int i = 1; i < wanted.fixed.size(); ++i)
+    {
+        const auto& next = wanted.fixed[i];
+        const bool last = i + 1 == wanted.fixed.size();
+        const int found = last ? text.length() - next.length() : text.indexOf(at, next);
+        if (found <= at || (last && !text.endsWith(next)) || (next.isEmpty() && !last))
+            return std::nullopt;
+        values.add(text.substring(at, found));
+        at = found + next.length();
+    }
+    return values;
+}
+
 juce::String textOfFile(const juce::String& code)
 {
     for (int i = 0; i < translationData::namedResourceListSize; ++i)
@@ -54,22 +141,104 @@ juce::String languageName(const juce::String& code)
     return code == "en" ? juce::String("English") : juce::LocalisedStrings(textOfFile(code), false).getLanguageName();
 }
 
+bool canShow(const juce::String& code)
+{
+    return code != "ja" || findJapaneseFont();
+}
+
+void useTranslations(const juce::String& text)
+{
+    const juce::LocalisedStrings read(text, false);
+    Table& table = tableNow();
+    table = {};
+    const juce::StringPairArray& pairs = read.getMappings();
+    for (int i = 0; i < pairs.size(); ++i)
+    {
+        const juce::String& key = pairs.getAllKeys()[i];
+        table.texts[key] = pairs.getAllValues()[i];
+        if (key.containsChar('{'))
+            table.templates.push_back(templateOf(key));
+    }
+    // JUCE looks here for what its own components say.
+    juce::LocalisedStrings::setCurrentMappings(
+        table.texts.empty() ? nullptr : std::make_unique<juce::LocalisedStrings>(text, false).release());
+}
+
 void useLanguage(const juce::String& code)
 {
-    const juce::String wanted = code.isNotEmpty() ? code : juce::SystemStats::getUserLanguage();
-    const juce::String text = textOfFile(wanted.substring(0, 2).toLowerCase());
-    juce::LocalisedStrings::setCurrentMappings(
-        text.isEmpty() ? nullptr : std::make_unique<juce::LocalisedStrings>(text, false).release());
+    const auto wanted = (code.isNotEmpty() ? code : juce::SystemStats::getUserLanguage()).substring(0, 2).toLowerCase();
+    const juce::String text = canShow(wanted) ? textOfFile(wanted) : juce::String();
+    useTranslations(text);
+    if (text.isNotEmpty())
+        tableNow().code = wanted;
+    useFontOf(tableNow().code);
+}
+
+juce::String languageInUse()
+{
+    return tableNow().code;
 }
 
 juce::String tr(const juce::String& english)
 {
-    return english.isEmpty() ? english : juce::translate(english);
+    const auto& texts = tableNow().texts;
+    const auto found = texts.find(english);
+    return found == texts.end() ? english : found->second;
+}
+
+juce::String tr(const juce::String& english, std::initializer_list<juce::String> values)
+{
+    juce::StringArray names, given;
+    for (const auto& value : values)
+    {
+        names.add(juce::String(names.size()));
+        given.add(value);
+    }
+    return filled(tr(english), names, given);
 }
 
 juce::String counted(std::size_t number, const juce::String& one, const juce::String& many)
 {
-    return juce::String(static_cast<juce::int64>(number)) + " " + tr(number == 1 ? one : many);
+    return tr(number == 1 ? one : many, {juce::String(static_cast<juce::int64>(number))});
+}
+
+juce::String translateMessage(const juce::String& english)
+{
+    const Table& table = tableNow();
+    if (table.texts.empty() || english.isEmpty())
+        return english;
+    if (const auto found = table.texts.find(english); found != table.texts.end())
+        return found->second;
+    const Template* best = nullptr;
+    juce::StringArray values;
+    for (const Template& one : table.templates)
+        if (one.isSpecific() && (best == nullptr || one.letters > best->letters))
+            if (auto fitting = valuesOf(one, english))
+            {
+                best = &one;
+                values = std::move(*fitting);
+            }
+    if (best != nullptr)
+    {
+        for (int i = 0; i < values.size(); ++i)
+            if (best->translated[static_cast<std::size_t>(i)])
+                values.set(i, translateMessage(values[i]));
+        return filled(table.texts.at(best->key), best->names, values);
+    }
+    if (english.containsChar('\n'))
+    {
+        auto lines = juce::StringArray::fromLines(english);
+        for (auto& line : lines)
+            line = translateMessage(line);
+        return lines.joinIntoString("\n");
+    }
+    if (const int colon = english.indexOf(": "); colon > 0)
+        return english.substring(0, colon + 2) + translateMessage(english.substring(colon + 2));
+    juce::StringArray list = juce::StringArray::fromTokens(english, ",", {}); // "travel, heat"
+    list.trim();
+    for (auto& one : list)
+        one = tr(one);
+    return list.size() > 1 ? list.joinIntoString(", ") : english;
 }
 
 void translateTexts(juce::Component& root)

@@ -6,6 +6,7 @@
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <cstddef>
+#include <initializer_list>
 
 namespace pacini::editor
 {
@@ -16,15 +17,32 @@ namespace pacini::editor
 /// The name that a language gives itself.
 [[nodiscard]] juce::String languageName(const juce::String& code);
 
-/// From now on: the language with this code, "en" for none, or the system's when it is empty. Windows that are open
-/// stay as they are. [message]
+/// Whether a font of this system has the characters of a language.
+[[nodiscard]] bool canShow(const juce::String& code);
+
+/// From now on: the language with this code, "en" for none, or the system's when it is empty. English when no font can
+/// show it. Windows that are open stay as they are. [message]
 void useLanguage(const juce::String& code);
+
+/// The same with a table as the files of Resources/translations have it.
+void useTranslations(const juce::String& table);
+
+/// The code of the language in use.
+[[nodiscard]] juce::String languageInUse();
 
 /// An English text in the language; itself where there is no translation.
 [[nodiscard]] juce::String tr(const juce::String& english);
 
-/// "1 point", "3 points": a number and its word, of which both are translated.
+/// A template in the language, with `{0}`, `{1}`... replaced by values. Values are not translated.
+[[nodiscard]] juce::String tr(const juce::String& english, std::initializer_list<juce::String> values);
+
+/// "1 point", "3 points": one of two templates with the number as `{0}`.
 [[nodiscard]] juce::String counted(std::size_t number, const juce::String& one, const juce::String& many);
+
+/// A text that was put together in English by code without windows (documents, writers of formats): whole, by a
+/// template of the table that it fits, or line by line. `{0:text}` in a template stands for a value that is translated
+/// in turn. What comes before ": " may be a name. Costs a search of the table: not for painting.
+[[nodiscard]] juce::String translateMessage(const juce::String& english);
 
 /// Translates what a component and all inside it say: names, descriptions, tooltips, buttons, labels that are not
 /// edited, choices and tabs. What is put together or drawn while the program runs is up to who does that. Twice does no

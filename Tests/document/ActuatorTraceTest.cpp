@@ -60,9 +60,9 @@ TEST_CASE("A trace shows the peak of the drive, and a band that goes under the t
     CHECK(parts[0].loss == Loss::belowTouch);
     CHECK(parts[0].time.from == Approx(2.0).margin(0.006));
     CHECK(parts[0].time.to == Approx(4.0).margin(0.006));
-    CHECK(made->textOf(made->sources[0], 600) == "not felt: 6 dB below the threshold of touch");
+    CHECK(made->textOf(made->sources[0], 600) == "not felt: 6 dB below the touch threshold");
     CHECK(made->textOf(made->sources[0], 200).empty());
-    CHECK(made->textOf(600) == "not felt: 6 dB below the threshold of touch");
+    CHECK(made->textOf(600) == "not felt: 6 dB below the touch threshold");
     CHECK(made->losses[200] == Loss::none);
     CHECK(!made->stepAt(-0.1));
     CHECK(!made->stepAt(4.1));
@@ -170,7 +170,7 @@ TEST_CASE("Where protection takes from the drive, the trace says how much and wh
     CHECK(parts[0].loss == Loss::limited);
     CHECK(parts[0].time.from == Approx(1.0).margin(0.01));
     CHECK(static_cast<double>(made->reductions[350]) == Approx(6.02).margin(0.4));
-    CHECK(made->textOf(350).find("protection takes 6.") == 0);
+    CHECK(made->textOf(350).find("protection reduces by 6.") == 0);
     CHECK(made->textOf(350).find("dB: full drive") != std::string::npos);
     CHECK(made->reductions[100] == 0.0f);
     for (const float peak : made->peaks)

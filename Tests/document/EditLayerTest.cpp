@@ -133,7 +133,7 @@ TEST_CASE("What no longer fits is listed, is not lost, and fits again later")
     const auto item = e.document.clip(e.id);
     REQUIRE(item->unfitting.size() == 1);
     CHECK(item->unfitting[0].edit == 1);
-    CHECK(item->unfitting[0].reason.find("no longer there") != std::string::npos);
+    CHECK(item->unfitting[0].reason.find("no longer exists") != std::string::npos);
     CHECK(item->edits.size() == 3);
     REQUIRE(e.document.reanalyse(e.id, "Back", {}, analysis));
     CHECK(e.document.clip(e.id)->unfitting.empty());

@@ -210,7 +210,7 @@ TEST_CASE("The loose one of five placements is named and left out of the average
     REQUIRE(work.response() != nullptr);
     CHECK(work.response()->findings.outliers == std::set<std::size_t>{3});
     REQUIRE_FALSE(work.response()->notes.empty());
-    CHECK(work.response()->notes.front().find("'Wearer 3' is unlike the others") == 0);
+    CHECK(work.response()->notes.front().find("'Wearer 3' differs from the others") == 0);
     CHECK(work.profile("x").measurement->placements == 4);
 }
 
@@ -271,11 +271,11 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
 
     SECTION("nothing is connected")
     {
-        CHECK(failure(rig, {4}).find("No sweep was heard on 'Nothing connected'") == 0);
+        CHECK(failure(rig, {4}).find("No sweep detected on 'Nothing connected'") == 0);
     }
     SECTION("the input carries the drive")
     {
-        CHECK(failure(rig, {3}).find("'Drive signal' carries the drive signal itself, not a movement") == 0);
+        CHECK(failure(rig, {3}).find("'Drive signal' carries the drive signal, not a motion") == 0);
     }
     SECTION("the sensor is overloaded")
     {
@@ -285,7 +285,7 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
         const auto placement = analysePlacement("x", recordedOn(small, signal, sweep, {0, 1, 2}), settings);
         REQUIRE(placement.ok());
         REQUIRE_FALSE(placement->notes.empty());
-        CHECK(placement->notes.front().find("' clips: ") != std::string::npos);
+        CHECK(placement->notes.front().find("Clipping on '") != std::string::npos);
         CHECK(placement->notes.front().find("record or drive at a lower level") != std::string::npos);
         // Something so strong that nothing is seen of the sweep.
         RecordedSweep drowned = recordedOn(small, signal, sweep, {0});
@@ -293,7 +293,7 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
             drowned.channels.front()[n] = n / 40 % 2 == 0 ? 1.0f : -1.0f;
         const auto nothing = analysePlacement("x", drowned, settings);
         REQUIRE_FALSE(nothing.ok());
-        CHECK(nothing.error().message.find("' clips: ") != std::string::npos);
+        CHECK(nothing.error().message.find("Clipping on '") != std::string::npos);
     }
     SECTION("the recording ends too early")
     {

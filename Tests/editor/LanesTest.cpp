@@ -232,7 +232,7 @@ TEST_CASE("Version A is shown and played in place of the clip, cannot be edited,
     CHECK(bench.clip() == second);
     REQUIRE(bench.view.doCommand(editor::takeVersionA));
     CHECK(bench.clip() == first);
-    CHECK(session.model.document().undoName() == "Take version A");
+    CHECK(session.model.document().undoName() == "Revert to version A");
     session.model.undo();
     CHECK(bench.clip() == second);
 }

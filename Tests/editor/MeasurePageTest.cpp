@@ -173,7 +173,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         bench.controller->setWiring({0, {4}});
         bench.sweep();
         CHECK(bench.controller->measurement().placements().empty());
-        CHECK(notes(bench).find("No sweep was heard on 'Nothing connected'") == 0);
+        CHECK(notes(bench).find("No sweep detected on 'Nothing connected'") == 0);
         CHECK_FALSE(bench.page->show(MeasureStep::response));
     }
     SECTION("nothing is connected to the output")
@@ -182,7 +182,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         bench.controller->setWiring({1, {0, 1, 2}});
         bench.sweep();
         CHECK(bench.controller->measurement().placements().empty());
-        CHECK(notes(bench).find("No sweep was heard") == 0);
+        CHECK(notes(bench).find("No sweep detected") == 0);
     }
     SECTION("the input carries the drive")
     {
@@ -190,7 +190,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         bench.controller->setWiring({0, {3}});
         bench.sweep();
         CHECK(bench.controller->measurement().placements().empty());
-        CHECK(notes(bench).find("'Drive signal' carries the drive signal itself, not a movement.") == 0);
+        CHECK(notes(bench).find("'Drive signal' carries the drive signal, not a motion.") == 0);
     }
     SECTION("the sensor is overloaded")
     {
@@ -199,7 +199,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         MeasureBench bench(narrow);
         bench.sweep();
         REQUIRE(bench.controller->measurement().placements().size() == 1);
-        CHECK(notes(bench).find("' clips: ") != std::string::npos);
+        CHECK(notes(bench).find("Clipping on '") != std::string::npos);
     }
     SECTION("a second try takes the words away, and placements can be dropped")
     {

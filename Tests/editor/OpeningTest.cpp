@@ -142,7 +142,7 @@ TEST_CASE("Several files come in their order, the first is shown, and what fails
     CHECK(names == std::vector<std::string>{"a", "b", "c"});
     CHECK(session.model.item()->clip->name == "a");
     REQUIRE(messages.titles.size() == 1);
-    CHECK(messages.titles[0] == "2 of 5 files were not opened");
+    CHECK(messages.titles[0] == "2 of 5 files not opened");
     CHECK(messages.texts[0].find("broken.wav") != std::string::npos);
     CHECK(messages.texts[0].find("empty.flac") != std::string::npos);
 }
@@ -215,7 +215,7 @@ TEST_CASE("A copy inside the project makes it independent of the file, and the o
         bench.session.sounds.add(editor::importFile(folder / "hit.wav", {}).value());
         bench.session.sounds.keepSound(bench.session.model.item()->source, true);
         REQUIRE(pumpUntil([&] { return bench.session.model.document().project().sources[0].embedded != nullptr; }));
-        CHECK(bench.session.model.document().undoName() == "Keep a copy of the sound");
+        CHECK(bench.session.model.document().undoName() == "Embed sound");
         REQUIRE(bench.session.model.saveAs(folder / "p.pacini"));
     }
     const std::string bytes = bytesOf(folder / "hit.wav");
@@ -228,7 +228,7 @@ TEST_CASE("A copy inside the project makes it independent of the file, and the o
     CHECK(*session.model.document().project().sources[0].embedded == bytes);
     session.sounds.keepSound(session.model.item()->source, false);
     REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
-    CHECK(messages.titles[0] == "The copy is kept");
+    CHECK(messages.titles[0] == "Embedded sound kept");
     CHECK(session.model.document().project().sources[0].embedded != nullptr);
     CHECK_FALSE(session.model.document().isDirty());
 }

@@ -188,7 +188,7 @@ TEST_CASE("Fades have their shapes, and both ends")
     bench.session.model.undo();
     bench.view.doCommand(editor::fadeOutSmoothly);
     CHECK(valueAt(bench.clip().envelope, quarter) == Approx(0.8536 * was).margin(0.002));
-    CHECK(bench.session.model.document().undoName() == "Fade out smoothly");
+    CHECK(bench.session.model.document().undoName() == "Smooth fade out");
 }
 
 TEST_CASE("A clip is split at the playhead and joined with the next again")

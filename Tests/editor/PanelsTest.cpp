@@ -82,7 +82,7 @@ TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back t
     CHECK(pages.session.model.item()->encoder == encoderPresets()[1].params);
     get<juce::Slider>(pages.analysis, "Detail").setValue(33.0, juce::sendNotificationSync);
     CHECK(preset.getSelectedId() == 0);
-    CHECK(preset.getText() == "Own settings");
+    CHECK(preset.getText() == "Custom");
     // The ends of the bands never cross.
     get<juce::Slider>(pages.analysis, "Lowest").setValue(900.0, juce::sendNotificationSync);
     get<juce::Slider>(pages.analysis, "Highest").setValue(200.0, juce::sendNotificationSync);
@@ -104,8 +104,8 @@ TEST_CASE("A clip without a sound cannot be analysed, and says why")
     pages.session.sounds.add({{}, nullptr, {}, clip, {}});
     CHECK_FALSE(get<juce::Slider>(pages.analysis, "Bands").isEnabled());
     CHECK_FALSE(get<juce::ComboBox>(pages.analysis, "Preset").isEnabled());
-    CHECK(get<juce::Label>(pages.analysis, "Sound of the clip").getText().contains("without a sound"));
-    CHECK_FALSE(get<juce::ToggleButton>(pages.project, "Keep a copy of the sound inside the project").isEnabled());
+    CHECK(get<juce::Label>(pages.analysis, "Source sound").getText().contains("no source sound"));
+    CHECK_FALSE(get<juce::ToggleButton>(pages.project, "Embed the sound in the project").isEnabled());
 }
 
 TEST_CASE("Edits that found no place are listed with their reasons, shown where they are, and removed")
@@ -122,7 +122,7 @@ TEST_CASE("Edits that found no place are listed with their reasons, shown where 
     session.sounds.reanalyse(low);
     REQUIRE(pumpUntil([&] { return analysed(session); }));
     REQUIRE(session.model.item()->unfitting.size() == 1);
-    auto& list = get<juce::ListBox>(pages.analysis, "Edits that do not fit");
+    auto& list = get<juce::ListBox>(pages.analysis, "Unapplied edits");
     CHECK(list.isVisible());
     REQUIRE(list.getModel()->getNumRows() == 1);
     CHECK(list.getModel()->getNameForRow(0).contains(juce::String(session.model.item()->unfitting[0].reason)));
@@ -238,12 +238,12 @@ TEST_CASE("Keys of the list choose, rename and remove")
     press(juce::KeyPress(juce::KeyPress::upKey));
     CHECK(list.chosenRow() == 0);
     press(juce::KeyPress(juce::KeyPress::returnKey));
-    auto& field = get<juce::TextEditor>(list, "Name of the clip");
+    auto& field = get<juce::TextEditor>(list, "Clip name");
     CHECK(field.getText() == "knock_wood_bridge");
     field.setText("Knock");
     field.onReturnKey();
     CHECK(pages.names() == Names{"Knock", "drums_tabla_pattern"});
-    CHECK(find<juce::TextEditor>(list, "Name of the clip") == nullptr);
+    CHECK(find<juce::TextEditor>(list, "Clip name") == nullptr);
     press(juce::KeyPress(juce::KeyPress::deleteKey));
     CHECK(pages.names() == Names{"drums_tabla_pattern"});
     pumpFor(0.05);
@@ -254,8 +254,8 @@ TEST_CASE("Notes of clip and project are steps, each with the clip that they wer
     Pages pages;
     auto& session = pages.session;
     pages.openDemo("drums_tabla_pattern");
-    auto& ofClip = get<juce::TextEditor>(pages.project, "Notes of the clip");
-    auto& ofProject = get<juce::TextEditor>(pages.project, "Notes of the project");
+    auto& ofClip = get<juce::TextEditor>(pages.project, "Clip notes");
+    auto& ofProject = get<juce::TextEditor>(pages.project, "Project notes");
     ofClip.setText("slower", true);
     ofProject.setText("for the wristband", true);
     ofClip.onTextChange();

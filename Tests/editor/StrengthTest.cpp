@@ -106,7 +106,7 @@ struct OpenSheet
     /// The bytes that Export writes.
     std::string written(EditorBench& bench, const std::filesystem::path& path)
     {
-        get<juce::TextEditor>(sheet, "File or folder to write").setText(juce::String(path.string()), true);
+        get<juce::TextEditor>(sheet, "Destination file or folder").setText(juce::String(path.string()), true);
         for (juce::Component* child : sheet.getChildren())
             if (auto* button = dynamic_cast<juce::TextButton*>(child);
                 button != nullptr && button->getButtonText() == "Export")

@@ -3,13 +3,8 @@
 #include "editor/Translation.h"
 
 #include "editor/Bench.h"
-#include "support/Paths.h"
-
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <sstream>
-#include <string>
+#include "editor/Text.h"
+#include "editor/Unmarked.h"
 
 using namespace pacini;
 
@@ -21,14 +16,6 @@ struct Language
     explicit Language(const char* code) { editor::useLanguage(code); }
     ~Language() { editor::useLanguage("en"); }
 };
-
-std::string contentOf(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 bool anyTooltip(const juce::Component& root, const juce::String& wanted)
 {
@@ -58,42 +45,119 @@ TEST_CASE("Menus, buttons and pages are in the chosen language, and in English w
         CHECK(menuNames(bench.view).contains("Bearbeiten"));
         CHECK(bench.view.sidePanel().getTabNames().contains("Analyse"));
         CHECK(anyTooltip(bench.view, "Zum Anfang"));
-        CHECK_FALSE(anyTooltip(bench.view, "To start"));
+        CHECK_FALSE(anyTooltip(bench.view, "Go to start"));
     }
     test::EditorBench bench;
     CHECK(menuNames(bench.view).contains("Edit"));
-    CHECK(anyTooltip(bench.view, "To start"));
+    CHECK(anyTooltip(bench.view, "Go to start"));
     const Language unknown("tlh");
     CHECK(editor::tr("Edit") == "Edit");
 }
 
-TEST_CASE("Every line of a translation is for a text that there is")
+TEST_CASE("Every language has a name of its own")
 {
-    std::string sources;
-    for (const char* room : {"Source/editor", "Source/app/editor"})
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder() / room))
-            if (entry.path().extension() == ".cpp")
-                sources += contentOf(entry.path());
-    for (const auto& code : editor::languages())
-    {
-        const auto file = sourceFolder() / "Resources/translations" / (code.toStdString() + ".txt");
-        std::istringstream lines(contentOf(file));
-        std::set<std::string> seen;
-        std::size_t count = 0;
-        for (std::string line; std::getline(lines, line);)
-        {
-            if (line.empty() || line.front() != '"')
-                continue;
-            const std::string key = line.substr(0, line.find("\" = \"") + 1);
-            CAPTURE(file, line);
-            CHECK(line.back() == '"');
-            CHECK(seen.insert(key).second);
-            const bool dots = key.find("\xe2\x80\xa6") != std::string::npos; // put behind the word by the program
-            CHECK((dots || sources.find(key) != std::string::npos));
-            ++count;
-        }
-        CHECK(count > 100);
-    }
-    CHECK(editor::languages().contains("de"));
+    CHECK(editor::languages() == juce::StringArray({"de", "ja"}));
     CHECK(editor::languageName("de") == "Deutsch");
+    CHECK(editor::languageName("ja") == editor::toText("日本語"));
+}
+
+TEST_CASE("Templates put values where the language has them, and messages are found by their template")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    CHECK(editor::tr("{0} of {1} were found there.", {"2", "5"}) == "2 of 5 were found there.");
+    CHECK(editor::counted(1, "{0} point", "{0} points") == "1 point");
+    CHECK(editor::translateMessage("Gain of +3.0 dB") == "Gain of +3.0 dB");
+    editor::useTranslations(editor::toText("\"{0} of {1} files not opened\" = \"von {1} Dateien {0} nicht\"\n"
+                                           "\"Gain of {0} dB\" = \"Verstärkung {0} dB\"\n"
+                                           "\"Points of {0:text}\" = \"Punkte: {0:text}\"\n"
+                                           "\"the band at {0} Hz\" = \"Band bei {0} Hz\"\n"
+                                           "\"{0} to {1} s\" = \"von {0} bis {1} s\"\n"
+                                           "\"travel\" = \"Weg\"\n\"heat\" = \"Wärme\"\n"
+                                           "\"Name \\\"{0}\\\"\" = \"Name „{0}“\"\n"
+                                           "\"{0} points\" = \"{0} Punkte\"\n"));
+    CHECK(editor::tr("{0} of {1} files not opened", {"2", "5"}) == "von 5 Dateien 2 nicht");
+    CHECK(editor::counted(3, "{0} point", "{0} points") == "3 Punkte");
+    CHECK(editor::translateMessage("Gain of +3.0 dB") == editor::toText("Verstärkung +3.0 dB"));
+    CHECK(editor::translateMessage("Points of the band at 90 Hz") == "Punkte: Band bei 90 Hz");
+    CHECK(editor::translateMessage("travel, heat") == editor::toText("Weg, Wärme"));
+    CHECK(editor::translateMessage("kick: travel") == "kick: Weg");
+    CHECK(editor::translateMessage("Name \"a\"") == editor::toText("Name „a“"));
+    // A template of few letters says nothing of what a sentence means.
+    CHECK(editor::translateMessage("from here to there in s") == "from here to there in s");
+    CHECK(editor::translateMessage("travel\nheat") == editor::toText("Weg\nWärme"));
+    // A value is no template.
+    CHECK(editor::tr("{0} points", {"{0}"}) == "{0} Punkte");
+    editor::useLanguage("en");
+}
+
+TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tables")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const test::MarkedLanguage marked;
+    test::EditorBench bench({test::shipped("lra-175")});
+    juce::StringArray found;
+    const juce::StringArray names{"lra-175",
+                                  "10 mm coin LRA, 175 Hz",
+                                  "knock_wood_bridge",
+                                  "knock wood bridge",
+                                  "kHz",
+                                  "bit",
+                                  "Ctrl",
+                                  "Alt",
+                                  "Shift",
+                                  "Return",
+                                  "Deutsch",
+                                  "English",
+                                  ".flac",
+                                  ".json",
+                                  ".wav",
+                                  ".haptic",
+                                  ".ahap",
+                                  ".hjif",
+                                  ".haps",
+                                  ".xml",
+                                  ".java",
+                                  ".tact",
+                                  ".csv",
+                                  ".pacb",
+                                  ".raw",
+                                  "ppm",
+                                  "Axis"};
+    test::addUnmarked(bench.view, names, found); // without a clip
+    bench.openDemo("knock_wood_bridge");
+    bench.view.doCommand(editor::addMarker);
+    test::addUnmarked(bench.view, names, found);
+    auto& bar = static_cast<juce::MenuBarModel&>(bench.view.menus());
+    for (int i = 0; i < bar.getMenuBarNames().size(); ++i)
+    {
+        CHECK(test::unmarkedWords(bar.getMenuBarNames()[i], names).isEmpty());
+        test::addUnmarked(bar.getMenuForIndex(i, bar.getMenuBarNames()[i]), names, found);
+    }
+    for (const editor::Command command :
+         {editor::exportClips, editor::shortcuts, editor::preferences, editor::changeGain, editor::quantise,
+          editor::humanise, editor::thinOut, editor::transposePitch, editor::stretch, editor::repeatClipTimes,
+          editor::renameMarker, editor::measureActuator})
+    {
+        REQUIRE(bench.view.doCommand(command));
+        REQUIRE(bench.view.sheet() != nullptr);
+        test::addUnmarked(*bench.view.sheet(), names, found);
+        bench.view.showSheet(nullptr);
+    }
+    bench.view.doCommand(editor::keepVersionA);
+    bench.view.doCommand(editor::compareWithA);
+    bench.view.doCommand(editor::invertCurves); // is refused with a message
+    if (bench.view.sheet() != nullptr)
+        test::addUnmarked(*bench.view.sheet(), names, found);
+    INFO(found.joinIntoString("\n"));
+    CHECK(found.isEmpty());
+}
+
+TEST_CASE("The manual is in the language where there is one")
+{
+    const Language german("de");
+    test::EditorBench bench;
+    REQUIRE(bench.view.doCommand(editor::manual));
+    const auto* topics = test::find<juce::ListBox>(*bench.view.sheet(), "Themen");
+    REQUIRE(topics != nullptr);
+    CHECK(topics->getListBoxModel()->getNameForRow(0) == "Erste Schritte");
 }

@@ -133,7 +133,7 @@ TEST_CASE("The actuator's rows tell that none is chosen, then what it plays and 
             {144.0f + static_cast<float>(bench.session.viewState.axis().xOf(time)), static_cast<float>(y)});
     };
     const int bottom = row.getHeight();
-    CHECK(textAt(3.0, 20).contains("dB of full drive"));
+    CHECK(textAt(3.0, 20).contains("dB re full drive"));
     CHECK(textAt(1.0, 20).contains("silent"));
     // High bands are above: 1 kHz is far out of the range of such an actuator, or plays with another's voice.
     CHECK(textAt(3.0, bottom - 40).startsWith("3.0"));

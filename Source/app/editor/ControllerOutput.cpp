@@ -2,6 +2,7 @@
 #include "app/editor/ControllerOutput.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 namespace pacini::app
 {
@@ -109,7 +110,7 @@ void ControllerOutput::tellFailure()
     const juce::String name = editor::toText(controller->name);
     (void)choose(std::nullopt);
     if (edited.onError)
-        edited.onError(name + " does not play any more", editor::toText(result.error().text()));
+        edited.onError(editor::tr("{0} stopped playing", {name}), editor::toText(result.error().text()));
 }
 
 } // namespace pacini::app

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -13,23 +14,24 @@ namespace
 {
 using editor::grid;
 constexpr int controllerPoll = 1000; // ms
-constexpr int none = 1;              // menus know no item 0; channels follow
+constexpr auto noController = "No supported controller connected";
+constexpr int none = 1; // menus know no item 0; channels follow
 } // namespace
 
 DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedControllers)
-    : Sheet("Sound devices", 760, 560),
+    : Sheet("Audio devices", 760, 560),
       rig(wanted),
       controllerOutput(wantedControllers),
       selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
 {
-    prepare(sound, "Sound out", "The two channels where the sound is heard", rig.soundTrim(), 6.0);
-    prepare(haptic, "Haptic out", "The channel that the actuator's amplifier is connected to", rig.hapticTrim(), 0.0);
+    prepare(sound, "Sound output", "Output channels for the sound", rig.soundTrim(), 6.0);
+    prepare(haptic, "Haptic output", "Output channel connected to the actuator's amplifier", rig.hapticTrim(), 0.0);
     controllerLabel.setText("Controller", juce::dontSendNotification);
     controllerLabel.setFont(editor::usualFont());
     controllerLabel.setAccessible(false);
     controllerNote.setFont(editor::smallFont());
     controllerChoice.setTitle("Game controller");
-    controllerChoice.setTooltip("A connected controller or haptic device that plays the clip as well");
+    controllerChoice.setTooltip("Controller or haptic device that plays along");
     controllerChoice.onChange = [this]
     {
         chooseController();
@@ -67,8 +69,8 @@ void DevicesSheet::prepare(Output& output, const juce::String& name, const juce:
         one.setDoubleClickReturnValue(true, 0.0);
         one.setWantsKeyboardFocus(true);
     };
-    slider(output.level, name + ": level", "How loud, in dB", " dB", {-60.0, maxLevel}, 0.5);
-    slider(output.delay, name + ": delay", "How much later than the other, in ms: both should be felt at once", " ms",
+    slider(output.level, editor::tr("{0}: level", {editor::tr(name)}), "Level in dB", " dB", {-60.0, maxLevel}, 0.5);
+    slider(output.delay, editor::tr("{0}: delay", {editor::tr(name)}), "Delay in ms, to align sound and haptics", " ms",
            {0.0, 1000.0 * editor::OutputTrim::longestDelay}, 1.0);
     output.level.setValue(juce::Decibels::gainToDecibels(trim.levelNow(), -60.0), juce::dontSendNotification);
     output.delay.setValue(1000.0 * trim.delayNow(), juce::dontSendNotification);
@@ -96,12 +98,13 @@ void DevicesSheet::fill()
     const PreviewOutputs now = rig.outputs();
     sound.channel.clear(juce::dontSendNotification);
     haptic.channel.clear(juce::dontSendNotification);
-    sound.channel.addItem("Nowhere", none);
-    haptic.channel.addItem("Nowhere", none);
+    sound.channel.addItem(editor::tr("None"), none);
+    haptic.channel.addItem(editor::tr("None"), none);
     for (int c = 0; c < names.size(); ++c)
     {
         if (c % 2 == 0)
-            sound.channel.addItem("Outputs " + juce::String(c + 1) + "+" + juce::String(c + 2), none + 1 + c);
+            sound.channel.addItem(editor::tr("Outputs {0}+{1}", {juce::String(c + 1), juce::String(c + 2)}),
+                                  none + 1 + c);
         haptic.channel.addItem(juce::String(c + 1) + "  " + names[c], none + 1 + c);
     }
     sound.channel.setSelectedId(none + 1 + now.sound, juce::dontSendNotification);
@@ -122,7 +125,7 @@ void DevicesSheet::fillControllers()
     {
         controllers = found;
         controllerChoice.clear(juce::dontSendNotification);
-        controllerChoice.addItem("None", none);
+        controllerChoice.addItem(editor::tr("None"), none);
         for (std::size_t i = 0; i < controllers.size(); ++i)
             controllerChoice.addItem(editor::toText(controllers[i].name), none + 1 + static_cast<int>(i));
     }
@@ -135,8 +138,8 @@ void DevicesSheet::fillControllers()
     if (!connected)
         say(editor::toText(connected.error().text()));
     else if (controllers.empty())
-        say("No controller that Pacini knows is connected");
-    else if (controllerNote.getText().startsWith("No controller"))
+        say(noController);
+    else if (controllerNote.getText() == editor::tr(noController))
         say({});
 }
 
@@ -148,14 +151,15 @@ void DevicesSheet::chooseController()
     if (!opened)
         say(editor::toText(opened.error().text()));
     else
-        say(controllerOutput.playsOnlyEvents() ? "It can play only the events" : "");
+        say(controllerOutput.playsOnlyEvents() ? "Plays events only" : "");
     fillControllers();
 }
 
 void DevicesSheet::say(const juce::String& text)
 {
-    controllerNote.setText(text, juce::dontSendNotification);
-    controllerNote.setTooltip(text);
+    const auto shown = editor::translateMessage(text);
+    controllerNote.setText(shown, juce::dontSendNotification);
+    controllerNote.setTooltip(shown);
 }
 
 void DevicesSheet::layOut(juce::Rectangle<int> area)

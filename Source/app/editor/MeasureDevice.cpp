@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/MeasureDevice.h"
 
+#include "editor/Translation.h"
+
 #include <algorithm>
 #include <span>
 
@@ -9,8 +11,8 @@ namespace pacini::app
 
 namespace
 {
-constexpr const char* otherWay = " Or measure with any player and recorder: save the sweep here, play it, and open the "
-                                 "recording.";
+constexpr const char* otherWay =
+    "Or measure with any player and recorder: save the sweep, play it and open the recording.";
 
 /// The channels that the device really carries.
 std::vector<std::string> activeNames(const juce::StringArray& names, const juce::BigInteger& active)
@@ -66,23 +68,32 @@ void MeasureDevice::setOpen(bool open)
 RigPorts MeasureDevice::ports()
 {
     RigPorts ports;
+    const auto problem = [](const char* what, std::initializer_list<juce::String> values)
+    {
+        return (editor::tr(what, values) + " " + editor::tr(otherWay)).toStdString();
+    };
     auto* device = manager.getCurrentAudioDevice();
     if (device == nullptr)
     {
-        ports.name = "No sound device";
-        ports.problem = std::string("No sound device is open. Choose one under 'Sound devices'.") + otherWay;
+        ports.name = editor::tr("No audio device").toStdString();
+        ports.problem = problem("No audio device is open. Choose one under 'Audio devices'.", {});
         return ports;
     }
-    ports.name = device->getName().toStdString();
+    const juce::String name = device->getName();
+    ports.name = name.toStdString();
     ports.sampleRate = device->getCurrentSampleRate();
     ports.outputs = activeNames(device->getOutputChannelNames(), device->getActiveOutputChannels());
     ports.inputs = activeNames(device->getInputChannelNames(), device->getActiveInputChannels());
     if (ports.outputs.empty())
-        ports.problem = "'" + ports.name + "' has no outputs. Choose another under 'Sound devices'." + otherWay;
+        ports.problem = problem("'{0}' has no outputs. Choose another one under 'Audio devices'.", {name});
     else if (ports.inputs.empty())
-        ports.problem = "'" + ports.name + "' has no inputs" +
-                        (openingError.isEmpty() ? std::string() : " (" + openingError.toStdString() + ")") +
-                        ". Choose a device with an input for the sensor under 'Sound devices'." + otherWay;
+        ports.problem = openingError.isEmpty()
+                            ? problem("'{0}' has no inputs. Choose a device with an input for the sensor under 'Audio "
+                                      "devices'.",
+                                      {name})
+                            : problem("'{0}' has no inputs ({1}). Choose a device with an input for the sensor under "
+                                      "'Audio devices'.",
+                                      {name, openingError});
     return ports;
 }
 

@@ -198,9 +198,9 @@ std::string ActuatorMeasurement::whyLocked(MeasureStep step) const
     if (taken.empty())
         return "Sweep the actuator first.";
     if (step >= MeasureStep::equalizer && !average)
-        return problem(MeasureStep::response).empty() ? "The response is being computed." : "There is no response.";
+        return problem(MeasureStep::response).empty() ? "Computing the response." : "No response.";
     if (step >= MeasureStep::verify && !equalizing)
-        return problem(MeasureStep::equalizer).empty() ? "The equaliser is being fitted." : "There is no equaliser.";
+        return problem(MeasureStep::equalizer).empty() ? "Fitting the equaliser." : "No equaliser.";
     return {};
 }
 

@@ -31,8 +31,9 @@ std::vector<std::string> notesOf(const Placements& placements, const PlacementAv
 {
     std::vector<std::string> notes;
     for (const PlacementOutlier& outlier : average.outliers)
-        notes.push_back(fmt::format("'{}' is unlike the others and was left out: {:+.1f} dB, its shape {:.1f} dB off.",
-                                    placements[outlier.index]->name, outlier.offset, outlier.shape));
+        notes.push_back(
+            fmt::format("'{}' differs from the others and was left out: {:+.1f} dB, shape off by {:.1f} dB.",
+                        placements[outlier.index]->name, outlier.offset, outlier.shape));
     for (const auto& placement : placements)
         for (const std::string& note : placement->notes)
             if (std::find(notes.begin(), notes.end(), note) == notes.end())

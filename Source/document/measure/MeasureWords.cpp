@@ -35,7 +35,7 @@ std::string listed(std::span<const std::string> names)
 {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + ("'" + names[i] + "'");
+        text += (i == 0 ? "" : ", ") + ("'" + names[i] + "'");
     return text.empty() ? "the recording" : text;
 }
 
@@ -59,9 +59,8 @@ std::string settingOf(std::string_view where)
 std::string explain(const Error& error, std::span<const std::string> inputs)
 {
     if (error.where == "channels" && error.code == ErrorCode::invalidData)
-        return fmt::format("No sweep was heard on {}: nothing there stands out of the noise. Check that the amplifier "
-                           "is on, that the actuator is connected to the chosen output and the sensor to the chosen "
-                           "input, and that the level is high enough.",
+        return fmt::format("No sweep detected on {}, only noise. Check that the amplifier is on, that actuator and "
+                           "sensor are connected to the chosen output and input, and that the level is high enough.",
                            listed(inputs));
     if (error.where == "channels" && error.code == ErrorCode::truncated)
         return "The recording is too short: its channels " + error.message + ".";
@@ -69,8 +68,7 @@ std::string explain(const Error& error, std::span<const std::string> inputs)
         return "A sweep is cut off: it " + error.message + ".";
     if (const auto input = inputOf(error.where, inputs))
         return error.code == ErrorCode::notFinite
-                   ? fmt::format("'{}' sent samples that are no numbers. Restart the sound device and sweep again.",
-                                 *input)
+                   ? fmt::format("'{}' sent invalid samples. Restart the audio device and sweep again.", *input)
                    : fmt::format("'{}' {}", *input, sentence(error.message));
     if (error.where == "clock")
         return sentence(error.message);
@@ -86,17 +84,16 @@ std::string explain(const MeasurementWarning& warning, std::span<const std::stri
     switch (warning.code)
     {
     case MeasurementDefect::clipping:
-        return fmt::format("{} clips: {}.", name, warning.message);
+        return fmt::format("Clipping on {}: {}.", name, warning.message);
     case MeasurementDefect::silentChannel:
-        return fmt::format("{} is silent: nothing is connected there, or the axis is broken.", name);
+        return fmt::format("{} is silent. Nothing is connected, or the axis is broken.", name);
     case MeasurementDefect::noiseChannel:
-        return fmt::format("{} hears noise but no sweep. Check which input the sensor is connected to.", name);
+        return fmt::format("{} receives noise but no sweep. Check which input the sensor is connected to.", name);
     case MeasurementDefect::loopback:
-        return fmt::format("{} carries the drive signal itself, not a movement. Choose the input that the sensor is "
-                           "connected to.",
+        return fmt::format("{} carries the drive signal, not a motion. Choose the input the sensor is connected to.",
                            name);
     case MeasurementDefect::droppedFrames:
-        return fmt::format("Sound was lost at {}: {}.", name, warning.message);
+        return fmt::format("Audio dropped out at {}: {}.", name, warning.message);
     case MeasurementDefect::clockDrift:
         return sentence(warning.message);
     case MeasurementDefect::lowSnr:

@@ -108,8 +108,8 @@ EditorView::~EditorView()
 juce::String EditorView::title() const
 {
     const auto& path = open.model.document().path();
-    return (path.empty() ? juce::String("Untitled") : pathText(path.stem())) +
-           (open.model.document().isDirty() ? " *" : "") + " - Pacini Editor";
+    return (path.empty() ? tr("Untitled") : pathText(path.stem())) + (open.model.document().isDirty() ? " *" : "") +
+           " - Pacini Editor";
 }
 
 void EditorView::setDark(bool dark)

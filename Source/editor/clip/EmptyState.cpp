@@ -24,7 +24,7 @@ juce::String shownName(const std::filesystem::path& file)
 } // namespace
 
 EmptyState::EmptyState(EditorModel& project, std::vector<std::filesystem::path> demoSounds)
-    : model(project), demos(std::move(demoSounds)), openButton("Open" + toText("…"))
+    : model(project), demos(std::move(demoSounds)), openButton(toText("Open…"))
 {
     setTitle("No clip yet");
     prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this] { onOpen(); });
@@ -39,17 +39,17 @@ void EmptyState::fill()
                              const juce::String& help)
     {
         auto button = std::make_unique<juce::TextButton>(shownName(file));
-        prepareButton(*button, help + pathText(file), [this, file] { onFile(file); });
+        prepareButton(*button, tr(help, {pathText(file)}), [this, file] { onFile(file); });
         addAndMakeVisible(*button);
         list.push_back(std::move(button));
     };
     demoButtons.clear();
     recentButtons.clear();
     for (std::size_t i = 0; i < std::min(demos.size(), maxDemos); ++i)
-        make(demoButtons, demos[i], "Opens the demo sound ");
+        make(demoButtons, demos[i], "Opens the demo sound {0}");
     for (const auto& file : model.recentFiles().files())
         if (recentButtons.size() < maxRecent && RecentFiles::exists(file))
-            make(recentButtons, file, "Opens the project ");
+            make(recentButtons, file, "Opens the project {0}");
     resized();
     repaint();
 }
@@ -85,7 +85,7 @@ void EmptyState::paint(juce::Graphics& g)
     g.drawText(tr("Drop a sound or a clip here"), text.removeFromTop(4 * grid), juce::Justification::centred);
     g.setColour(p.dim);
     g.setFont(usualFont());
-    g.drawFittedText(tr("It is analysed into curves and events that you can reshape, feel and export."),
+    g.drawFittedText(tr("Pacini turns it into curves and events that you can reshape, feel and export."),
                      text.removeFromTop(3 * grid), juce::Justification::centred, 1);
     g.setFont(smallFont());
     const auto heading = [&](const std::vector<std::unique_ptr<juce::TextButton>>& list, const juce::String& words)

@@ -4,6 +4,7 @@
 #include "document/FolderFiles.h"
 #include "document/ProjectJson.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "io/InputFile.h"
 
@@ -68,13 +69,13 @@ void ProjectFiles::openSample()
             if (read)
                 session.model.openProject(std::move(read->project));
             else
-                session.model.onError("The sample project was not opened", toText(read.error().text()));
+                session.model.onError("Sample project not opened", toText(read.error().text()));
         });
 }
 
 void ProjectFiles::askWhatToOpen()
 {
-    choose("Open sounds, clips or a project", Purpose::opening,
+    choose(tr("Open sounds, clips or a project"), Purpose::opening,
            [this](const juce::Array<juce::File>& chosen)
            {
                std::vector<std::filesystem::path> files;
@@ -86,7 +87,7 @@ void ProjectFiles::askWhatToOpen()
 
 void ProjectFiles::askWhatFolder()
 {
-    choose("Open all sounds and clips of a folder", Purpose::openingFolder,
+    choose(tr("Open all sounds and clips in a folder"), Purpose::openingFolder,
            [this](const juce::Array<juce::File>& chosen)
            {
                if (!chosen.isEmpty())
@@ -114,19 +115,18 @@ void ProjectFiles::tellMissing(const std::vector<AudioReference>& missing)
     for (std::size_t i = 0; i < std::min(missing.size(), maxNames); ++i)
         names.add(pathText(missing[i].path));
     if (missing.size() > maxNames)
-        names.add("and " + juce::String(static_cast<int>(missing.size() - maxNames)) + " more");
+        names.add(tr("and {0} more", {juce::String(static_cast<int>(missing.size() - maxNames))}));
     const auto find = [this, start = missing.front().path]
     {
-        askForSound("Find " + pathText(start.filename()), start,
+        askForSound(tr("Locate {0}", {pathText(start.filename())}), start,
                     [&session = view.session()](const std::filesystem::path& file)
                     { session.sounds.findSounds(file); });
     };
-    const bool one = missing.size() == 1;
     view.showMessage(std::make_unique<MessageSheet>(
-        one ? "A sound is missing" : juce::String(static_cast<int>(missing.size())) + " sounds are missing",
-        "The clips can be edited, played and exported without " + juce::String(one ? "it" : "them") +
-            "; only analysing again needs " + (one ? "it" : "them") + ".\n\n" + names.joinIntoString("\n"),
-        std::vector<Sheet::Answer>{{(one ? "Find it" : "Find them") + toText("…"), find}, {"Go on without", {}}}));
+        counted(missing.size(), "A sound is missing", "{0} sounds are missing"),
+        tr("The clips can still be edited, played and exported; only re-analysis needs the sound.") + "\n\n" +
+            names.joinIntoString("\n"),
+        std::vector<Sheet::Answer>{{toText("Locate…"), find}, {"Continue without", {}}}));
 }
 
 void ProjectFiles::whenSaved(std::function<void()> next)
@@ -135,23 +135,22 @@ void ProjectFiles::whenSaved(std::function<void()> next)
     if (!session.model.document().isDirty() || session.model.isEmpty())
         return next();
     const auto& path = session.model.document().path();
-    view.showSheet(
-        std::make_unique<MessageSheet>("Save the changes?",
-                                       (path.empty() ? juce::String("This project has never been saved.")
-                                                     : pathText(path.filename()) + " has changes that are not saved.") +
-                                           " Without saving they are lost.",
-                                       std::vector<Sheet::Answer>{{"Save",
-                                                                   [this, next]
-                                                                   {
-                                                                       save(next);
-                                                                   }},
-                                                                  {"Don't save",
-                                                                   [&session, next]
-                                                                   {
-                                                                       session.model.discardAutosave();
-                                                                       next();
-                                                                   }},
-                                                                  {"Cancel", {}}}));
+    view.showSheet(std::make_unique<MessageSheet>(
+        "Save the changes?",
+        path.empty() ? tr("This project has never been saved. Unsaved changes will be lost.")
+                     : tr("{0} has unsaved changes. They will be lost if you don't save.", {pathText(path.filename())}),
+        std::vector<Sheet::Answer>{{"Save",
+                                    [this, next]
+                                    {
+                                        save(next);
+                                    }},
+                                   {"Don't save",
+                                    [&session, next]
+                                    {
+                                        session.model.discardAutosave();
+                                        next();
+                                    }},
+                                   {"Cancel", {}}}));
 }
 
 void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem::path& file,
@@ -169,9 +168,9 @@ void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem
     };
     view.showMessage(std::make_unique<MessageSheet>(
         "Not saved",
-        pathText(file) + "\n" + toText(saved.error().text()) +
-            "\n\nThe project is still open with all changes. Make room, or save it in another place.",
-        std::vector<Sheet::Answer>{{"Save as" + toText("…"), elsewhere}, {"Close", {}}}));
+        pathText(file) + "\n" + translateMessage(toText(saved.error().text())) + "\n\n" +
+            tr("The project is still open with all changes. Free some space or save it elsewhere."),
+        std::vector<Sheet::Answer>{{toText("Save as…"), elsewhere}, {"Close", {}}}));
 }
 
 void ProjectFiles::save(std::function<void()> next)
@@ -183,7 +182,7 @@ void ProjectFiles::save(std::function<void()> next)
 
 void ProjectFiles::saveAs(std::function<void()> next)
 {
-    choose("Save the project", Purpose::saving,
+    choose(tr("Save project as"), Purpose::saving,
            [this, next](const juce::Array<juce::File>& chosen)
            {
                if (chosen.isEmpty())
@@ -247,10 +246,9 @@ void ProjectFiles::offerRecovery()
     };
     view.showMessage(std::make_unique<MessageSheet>(
         "Restore unsaved work?",
-        "Pacini did not end properly. Changes of " +
-            (usable->project.empty() ? juce::String("a project that was never saved")
-                                     : pathText(usable->project.filename())) +
-            " from " + when.toString(true, true, false) + " can be restored. Clips: " + names.joinIntoString(", "),
+        tr("Pacini did not quit properly. {0}, last autosaved {1}, can be restored. Clips: {2}",
+           {usable->project.empty() ? tr("Unsaved project") : pathText(usable->project.filename()),
+            when.toString(true, true, false), names.joinIntoString(", ")}),
         std::vector<Sheet::Answer>{{"Restore", restore},
                                    {"Discard",
                                     [entry = *usable]

@@ -50,17 +50,17 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
                       });
         addAndMakeVisible(one);
     };
-    button(startButton, toStart, "To start", "Brings the playhead to the start (Home)");
-    button(playButton, playOrPause, "Play or pause", "Plays the clip from the playhead, or stops (Space)");
-    button(loopButton, loop, "Loop", "Plays the time range, or the whole clip, again and again (Ctrl+L)");
+    button(startButton, toStart, "Go to start", "Moves the playhead to the start (Home)");
+    button(playButton, playOrPause, "Play/pause", "Plays from the playhead, or pauses (Space)");
+    button(loopButton, loop, "Loop", "Repeats the time range or the whole clip (Ctrl+L)");
     loopButton.setClickingTogglesState(false);
-    button(zoomOutButton, zoomOut, "Zoom out", "Shows more time (-)");
-    button(zoomInButton, zoomIn, "Zoom in", "Shows less time (+)");
+    button(zoomOutButton, zoomOut, "Zoom out", "Zooms out (-)");
+    button(zoomInButton, zoomIn, "Zoom in", "Zooms in (+)");
     button(fitButton, editor::fit, "Fit clip", "Shows the whole clip (0)");
     time.setFont(juce::Font(juce::Font::getDefaultMonospacedFontName(), 15.0f, juce::Font::plain));
     time.setJustificationType(juce::Justification::centred);
     time.setTitle("Playhead");
-    time.setTooltip("Playhead and length of the clip, minutes:seconds");
+    time.setTooltip("Playhead and clip length, minutes:seconds");
     addAndMakeVisible(time);
 
     const auto choice = [this](auto& box, juce::Label& label, const juce::String& name, const juce::String& help)
@@ -73,9 +73,9 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
         addAndMakeVisible(label);
         addAndMakeVisible(box);
     };
-    choice(clips, clipLabel, "Clip", "The clip that is shown, of all clips of the project");
-    choice(heard, heardLabel, "Hear", "What is played: the drive signal for the actuator, the sound, or both");
-    choice(profile, profileLabel, "Actuator", "The actuator that the drive signal is made for; its limits are kept");
+    choice(clips, clipLabel, "Clip", "The clip being edited");
+    choice(heard, heardLabel, "Monitor", "What plays: the drive signal, the sound, or both");
+    choice(profile, profileLabel, "Actuator", "The actuator the drive signal is made for; its limits are respected");
     heard.addItem("Haptic", 1 + static_cast<int>(Heard::haptic));
     heard.addItem("Sound", 1 + static_cast<int>(Heard::sound));
     heard.addItem("Both", 1 + static_cast<int>(Heard::both));
@@ -89,8 +89,9 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
         const int chosen = profile.getSelectedId() - plainDrive - 1;
         actuators.setProfile(chosen < 0 ? std::string() : actuators.profiles()[static_cast<std::size_t>(chosen)].name);
     };
-    choice(strength, strengthLabel, "Strength",
-           "Likeness against felt level: 0 % is as flat as can be, 100 % plays all on the actuator's resonance");
+    choice(
+        strength, strengthLabel, "Strength",
+        "Fidelity versus strength: 0 % is as faithful as possible, 100 % plays everything at the actuator's resonance");
     strength.setSliderStyle(juce::Slider::LinearHorizontal);
     strength.setTextBoxStyle(juce::Slider::TextBoxRight, false, 6 * grid, 3 * grid);
     strength.setRange(0.0, 100.0, 1.0);
@@ -131,18 +132,19 @@ void Toolbar::fillClips()
     {
         clips.clear(juce::dontSendNotification);
         for (const auto& item : items)
-            clips.addItem(item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name),
+            clips.addItem(item->clip->name.empty() ? tr("Clip {0}", {juce::String(item->id)})
+                                                   : toText(item->clip->name),
                           item->id);
     }
     clips.setSelectedId(model.activeId(), juce::dontSendNotification);
-    clips.setTextWhenNothingSelected(model.isShowingUnanalysed() ? "Being analysed" : "No clip");
+    clips.setTextWhenNothingSelected(tr(model.isShowingUnanalysed() ? "Analysing" : "No clip"));
     clips.setEnabled(!items.empty());
 }
 
 void Toolbar::fillProfiles()
 {
     profile.clear(juce::dontSendNotification);
-    profile.addItem("None (plain drive)", plainDrive);
+    profile.addItem(tr("No actuator"), plainDrive);
     for (std::size_t i = 0; i < actuators.profiles().size(); ++i)
     {
         const NamedProfile& entry = actuators.profiles()[i];

@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -19,8 +20,8 @@ WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
     : model(project), sounds(projectSounds), stopButton("Stop")
 {
     setTitle("Progress");
-    stopButton.setTitle("Stop opening and analysing");
-    prepareButton(stopButton, "Skips files that are not opened and analysed yet (Escape)",
+    stopButton.setTitle("Cancel import");
+    prepareButton(stopButton, "Cancels opening and analysis of the remaining files (Escape)",
                   [this] { sounds.stopWork(); });
     addAndMakeVisible(stopButton);
     subscriptions.on({&sounds.workChanged}, [this] { follow(); });
@@ -79,7 +80,7 @@ void WorkBar::paint(juce::Graphics& g)
     g.setFont(usualFont());
     juce::String words = shown.text;
     if (shown.progress >= 0.0)
-        words << ", " << juce::roundToInt(100.0 * shown.progress) << " %";
+        words = tr("{0}, {1} %", {words, juce::String(juce::roundToInt(100.0 * shown.progress))});
     g.drawFittedText(
         words,
         getLocalBounds().reduced(2 * grid, grid).withTrimmedBottom(barHeight + 2).withRight(stopButton.getX() - grid),

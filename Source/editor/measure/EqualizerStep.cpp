@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/measure/ResponseStep.h"
 
 #include <cmath>
@@ -33,12 +34,10 @@ const char* nameOf(EqualizerType type)
 } // namespace
 
 EqualizerStep::EqualizerStep(MeasurementController& wanted)
-    : sections("Sections", "How many sections the equaliser has at most; automatic: as few as make it flat within "
-                           "1 dB"),
-      boost("Most boost",
-            "How much any frequency may be raised, dB; what is weaker stays weak and the rest is lowered"),
-      low("Flat from", "Start of the range that is flattened, Hz"),
-      high("Flat to", "End of the range that is flattened, Hz"),
+    : sections("Sections", "Max. number of equaliser sections; automatic: as few as needed to be flat within 1 dB"),
+      boost("Max. boost", "Max. boost of any frequency, dB; the rest is lowered instead"),
+      low("Flat from", "Start of the flattened range, Hz"),
+      high("Flat to", "End of the flattened range, Hz"),
       controller(wanted)
 {
     sections.control.addItem("Automatic", automatic);
@@ -94,7 +93,7 @@ void EqualizerStep::refresh()
     if (response == nullptr)
     {
         ResponsePlot::Content nothing;
-        nothing.empty = "There is no response yet";
+        nothing.empty = tr("No response yet");
         plot.show(std::move(nothing));
         return;
     }
@@ -118,36 +117,38 @@ void EqualizerStep::refresh()
     }
     ResponsePlot::Content curves;
     curves.axisName = levelUnit(work);
-    curves.curves = {{"measured", response->average.response, ResponsePlot::Role::before},
-                     {"with the equaliser", fitted->predicted, ResponsePlot::Role::result}};
+    curves.curves = {{tr("measured"), response->average.response, ResponsePlot::Role::before},
+                     {tr("equalised"), fitted->predicted, ResponsePlot::Role::result}};
     curves.range = std::pair(fitted->lowFrequency, fitted->highFrequency);
     curves.band = std::pair(fitted->predictedLinearity.level - 1.0, fitted->predictedLinearity.level + 1.0);
     plot.show(std::move(curves));
 
     FactTable::Facts list;
     for (const EqualizerSection& section : fitted->fit.sections)
-        list.push_back({nameOf(section.type), numberText(section.frequency, section.frequency < 100.0 ? 1 : 0) +
-                                                  " Hz  " + signedText(section.gain, 1) + " dB  Q " +
-                                                  numberText(section.q, 2)});
+        list.push_back({tr(nameOf(section.type)), numberText(section.frequency, section.frequency < 100.0 ? 1 : 0) +
+                                                      " Hz  " + signedText(section.gain, 1) + " dB  Q " +
+                                                      numberText(section.q, 2)});
     table.show(std::move(list));
     const Linearity& linearity = fitted->predictedLinearity;
-    FactTable::Facts effects{{"Mean deviation", numberText(linearity.meanDeviation, 2) + " dB"},
-                             {"Worst", worstText(linearity)},
-                             {"Power in the coil", signedText(fitted->cost.powerChange, 1) + " dB"}};
+    FactTable::Facts effects{{tr("Mean deviation"), numberText(linearity.meanDeviation, 2) + " dB"},
+                             {tr("Worst"), worstText(linearity)},
+                             {tr("Coil power"), signedText(fitted->cost.powerChange, 1) + " dB"}};
     if (fitted->cost.power)
-        effects.push_back({"At full drive", numberText(*fitted->cost.power, 2) + " W"});
-    effects.push_back({"Largest travel", signedText(fitted->cost.excursionChange, 1) + " dB at " +
-                                             numberText(fitted->cost.excursionFrequency, 0) + " Hz"});
+        effects.push_back({tr("At full drive"), numberText(*fitted->cost.power, 2) + " W"});
+    effects.push_back({tr("Max. travel"), tr("{0} dB at {1} Hz", {signedText(fitted->cost.excursionChange, 1),
+                                                                  numberText(fitted->cost.excursionFrequency, 0)})});
     if (fitted->cost.excursion)
-        effects.push_back({"Of its limit", numberText(100.0 * *fitted->cost.excursion, 0) + " %"});
+        effects.push_back({tr("Of the limit"), numberText(100.0 * *fitted->cost.excursion, 0) + " %"});
     facts.show(std::move(effects));
     if (std::abs(linearity.worstDeviation) > 1.0)
         lines.push_back({"Not flat within 1 dB: allow more sections or more boost, or flatten a smaller range.",
                          Note::Kind::warning});
     const auto& drive = work.base().drive;
     if (fitted->cost.power && drive.maxPower && *fitted->cost.power > *drive.maxPower)
-        lines.push_back({"At full drive the coil gets more than the " + std::to_string(*drive.maxPower).substr(0, 4) +
-                             " W that it bears for ever; the protection will turn it down. Less boost costs less.",
+        lines.push_back({tr("At full drive the coil exceeds its {0} W continuous rating; the protection will reduce "
+                            "it. Use less boost.",
+                            {numberText(*drive.maxPower, 2)})
+                             .toStdString(),
                          Note::Kind::warning});
     notes.show(std::move(lines));
     resized();

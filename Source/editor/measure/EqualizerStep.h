@@ -28,7 +28,7 @@ private:
     FactTable facts{"What the equaliser does"};
     NoteBox notes{"Notes on the equaliser"};
     juce::Viewport scroll;
-    ResponsePlot plot{"Response before and after", "Level over frequency, measured and as the equaliser will make it"};
+    ResponsePlot plot{"Response before and after", "Level over frequency, measured and equalised"};
 };
 
 } // namespace pacini::editor

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +24,15 @@ constexpr float close = -6.0f; // dB, from where on the bar warns
 
 InputMeter::InputMeter()
 {
-    setTooltip("Level of the input in dB re full scale, with its peak of the last 2 s. The lamp stays lit after an "
-               "overload; click to put it out");
+    setTooltip(
+        "Input level in dB re full scale, with a 2 s peak hold. The lamp stays lit after clipping; click to reset");
     reset();
 }
 
 void InputMeter::setName(const juce::String& wanted)
 {
     juce::Component::setName(wanted);
-    setTitle("Level of " + wanted);
+    setTitle(tr("Level of {0}", {wanted}));
     repaint();
 }
 
@@ -105,7 +106,7 @@ void InputMeter::paint(juce::Graphics& g)
     g.setColour(clipped ? p.warning : p.well);
     g.fillRoundedRectangle(lamp, 3.0f);
     g.setColour(clipped ? p.card : p.dim);
-    g.drawText("CLIP", lamp, juce::Justification::centred, false);
+    g.drawText(tr("CLIP"), lamp, juce::Justification::centred, false);
 }
 
 void nameMeters(InputMeters& meters, const MeasurementController& controller)
@@ -134,7 +135,7 @@ std::unique_ptr<juce::AccessibilityHandler> InputMeter::createAccessibilityHandl
         bool isReadOnly() const override { return true; }
         juce::String getCurrentValueAsString() const override
         {
-            return meter.text + (meter.clipped ? ", has clipped" : "");
+            return meter.clipped ? tr("{0}, has clipped", {meter.text}) : meter.text;
         }
         void setValueAsString(const juce::String&) override {}
 

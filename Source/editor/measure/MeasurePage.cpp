@@ -4,6 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 #include <array>
@@ -20,13 +21,13 @@ constexpr int stepsWidth = 18 * grid;
 juce::String whatToDo(MeasureStep step)
 {
     static const std::array<const char*, measureSteps> words{
-        "Connect actuator and sensor, choose where they are, and set levels",
-        "Play the sweep through the actuator and record how it moves, once for each wearer",
+        "Connect actuator and sensor, choose their channels and set levels",
+        "Sweep the actuator and record its motion, once per wearer",
         "The response of the actuator at each frequency",
         "Make the response flat: the equaliser of the profile",
-        "Measure again through the equaliser, as proof",
-        "Keep it as an actuator profile"};
-    return words[static_cast<std::size_t>(step)];
+        "Measure again through the equaliser to verify it",
+        "Save the result as an actuator profile"};
+    return tr(words[static_cast<std::size_t>(step)]);
 }
 } // namespace
 
@@ -51,10 +52,9 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
     {
         show(static_cast<MeasureStep>(static_cast<int>(stepNow) + by));
     };
-    prepareButton(backButton, "To the step before", [go] { go(-1); });
-    prepareButton(nextButton, "To the next step", [go] { go(1); });
-    prepareButton(closeButton, "Back to the editor; what was measured stays until the program ends",
-                  [this] { close(); });
+    prepareButton(backButton, "Previous step", [go] { go(-1); });
+    prepareButton(nextButton, "Next step", [go] { go(1); });
+    prepareButton(closeButton, "Back to the editor; measurements are kept until you quit", [this] { close(); });
     steps.onChoose = [this](MeasureStep chosen)
     {
         show(chosen);
@@ -71,6 +71,8 @@ MeasurePage::MeasurePage(std::shared_ptr<MeasurementController> wanted, std::fun
         refresh();
     };
     shared->setOpen(true);
+    for (StepPanel* step : std::initializer_list<StepPanel*>{&setUp, &sweep, &response, &equalizer, &verify, &save})
+        translateTexts(*step); // only the one in front is inside of the page
     scroll.setViewedComponent(&panel(), false);
     refresh();
     startTimerHz(30);
@@ -195,7 +197,7 @@ void MeasurePage::askForFile(const juce::String& title, const juce::String& patt
                              const juce::String& name, std::function<void(const juce::File&)> chosen)
 {
     const auto folder = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
-    chooser = std::make_unique<juce::FileChooser>(title, folder.getChildFile(name), pattern);
+    chooser = std::make_unique<juce::FileChooser>(tr(title), folder.getChildFile(name), pattern);
     using Browser = juce::FileBrowserComponent;
     chooser->launchAsync(Browser::canSelectFiles |
                              (saving ? Browser::saveMode | Browser::warnAboutOverwriting : Browser::openMode),
@@ -208,7 +210,7 @@ void MeasurePage::askForFile(const juce::String& title, const juce::String& patt
 
 void MeasurePage::tell(const juce::String& title, const juce::String& text)
 {
-    message = std::make_unique<MessageSheet>(title, text, std::vector<Answer>{{"Close", {}}});
+    message = std::make_unique<MessageSheet>(title, text, std::vector<Answer>{{tr("Close"), {}}});
     message->onClose = [this]
     {
         juce::MessageManager::callAsync(

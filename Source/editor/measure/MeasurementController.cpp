@@ -3,6 +3,7 @@
 
 #include "document/measure/SimulatedMeasureRig.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "io/AudioFile.h"
 #include "io/ProfileFile.h"
 #include "io/SweepFile.h"
@@ -34,6 +35,7 @@ MeasurementController::MeasurementController(Actuators& profiles, Transport& pla
         if (profile.body && profile.technology != Technology::erm)
             simulated.push_back(i);
     }
+    nextName = tr("Placement {0}", {juce::String(placementNumber)}).toStdString();
     chooseRig(0);
 }
 
@@ -94,11 +96,11 @@ std::vector<std::string> MeasurementController::rigNames() const
 {
     std::vector<std::string> names;
     if (around.device)
-        names.push_back("Sound device");
+        names.push_back(tr("Audio device").toStdString());
     for (const std::size_t i : simulated)
-        names.push_back("Simulated: " + actuators.profiles()[i].profile->name);
+        names.push_back(tr("Simulated: {0}", {toText(actuators.profiles()[i].profile->name)}).toStdString());
     if (names.empty())
-        names.push_back("Simulated wristband");
+        names.push_back(tr("Simulated wristband").toStdString());
     return names;
 }
 
@@ -212,9 +214,10 @@ std::string MeasurementController::obstacle() const
     if (!portsNow.problem.empty())
         return portsNow.problem;
     if (wiredNow.inputs.empty())
-        return "No input is chosen. Choose the one that the sensor is connected to.";
+        return "No input chosen. Choose the one the sensor is connected to.";
     const auto valid = validate(sweepOf(work.settings(), portsNow.sampleRate));
-    return valid ? std::string() : "These settings make no sweep: " + valid.error().text() + ".";
+    return valid ? std::string()
+                 : tr("Invalid sweep settings: {0}.", {translateMessage(toText(valid.error().text()))}).toStdString();
 }
 
 double MeasurementController::sweepSeconds() const
@@ -318,7 +321,7 @@ void MeasurementController::poll()
     case RigState::lost:
         rig->stop();
         return fail(verifying,
-                    "The sound device stopped during the sweep. Check its cable and its settings, then sweep again.");
+                    "The audio device stopped during the sweep. Check its cable and settings, then sweep again.");
     case RigState::finished:
         break;
     }
@@ -350,13 +353,13 @@ void MeasurementController::analysed(Result<Placement> placement, const Target& 
     {
         // The equaliser may have been fitted anew meanwhile.
         if (work.equalizer() == nullptr)
-            return fail(true, "The equaliser has changed meanwhile; sweep again.");
+            return fail(true, "The equaliser has changed in the meantime. Sweep again.");
         work.addVerification(std::move(placement).value());
     }
     else
     {
         work.addPlacement(std::move(placement).value());
-        nextName = "Placement " + std::to_string(++placementNumber);
+        nextName = tr("Placement {0}", {juce::String(++placementNumber)}).toStdString();
     }
     changed();
 }
@@ -398,7 +401,7 @@ void MeasurementController::setTolerance(double decibels)
 Result<void> MeasurementController::saveSweep(const std::filesystem::path& sound, bool throughEqualizer)
 {
     if (throughEqualizer && work.equalizer() == nullptr)
-        return Error{ErrorCode::invalidArgument, "", "There is no equaliser yet."};
+        return Error{ErrorCode::invalidArgument, "", "No equaliser yet."};
     SweepFile file;
     if (throughEqualizer)
         file.equalizedFor = "the actuator that is measured";
@@ -426,12 +429,15 @@ void MeasurementController::readRecording(const std::filesystem::path& file, boo
     (throughEqualizer ? verifyTrouble : sweepTrouble).clear();
     auto audio = readAudio(file);
     if (!audio)
-        return fail(throughEqualizer, file.filename().string() + " was not read: " + audio.error().text() + ".");
+        return fail(throughEqualizer, tr("Cannot read {0}: {1}.",
+                                         {pathText(file.filename()), translateMessage(toText(audio.error().text()))})
+                                          .toStdString());
     const auto width = static_cast<std::size_t>(audio->channels);
     if (width > maxInputs)
         return fail(throughEqualizer,
-                    file.filename().string() + " has " + std::to_string(width) +
-                        " channels. Keep those of the microphone or of the axes of the sensor, three at most.");
+                    tr("{0} has {1} channels. Keep only the microphone or the sensor axes, three at most.",
+                       {pathText(file.filename()), juce::String(static_cast<int>(width))})
+                        .toStdString());
     RecordedSweep recorded{{},
                            {},
                            static_cast<double>(audio->sampleRate),
@@ -455,7 +461,9 @@ void MeasurementController::readRecording(const std::filesystem::path& file, boo
         auto& channel = recorded.channels.emplace_back(audio->samples.size() / width);
         for (std::size_t i = 0; i < channel.size(); ++i)
             channel[i] = audio->samples[i * width + c];
-        recorded.inputs.push_back(width == 1 ? file.filename().string() : "channel " + std::to_string(c + 1));
+        recorded.inputs.push_back(width == 1
+                                      ? file.filename().string()
+                                      : tr("channel {0}", {juce::String(static_cast<int>(c + 1))}).toStdString());
     }
     analyse(std::move(recorded), {throughEqualizer, file.stem().string()});
 }
@@ -478,8 +486,10 @@ Result<void> MeasurementController::save(const std::string& name, const std::fil
     const std::string shortName(stem.begin(), stem.end());
     for (const NamedProfile& entry : actuators.profiles())
         if (entry.name == shortName && !entry.own)
-            return Error{ErrorCode::invalidArgument, "",
-                         "An actuator that comes with Pacini is called " + shortName + "; choose another file name."};
+            return Error{
+                ErrorCode::invalidArgument, "",
+                tr("Pacini already comes with an actuator called {0}. Choose another file name.", {toText(shortName)})
+                    .toStdString()};
     const Profile profile = work.profile(name);
     std::error_code ignored; // writing says what is wrong
     std::filesystem::create_directories(file.parent_path(), ignored);

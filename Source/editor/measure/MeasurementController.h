@@ -144,8 +144,8 @@ private:
     SweepParams playedSweep;
     double playedGain = 0.0; ///< dB, see VerifyingSweep
     double playingSeconds = 0.0;
-    std::string nextName = "Placement 1";
     int placementNumber = 1;
+    std::string nextName;
     std::string sweepTrouble, verifyTrouble;
     bool computing = false;
     unsigned asked = 0; ///< number of the recording that is analysed

@@ -24,7 +24,7 @@ private:
     MeasurementController& controller;
     FactTable facts{"The actuator"};
     NoteBox notes{"Notes on the measurement"};
-    ResponsePlot plot{"Response", "Level over frequency of each placement, their average and the noise"};
+    ResponsePlot plot{"Response", "Level over frequency: each placement, their average and the noise"};
     ResponsePlot distortion{"Distortion", "Harmonic distortion in percent over frequency"};
 };
 

@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 namespace pacini::editor
 {
@@ -27,12 +28,12 @@ juce::String fileNameOf(const juce::String& name)
 } // namespace
 
 SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
-    : name("Name", "What the actuator is called in the list of actuators"),
-      file("File", "The profile that is written, .json"),
+    : name("Name", "Name in the list of actuators"),
+      file("File", "Profile file, .json"),
       saveButton("Save profile"),
       controller(wanted),
       services(around),
-      browse("Browse" + toText("…"))
+      browse(toText("Browse…"))
 {
     for (auto* one : {&name, &file})
     {
@@ -43,7 +44,7 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
             save();
         };
     }
-    name.control.setText("My actuator", false);
+    name.control.setText(tr("My actuator"), false);
     name.control.onTextChange = [this]
     {
         follow();
@@ -53,10 +54,10 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
         ownFile = true;
         refresh();
     };
-    prepareButton(browse, "Chooses where to write",
+    prepareButton(browse, "Chooses where to save",
                   [this]
                   {
-                      services.askForFile("Save the profile", "*.json", true, file.control.getText(),
+                      services.askForFile("Save profile", "*.json", true, file.control.getText(),
                                           [this](const juce::File& chosen)
                                           {
                                               ownFile = true;
@@ -65,11 +66,11 @@ SaveStep::SaveStep(MeasurementController& wanted, StepServices& around)
                                               refresh();
                                           });
                   });
-    use.setButtonText("Use it in this project at once");
-    use.setTitle("Use it in this project at once");
-    use.setTooltip("Makes it the actuator that the drive signal of this project is made for");
+    use.setButtonText("Use in this project");
+    use.setTitle("Use in this project");
+    use.setTooltip("Makes it the actuator of this project");
     use.setToggleState(true, juce::dontSendNotification);
-    prepareButton(saveButton, "Writes the profile and adds it to the list of actuators", [this] { save(); });
+    prepareButton(saveButton, "Saves the profile and adds it to the list of actuators", [this] { save(); });
     addAll(*this, {&name, &file, &browse, &use, &saveButton, &facts, &notes});
     follow();
 }
@@ -104,33 +105,35 @@ void SaveStep::refresh()
     {
         const Profile profile = work.profile(name.control.getText().toStdString());
         const VerifiedResponse* verified = work.verified();
-        facts.show(
-            {{"Resonance", numberText(profile.resonance.frequency, 1) + " Hz, Q " + numberText(profile.resonance.q, 2)},
-             {"Range",
-              numberText(profile.range.lowFrequency, 0) + " to " + numberText(profile.range.highFrequency, 0) + " Hz"},
-             {"Equaliser", juce::String(static_cast<int>(profile.equalizer.size())) + " sections"},
-             {"Placements", juce::String(profile.measurement->placements)},
-             {"Proof", verified == nullptr ? juce::String("not verified")
-                                           : juce::String(verified->linearity.passed() ? "passed, " : "not passed, ") +
-                                                 "worst " + (verified->linearity.worstDeviation >= 0.0 ? "+" : "") +
-                                                 numberText(verified->linearity.worstDeviation, 2) + " dB"},
-             {"Limits from", controller.base() ? toText(work.base().name) : juce::String("nothing is known")}});
+        facts.show({{tr("Resonance"),
+                     numberText(profile.resonance.frequency, 1) + " Hz, Q " + numberText(profile.resonance.q, 2)},
+                    {tr("Range"), tr("{0} to {1} Hz", {numberText(profile.range.lowFrequency, 0),
+                                                       numberText(profile.range.highFrequency, 0)})},
+                    {tr("Equaliser"), counted(profile.equalizer.size(), "{0} section", "{0} sections")},
+                    {tr("Placements"), juce::String(profile.measurement->placements)},
+                    {tr("Verification"), verified == nullptr ? tr("not verified")
+                                                             : tr(verified->linearity.passed() ? "passed, worst {0} dB"
+                                                                                               : "failed, worst {0} dB",
+                                                                  {signedText(verified->linearity.worstDeviation, 2)})},
+                    {tr("Limits from"), controller.base() ? toText(work.base().name) : tr("unknown")}});
         if (!work.saved().empty())
-            lines.push_back({"Saved to " + work.saved() + ". It is in the list of actuators now."});
+            lines.push_back(
+                {tr("Saved to {0}. It is now in the list of actuators.", {toText(work.saved())}).toStdString()});
         else
         {
             if (verified == nullptr)
-                lines.push_back({"It has not been verified: sweep through the equaliser in step 5 to know that it is "
-                                 "flat. It can be saved nevertheless.",
+                lines.push_back({"Not verified yet. Sweep through the equaliser in step 5 to confirm that it is flat, "
+                                 "or save it anyway.",
                                  Note::Kind::warning});
             if (juce::File::getCurrentWorkingDirectory().getChildFile(file.control.getText()).existsAsFile())
-                lines.push_back({"This file exists and will be replaced.", Note::Kind::warning});
+                lines.push_back({"This file exists and will be overwritten.", Note::Kind::warning});
         }
     }
     else
         facts.show({});
     if (!problem.empty())
-        lines.insert(lines.begin(), {"The profile was not saved: " + problem, Note::Kind::warning});
+        lines.insert(lines.begin(), {tr("Profile not saved: {0}", {translateMessage(toText(problem))}).toStdString(),
+                                     Note::Kind::warning});
     notes.show(std::move(lines));
     resized();
 }
@@ -141,7 +144,7 @@ void SaveStep::paint(juce::Graphics& g)
     auto area = getLocalBounds();
     drawCard(g, area.removeFromTop(25 * grid), "Profile", p);
     area.removeFromTop(grid);
-    drawCard(g, area, "What is in it", p);
+    drawCard(g, area, "Contents", p);
 }
 
 void SaveStep::resized()

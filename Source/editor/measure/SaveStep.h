@@ -29,7 +29,7 @@ private:
     StepServices& services;
     juce::TextButton browse;
     juce::ToggleButton use;
-    FactTable facts{"What is saved"};
+    FactTable facts{"Contents"};
     NoteBox notes{"Result"};
     bool ownFile = false; ///< the file has been chosen and no longer follows the name
     std::string problem;

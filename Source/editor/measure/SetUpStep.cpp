@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char
 {
     juce::StringArray wanted;
     if (noneText != nullptr)
-        wanted.add(noneText);
+        wanted.add(tr(noneText));
     for (const std::string& name : names)
         wanted.add(toText(name));
     bool same = box.getNumItems() == wanted.size();
@@ -37,20 +38,20 @@ void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char
 SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
     : controller(wanted),
       services(around),
-      rig("Rig", "The sound device with actuator and sensor on it, or a simulation to try the page with"),
-      output("Output", "The output that the amplifier of the actuator is connected to"),
-      base("Limits from", "The profile for what is not measured: impedance, voltage, power and travel"),
-      input{Named<juce::ComboBox>{"Sensor", "The input of the microphone, or of the first axis of the accelerometer"},
-            Named<juce::ComboBox>{"2nd axis", "The input of the second axis of the accelerometer"},
-            Named<juce::ComboBox>{"3rd axis", "The input of the third axis of the accelerometer"}},
-      devices("Sound devices" + toText("…")),
-      level("Level", "Peak of the sweep, dB re full scale"),
-      low("From", "Frequency at which the sweep starts, Hz"),
-      high("To", "Frequency at which the sweep ends, Hz"),
-      duration("Length", "Length of one sweep, s; twice as long gives 3 dB more distance from noise"),
-      repeats("Sweeps", "How many sweeps are played and averaged, 1 to 10"),
-      saveSweep("Save the sweep" + toText("…")),
-      openRecording("Open a recording" + toText("…"))
+      rig("Rig", "Audio device with actuator and sensor, or a simulation to try things out"),
+      output("Output", "Output connected to the actuator's amplifier"),
+      base("Limits from", "Profile for values that are not measured: impedance, voltage, power and travel"),
+      input{Named<juce::ComboBox>{"Sensor", "Input of the microphone or of the accelerometer's first axis"},
+            Named<juce::ComboBox>{"2nd axis", "Input of the accelerometer's second axis"},
+            Named<juce::ComboBox>{"3rd axis", "Input of the accelerometer's third axis"}},
+      devices(toText("Audio devices…")),
+      level("Level", "Sweep peak level, dB re full scale"),
+      low("From", "Start frequency of the sweep, Hz"),
+      high("To", "End frequency of the sweep, Hz"),
+      duration("Length", "Length of one sweep, s; doubling it improves the noise by 3 dB"),
+      repeats("Sweeps", "Number of sweeps to average, 1 to 10"),
+      saveSweep(toText("Save sweep…")),
+      openRecording(toText("Open recording…"))
 {
     prepareSlider(level.control, -40.0, 0.0, 0.5, "dB", 1);
     prepareSlider(low.control, 5.0, 200.0, 1.0, "Hz", 0);
@@ -63,14 +64,12 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
     fullScale.setTextBoxStyle(juce::Slider::TextBoxRight, false, 12 * grid, 3 * grid);
     fullScale.setSkewFactorFromMidPoint(50.0);
     fullScale.setTitle("Calibration");
-    fullScale.setTooltip(
-        toText("Acceleration of a full-scale sample, m/s². An accelerometer of 5 g on a matched input: "
-               "49.03"));
+    fullScale.setTooltip(toText("Acceleration at full scale, m/s². A 5 g accelerometer on a matched input: 49.03"));
     calibrated.setButtonText("Calibrated");
     calibrated.setTitle("Calibrated");
-    calibrated.setTooltip(toText("On: levels are in m/s² by the number beside. Off: levels are relative; shape and "
-                                 "equaliser are right nevertheless"));
-    tone.setButtonText("Test tone of 100 Hz");
+    calibrated.setTooltip(toText(
+        "On: levels in m/s², using the number beside. Off: relative levels; shape and equaliser are still correct"));
+    tone.setButtonText("100 Hz test tone");
     tone.setTitle("Test tone");
 
     rig.control.onChange = [this]
@@ -97,29 +96,30 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
         one->control.onValueChange = take;
     fullScale.onValueChange = take;
     calibrated.onClick = take;
-    prepareButton(tone, "Plays a steady tone of 100 Hz at the level of the sweep, to see that the sensor moves",
+    prepareButton(tone, "Plays a steady 100 Hz tone at the sweep level to check the sensor",
                   [this] { controller.setTone(tone.getToggleState()); });
-    prepareButton(devices, "Chooses the sound device, its inputs and its sample rate",
-                  [this] { services.showDevices(); });
-    prepareButton(saveSweep, "Writes the sweep as a sound for another player, with a description beside it",
+    prepareButton(devices, "Chooses the audio device, its inputs and sample rate", [this] { services.showDevices(); });
+    prepareButton(
+        saveSweep, "Saves the sweep as a sound file for another player, with a description",
+        [this]
+        {
+            services.askForFile(
+                "Save sweep", "*.wav", true, "sweep.wav",
+                [this](const juce::File& file)
+                {
+                    const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
+                    services.tell(
+                        saved ? "Sweep saved" : "Sweep not saved",
+                        saved
+                            ? "Play it through the actuator and record the sensor, with some margin before and after. "
+                              "Then open the recording here. Keep the .json file next to it; it describes the sweep."
+                            : toText(saved.error().text()));
+                });
+        });
+    prepareButton(openRecording, "Opens a sweep recorded elsewhere, one to three channels",
                   [this]
                   {
-                      services.askForFile(
-                          "Save the sweep", "*.wav", true, "sweep.wav",
-                          [this](const juce::File& file)
-                          {
-                              const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), false);
-                              services.tell(saved ? "The sweep is saved" : "The sweep was not saved",
-                                            saved ? "Play it to the actuator and record the sensor from before its "
-                                                    "beginning until after its end. Then open the recording here. "
-                                                    "Keep the .json beside it: it says what was played."
-                                                  : toText(saved.error().text()));
-                          });
-                  });
-    prepareButton(openRecording, "Takes a recording of the sweep that was made elsewhere, one to three channels",
-                  [this]
-                  {
-                      services.askForFile("Open a recording of the sweep", recordings, false, {},
+                      services.askForFile("Open a sweep recording", recordings, false, {},
                                           [this](const juce::File& file)
                                           { controller.readRecording(pathOf(file), false); });
                   });
@@ -127,7 +127,7 @@ SetUpStep::SetUpStep(MeasurementController& wanted, StepServices& around)
                    &meters[1], &meters[2], &tone,     &devices,   &level,         &low,        &high,      &duration,
                    &repeats,   &base,      &facts,    &saveSweep, &openRecording, &notes});
     std::vector<std::string> profiles;
-    profiles.emplace_back("Nothing is known");
+    profiles.emplace_back(tr("Unknown").toStdString());
     for (const auto& name : controller.profileNames())
         profiles.push_back(name);
     fill(base.control, profiles);
@@ -176,12 +176,12 @@ void SetUpStep::refresh()
     rig.control.setSelectedId(first + static_cast<int>(controller.rigIndex()), quietly);
     fill(output.control, ports.outputs);
     output.control.setSelectedId(first + static_cast<int>(wiring.output), quietly);
-    output.control.setTextWhenNoChoicesAvailable("No output");
+    output.control.setTextWhenNoChoicesAvailable(tr("No output"));
     for (std::size_t i = 0; i < inputs; ++i)
     {
         auto& box = input[i].control;
         fill(box, ports.inputs, i == 0 ? nullptr : "None");
-        box.setTextWhenNothingSelected(ports.inputs.empty() ? "No input" : "None");
+        box.setTextWhenNothingSelected(tr(ports.inputs.empty() ? "No input" : "None"));
         const bool used = i < wiring.inputs.size();
         box.setSelectedId(used ? first + static_cast<int>(wiring.inputs[i]) + (i == 0 ? 0 : 1) : (i == 0 ? 0 : first),
                           quietly);
@@ -210,18 +210,18 @@ void SetUpStep::refresh()
     devices.setVisible(services.showDevices != nullptr);
     openRecording.setEnabled(controller.activity() == MeasurementController::Activity::none);
 
-    facts.show({{"All that is played", numberText(controller.sweepSeconds(), 1) + " s"},
-                {"Sample rate", numberText(ports.sampleRate, 0) + " Hz"}});
+    facts.show({{tr("Total length"), numberText(controller.sweepSeconds(), 1) + " s"},
+                {tr("Sample rate"), numberText(ports.sampleRate, 0) + " Hz"}});
 
     std::vector<Note> lines;
     if (const auto obstacle = controller.obstacle(); !obstacle.empty())
         lines.push_back({obstacle, Note::Kind::warning});
     if (locked)
-        lines.push_back({"Range and calibration stay as they are while there are placements: drop them in step 2 to "
-                         "change these."});
+        lines.push_back(
+            {"Range and calibration are locked while there are placements. Remove these in step 2 to change them."});
     if (lines.empty())
-        lines.push_back({"Turn on the test tone and set the gain of the input so that the meter stays below -6 dB. "
-                         "The actuator must be worn or mounted as it will be used."});
+        lines.push_back({"Turn on the test tone and set the input gain so that the meter stays below -6 dB. Wear or "
+                         "mount the actuator as it will be used."});
     notes.show(std::move(lines));
     resized();
 }

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 namespace pacini::editor
 {
@@ -17,13 +18,13 @@ const char* wordOf(MeasureStepState state)
     switch (state)
     {
     case MeasureStepState::locked:
-        return "not yet";
+        return "locked";
     case MeasureStepState::working:
         return "computing";
     case MeasureStepState::done:
         return "done";
     case MeasureStepState::failed:
-        return "look here";
+        return "check";
     case MeasureStepState::open:
         break;
     }
@@ -35,7 +36,7 @@ juce::String StepList::nameOf(MeasureStep step)
 {
     static const std::array<const char*, measureSteps> names{"Set up",    "Sweep",  "Response",
                                                              "Equaliser", "Verify", "Save"};
-    return names[static_cast<std::size_t>(step)];
+    return tr(names[static_cast<std::size_t>(step)]);
 }
 
 StepList::StepList()
@@ -59,9 +60,9 @@ void StepList::show(MeasureStep current, const ActuatorMeasurement& work)
         const auto step = static_cast<MeasureStep>(i);
         const auto state = work.state(step);
         buttons[i].setButtonText(nameOf(step));
-        buttons[i].setTitle("Step " + juce::String(static_cast<int>(i) + 1) + ", " + nameOf(step) + ", " +
-                            wordOf(state));
-        buttons[i].setTooltip(toText(work.whyLocked(step)));
+        buttons[i].setTitle(
+            tr("Step {0}, {1}, {2}", {juce::String(static_cast<int>(i) + 1), nameOf(step), tr(wordOf(state))}));
+        buttons[i].setTooltip(translateMessage(toText(work.whyLocked(step))));
         buttons[i].setEnabled(state != MeasureStepState::locked);
         buttons[i].set(static_cast<int>(i) + 1, state, step == current);
     }
@@ -130,7 +131,7 @@ void StepList::Row::paintButton(juce::Graphics& g, bool over, bool)
     g.drawText(getButtonText(), words.removeFromTop(words.getHeight() / 2), juce::Justification::bottomLeft, true);
     g.setColour(failed ? p.warning : p.dim);
     g.setFont(smallFont());
-    g.drawText(wordOf(state), words, juce::Justification::topLeft, true);
+    g.drawText(tr(wordOf(state)), words, juce::Justification::topLeft, true);
 }
 
 } // namespace pacini::editor

@@ -2,6 +2,7 @@
 #include "editor/measure/StepParts.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 
@@ -30,7 +31,7 @@ juce::String signedText(double value, int decimals)
 
 juce::String worstText(const Linearity& linearity)
 {
-    return signedText(linearity.worstDeviation, 2) + " dB at " + numberText(linearity.worstFrequency, 0) + " Hz";
+    return tr("{0} dB at {1} Hz", {signedText(linearity.worstDeviation, 2), numberText(linearity.worstFrequency, 0)});
 }
 
 void drawSideAndPlot(juce::Graphics& g, const juce::Component& step, const juce::String& title)
@@ -77,7 +78,7 @@ void NoteBox::fill()
     for (std::size_t i = 0; i < notes.size(); ++i)
     {
         setColour(textColourId, notes[i].kind == Note::Kind::warning ? p.warning : p.text);
-        insertTextAtCaret((i > 0 ? "\n" : "") + toText(notes[i].text));
+        insertTextAtCaret((i > 0 ? "\n" : "") + translateMessage(toText(notes[i].text)));
     }
     moveCaretToTop(false);
     setDescription(getText());

@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 
@@ -26,7 +27,7 @@ SweepControl::SweepControl(MeasurementController& wanted, bool throughEqualizer)
         else
             controller.sweep();
     };
-    bar.setTitle("Progress of the sweep");
+    bar.setTitle("Sweep progress");
     addAndMakeVisible(button);
     addAndMakeVisible(bar);
     refresh();
@@ -41,16 +42,16 @@ bool SweepControl::isMine() const
 void SweepControl::refresh()
 {
     const bool analysing = controller.activity() == MeasurementController::Activity::analysing;
-    button.setButtonText(isMine() ? "Stop" : verifying ? "Sweep through the equaliser" : "Sweep");
+    button.setButtonText(tr(isMine() ? "Stop" : verifying ? "Sweep with equaliser" : "Sweep"));
     button.setTitle(button.getButtonText());
-    button.setTooltip(isMine() ? "Ends the sweep; nothing of it is kept"
-                               : "Plays the sweep through the actuator and records the sensor in step with it");
+    button.setTooltip(tr(isMine() ? "Stops the sweep and discards it"
+                                  : "Plays the sweep through the actuator and records the sensor"));
     button.setEnabled(
         isMine() || (controller.activity() == MeasurementController::Activity::none && controller.obstacle().empty()));
     if (analysing)
     {
         progress = -1.0;
-        bar.setTextToDisplay("Analysing" + toText("…"));
+        bar.setTextToDisplay(tr(toText("Analysing…")));
     }
     bar.setVisible(isMine() || analysing);
     tick();
@@ -61,7 +62,7 @@ void SweepControl::tick()
     if (!isMine())
         return;
     progress = controller.progress();
-    bar.setTextToDisplay(juce::String(static_cast<int>(std::ceil(controller.secondsLeft()))) + " s left");
+    bar.setTextToDisplay(tr("{0} s left", {juce::String(static_cast<int>(std::ceil(controller.secondsLeft())))}));
 }
 
 void SweepControl::resized()
@@ -77,7 +78,7 @@ void SweepControl::resized()
 SweepStep::SweepStep(MeasurementController& wanted)
     : control(wanted, false),
       controller(wanted),
-      name("Name", "What the next placement is called: who wears it, or how it is attached")
+      name("Name", "Name of the next placement: who wears it, or how it is attached")
 {
     name.control.setFont(usualFont());
     name.control.setIndents(grid, 7);
@@ -111,21 +112,21 @@ void SweepStep::refresh()
         if (response != nullptr && i < response->average.offsets.size() && work.placements().size() > 1)
         {
             const double offset = response->average.offsets[i];
-            text << ", " << signedText(offset, 1) << " dB to the average";
+            text << ", " << tr("{0} dB from average", {signedText(offset, 1)});
             if (response->findings.outliers.contains(i))
-                text << ", left out";
+                text << ", " << tr("left out");
         }
         if (!placement.notes.empty())
-            text << ", " << static_cast<int>(placement.notes.size())
-                 << (placement.notes.size() == 1 ? " note" : " notes");
+            text << ", " << counted(placement.notes.size(), "{0} note", "{0} notes");
         row->name.setText(text, juce::dontSendNotification);
         row->name.setFont(usualFont());
-        row->name.setTooltip(toText(placement.notes.empty() ? std::string() : placement.notes.front()));
+        row->name.setTooltip(
+            translateMessage(toText(placement.notes.empty() ? std::string() : placement.notes.front())));
         row->name.setMinimumHorizontalScale(0.8f);
-        row->drop.setButtonText("Drop");
-        row->drop.setTitle("Drop " + toText(placement.name));
+        row->drop.setButtonText(tr("Remove"));
+        row->drop.setTitle(tr("Remove: {0}", {toText(placement.name)}));
         row->drop.setEnabled(controller.activity() == MeasurementController::Activity::none);
-        prepareButton(row->drop, "Takes this placement out; the response is computed anew",
+        prepareButton(row->drop, tr("Removes this placement and recomputes the response"),
                       [safe = juce::Component::SafePointer<SweepStep>(this), i]
                       {
                           // Dropping removes this very button.
@@ -150,11 +151,11 @@ void SweepStep::refresh()
     {
         for (const std::string& note : work.placements().back()->notes)
             lines.push_back({note, Note::Kind::warning});
-        lines.push_back({"Put the actuator on another wearer, or attach it anew, and sweep again: what is right for "
-                         "several holds for more. Or go on to the response."});
+        lines.push_back({"Move the actuator to another wearer, or reattach it, and sweep again: several placements "
+                         "make the result more reliable. Or continue with Response."});
     }
     else
-        lines.push_back({"Keep still while the sweep plays. It begins low and soft to the ear and gets higher."});
+        lines.push_back({"Keep still during the sweep. It starts low and quiet and rises in pitch."});
     notes.show(std::move(lines));
     resized();
     repaint();
@@ -185,7 +186,7 @@ void SweepStep::paint(juce::Graphics& g)
         return;
     g.setColour(p.dim);
     g.setFont(usualFont());
-    g.drawText("None yet", inside.withHeight(stepRow), juce::Justification::centredLeft, true);
+    g.drawText(tr("None yet"), inside.withHeight(stepRow), juce::Justification::centredLeft, true);
 }
 
 void SweepStep::resized()

@@ -3,6 +3,7 @@
 
 #include "editor/Controls.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/measure/ResponseStep.h"
 
 #include <algorithm>
@@ -19,39 +20,39 @@ VerifyStep::VerifyStep(MeasurementController& wanted, StepServices& around)
     : control(wanted, true),
       controller(wanted),
       services(around),
-      tolerance("Tolerance", "How far any frequency may be off the mean to pass, dB to both sides"),
-      saveSweep("Save sweep" + toText("…")),
-      openRecording("Open rec." + toText("…")),
-      again("Anew")
+      tolerance("Tolerance", "Max. deviation from the mean to pass, ± dB"),
+      saveSweep(toText("Save sweep…")),
+      openRecording(toText("Open…")),
+      again("Start over")
 {
     prepareSlider(tolerance.control, 0.5, 6.0, 0.1, "dB", 1);
     tolerance.control.onValueChange = [this]
     {
         controller.setTolerance(tolerance.control.getValue());
     };
-    saveSweep.setTitle("Save the sweep through the equaliser");
-    prepareButton(saveSweep, "Writes the sweep through the equaliser as a sound for another player",
+    saveSweep.setTitle("Save the equalised sweep");
+    prepareButton(saveSweep, "Saves the equalised sweep as a sound file for another player",
                   [this]
                   {
-                      services.askForFile(
-                          "Save the sweep through the equaliser", "*.wav", true, "sweep-equalised.wav",
-                          [this](const juce::File& file)
-                          {
-                              if (const auto saved = controller.saveSweep(pathOf(file.withFileExtension("wav")), true);
-                                  !saved)
-                                  services.tell("The sweep was not saved", toText(saved.error().text()));
-                          });
+                      services.askForFile("Save the equalised sweep", "*.wav", true, "sweep-equalised.wav",
+                                          [this](const juce::File& file)
+                                          {
+                                              if (const auto saved =
+                                                      controller.saveSweep(pathOf(file.withFileExtension("wav")), true);
+                                                  !saved)
+                                                  services.tell("Sweep not saved", toText(saved.error().text()));
+                                          });
                   });
-    openRecording.setTitle("Open a recording of the sweep through the equaliser");
-    prepareButton(openRecording, "Takes a recording of the sweep through the equaliser that was made elsewhere",
+    openRecording.setTitle("Open a recording of the equalised sweep");
+    prepareButton(openRecording, "Opens an equalised sweep recorded elsewhere",
                   [this]
                   {
-                      services.askForFile(
-                          "Open a recording of the sweep through the equaliser", "*.wav;*.flac", false, {},
-                          [this](const juce::File& file) { controller.readRecording(pathOf(file), true); });
+                      services.askForFile("Open a recording of the equalised sweep", "*.wav;*.flac", false, {},
+                                          [this](const juce::File& file)
+                                          { controller.readRecording(pathOf(file), true); });
                   });
-    again.setTitle("Start the proof anew");
-    prepareButton(again, "Drops the sweeps through the equaliser", [this] { controller.dropVerifications(); });
+    again.setTitle("Start verification over");
+    prepareButton(again, "Removes all equalised sweeps", [this] { controller.dropVerifications(); });
     addAll(*this, {&control, &meters[0], &meters[1], &meters[2], &tolerance, &saveSweep, &openRecording, &again, &facts,
                    &notes, &plot});
     refresh();
@@ -70,7 +71,7 @@ void VerifyStep::refresh()
 
     ResponsePlot::Content curves;
     curves.axisName = levelUnit(work);
-    curves.empty = "There is no equaliser yet";
+    curves.empty = tr("No equaliser yet");
     std::vector<Note> lines;
     FactTable::Facts list;
     if (!controller.verifyProblem().empty())
@@ -81,34 +82,34 @@ void VerifyStep::refresh()
     const FittedEqualizer* fitted = work.equalizer();
     if (response != nullptr && fitted != nullptr)
     {
-        curves.curves.push_back({"before", response->average.response, ResponsePlot::Role::before});
+        curves.curves.push_back({tr("before"), response->average.response, ResponsePlot::Role::before});
         curves.range = std::pair(fitted->lowFrequency, fitted->highFrequency);
         if (const VerifiedResponse* verified = work.verified())
         {
             const Linearity& after = verified->linearity;
             if (work.verifications().size() > 1)
                 for (const auto& one : work.verifications())
-                    curves.curves.push_back({"sweeps", one->measurement.response(), ResponsePlot::Role::single});
-            curves.curves.push_back({"with the equaliser", verified->after, ResponsePlot::Role::result});
+                    curves.curves.push_back({tr("sweeps"), one->measurement.response(), ResponsePlot::Role::single});
+            curves.curves.push_back({tr("equalised"), verified->after, ResponsePlot::Role::result});
             curves.band = std::pair(after.level - after.tolerance, after.level + after.tolerance);
-            list = {{"Mean deviation", numberText(after.meanDeviation, 2) + " dB"},
-                    {"before", numberText(verified->before.meanDeviation, 2) + " dB"},
-                    {"Worst", worstText(after)},
-                    {"before", worstText(verified->before)},
-                    {"Sweeps", juce::String(static_cast<int>(work.verifications().size()))},
-                    {"Level", numberText(work.verifications().back()->level, 1) + " dB"}};
+            list = {{tr("Mean deviation"), numberText(after.meanDeviation, 2) + " dB"},
+                    {tr("before"), numberText(verified->before.meanDeviation, 2) + " dB"},
+                    {tr("Worst"), worstText(after)},
+                    {tr("before"), worstText(verified->before)},
+                    {tr("Sweeps"), juce::String(static_cast<int>(work.verifications().size()))},
+                    {tr("Level"), numberText(work.verifications().back()->level, 1) + " dB"}};
             for (const LinearityOutlier& outlier : after.outliers)
-                lines.push_back({juce::String(toText("From ") + juce::String(outlier.lowFrequency, 0) + " to " +
-                                              numberText(outlier.highFrequency, 0) + " Hz it is off by up to " +
-                                              numberText(outlier.deviation, 1) + " dB.")
+                lines.push_back({tr("Off by up to {0} dB from {1} to {2} Hz.",
+                                    {numberText(outlier.deviation, 1), numberText(outlier.lowFrequency, 0),
+                                     numberText(outlier.highFrequency, 0)})
                                      .toStdString(),
                                  Note::Kind::warning});
             for (const std::string& note : verified->notes)
                 lines.push_back({note, Note::Kind::warning});
         }
         else if (lines.empty())
-            lines.push_back({"Sweep once more, now through the equaliser: the measurement shows what it really does. "
-                             "If the equaliser raises the sweep beyond full scale, the sweep is lowered by as much."});
+            lines.push_back({"Sweep again with the equaliser to measure its real effect. If it would exceed full "
+                             "scale, the sweep is lowered accordingly."});
     }
     facts.show(std::move(list));
     notes.show(std::move(lines));
@@ -133,7 +134,7 @@ juce::Rectangle<int> VerifyStep::verdictArea() const
 
 void VerifyStep::paint(juce::Graphics& g)
 {
-    drawSideAndPlot(g, *this, "Proof");
+    drawSideAndPlot(g, *this, "Verification");
     if (const VerifiedResponse* verified = controller.measurement().verified())
     {
         const Palette& p = paletteFor(*this);
@@ -145,8 +146,8 @@ void VerifyStep::paint(juce::Graphics& g)
         g.drawRoundedRectangle(place.reduced(0.5f), 4.0f, 1.0f);
         g.setColour(p.text);
         g.setFont(usualFont());
-        g.drawText((passed ? "Passed: flat within " : "Not flat within ") + toText("±") +
-                       numberText(verified->linearity.tolerance, 1) + " dB",
+        g.drawText(tr(toText(passed ? "Passed: flat within ±{0} dB" : "Failed: not flat within ±{0} dB"),
+                      {numberText(verified->linearity.tolerance, 1)}),
                    place, juce::Justification::centred, true);
     }
 }
@@ -165,7 +166,7 @@ void VerifyStep::resized()
     side.setTop(verdictArea().getBottom() + grid);
     facts.setBounds(side.removeFromTop(facts.wantedHeight()));
     auto row = side.removeFromBottom(stepRow);
-    again.setBounds(row.removeFromRight(7 * grid));
+    again.setBounds(row.removeFromRight(11 * grid));
     row.removeFromRight(grid);
     saveSweep.setBounds(row.removeFromLeft((row.getWidth() - grid) / 2));
     row.removeFromLeft(grid);

@@ -36,8 +36,8 @@ private:
     Named<juce::Slider> tolerance;
     juce::TextButton saveSweep, openRecording, again;
     FactTable facts{"How flat it is"};
-    NoteBox notes{"Notes on the proof"};
-    ResponsePlot plot{"Response without and with the equaliser", "Level over frequency, both measured"};
+    NoteBox notes{"Notes on the verification"};
+    ResponsePlot plot{"Response with and without equaliser", "Level over frequency, both measured"};
 };
 
 } // namespace pacini::editor

@@ -18,7 +18,7 @@ namespace
 {
 std::string cutMessage(double most)
 {
-    return fmt::format("amplitudes above {} are cut", decimal(most, 3));
+    return fmt::format("amplitudes above {} are clipped", decimal(most, 3));
 }
 } // namespace
 
@@ -64,7 +64,7 @@ void LossList::addNoise(const Clip& clip, const std::string& message)
 
 void LossList::addThinned(const Curve& before, const Curve& after)
 {
-    LossTrack track(LossKind::points, "amplitudes have fewer points here than are played");
+    LossTrack track(LossKind::points, "amplitude curve is simplified");
     forEachPlace(before, after,
                  [&](std::size_t i, const HatPlace& place)
                  {
@@ -114,7 +114,7 @@ void LossList::addOmitted(const std::vector<Transient>& events, const std::vecto
 void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
     LossTrack track(LossKind::crowding,
-                    fmt::format("events less than {} ms apart run into each other", decimal(1000.0 * gap, 1)));
+                    fmt::format("events less than {} ms apart overlap", decimal(1000.0 * gap, 1)));
     for (std::size_t i = 1; i < events.size(); ++i)
         track.add(events[i].time, events[i].time - events[i - 1].time < gap ? events[i].amplitude : 0.0);
     append(track);

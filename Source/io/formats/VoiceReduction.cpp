@@ -22,7 +22,7 @@ namespace
 {
 constexpr double shortest = 0.01; // s
 
-constexpr const char* inVoice = "residual noise becomes part of the voice";
+constexpr const char* inVoice = "residual noise is merged into the voice";
 
 double largestValue(const Curve& curve)
 {
@@ -36,8 +36,7 @@ double largestValue(const Curve& curve)
 /// weak to be there.
 void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
 {
-    LossTrack bands(LossKind::bands, fmt::format("{} bands become one voice; bands more than a third of an octave "
-                                                 "away are played at its frequency",
+    LossTrack bands(LossKind::bands, fmt::format("{} bands are merged into one voice; bands more than 1/3 octave away play at its frequency",
                                                  clip.bands.size()));
     for (const Breakpoint& point : voice.displaced)
         bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
@@ -59,7 +58,7 @@ Curve normalised(const SingleVoice& voice, const NormalisedRange& range, LossLis
 {
     LossTrack track(
         LossKind::frequency,
-        fmt::format("frequencies outside of {:.0f} to {:.0f} Hz are limited to this range", range.low, range.high));
+        fmt::format("frequencies are limited to {:.0f} to {:.0f} Hz", range.low, range.high));
     Curve curve = voice.frequency;
     CurveReader amplitude(voice.amplitude);
     for (Breakpoint& point : curve)
@@ -147,7 +146,7 @@ std::vector<Transient> transientsOf(const std::vector<Transient>& events, const 
     if (how == EventExport::merged)
     {
         std::vector<Transient> shown = emphasesOf(beside, amplitude, player);
-        losses.addOmitted(events, shown, "is no transient: the voice alone is as strong");
+        losses.addOmitted(events, shown, "dropped: already covered by the amplitude curve");
         return shown;
     }
     std::vector<Transient> shown;
@@ -160,7 +159,7 @@ std::vector<Transient> transientsOf(const std::vector<Transient>& events, const 
         }
     losses.addOmitted(
         events, shown,
-        fmt::format("is no transient: a stronger one is less than {:g} ms away", 1000.0 * player.separation));
+        fmt::format("dropped: a stronger event is less than {:g} ms away", 1000.0 * player.separation));
     return emphasisOfEach(shown, beyond, amplitude, player);
 }
 
@@ -180,7 +179,7 @@ void fewLevels(NormalisedVoice& result, const Curve& level, const EmphasisPlayer
     if (player)
         lowerToEvents(result.level, result.events);
     LossTrack track(LossKind::points,
-                    fmt::format("{:g} amplitude points per second are too few to keep the curve", pointsPerSecond));
+                    fmt::format("limited to {:g} amplitude points/s; detail is lost", pointsPerSecond));
     compare(level, result.level,
             [&](double time, double exact, double kept)
             {
@@ -205,7 +204,7 @@ void fewFrequencies(NormalisedVoice& result, const Curve& frequency, const Curve
     }
     result.frequency = anchoredCurve(frequency, {}, {pointCount(pointsPerSecond, result.duration), halfStep}, weights);
     LossTrack track(LossKind::frequency,
-                    fmt::format("{:g} frequency points per second are too few to keep the curve", pointsPerSecond));
+                    fmt::format("limited to {:g} frequency points/s; detail is lost", pointsPerSecond));
     CurveReader loudness(amplitude);
     compare(frequency, result.frequency,
             [&](double time, double exact, double kept)
@@ -240,7 +239,7 @@ void addEmptyParts(LossList& losses, const SingleVoice& voice)
         strongest = std::max(strongest, event.amplitude);
     if (std::max(strongest, largestValue(curve)) < leastAmplitude)
         return losses.add(LossKind::empty, 0.0, voice.duration, std::max(strongest, largestValue(curve)),
-                          "nothing here is strong enough to be felt");
+                          "too weak to be felt");
     std::size_t event = 0, end = 0;
     for (std::size_t begin = 0; begin < curve.size(); begin = end + 1)
     {
@@ -253,7 +252,7 @@ void addEmptyParts(LossList& losses, const SingleVoice& voice)
             ++event;
         const bool hasEvent = event < voice.events.size() && voice.events[event].time <= to;
         if (peak > 0.0 && to - from >= shortestGap && !hasEvent)
-            losses.add(LossKind::empty, from, to - from, peak, "nothing here is strong enough to be felt");
+            losses.add(LossKind::empty, from, to - from, peak, "too weak to be felt");
     }
 }
 
@@ -365,7 +364,7 @@ NormalisedVoice normalisedVoice(const Clip& clip, const ExportParams& params, co
     result.losses.limit(voice.amplitude, 1.0);
     result.losses.limit(voice.events, 1.0);
     if (clip.duration < shortest)
-        result.losses.add(LossKind::length, 0.0, clip.duration, shortest - clip.duration, "becomes 10 ms long");
+        result.losses.add(LossKind::length, 0.0, clip.duration, shortest - clip.duration, "extended to 10 ms");
 
     const auto whole = [&](Curve curve, double otherwise)
     {

@@ -228,7 +228,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     auto read = readState({static_cast<const char*>(data), static_cast<std::size_t>(size)});
     if (!read)
     {
-        say("The session's settings were not used: " + juce::String(read.error().text()));
+        say("Session settings not used: " + juce::String(read.error().text()));
         return;
     }
     PluginState& state = read->state;
@@ -246,7 +246,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     if (state.windowWidth > 0 && state.windowHeight > 0)
         setWindowSize(state.windowWidth, state.windowHeight);
     if (const auto restored = clips.setText(state.clips); !restored)
-        noted += (noted.isEmpty() ? "" : "; ") + juce::String("the session's clips cannot be read: ") +
+        noted += (noted.isEmpty() ? "" : "; ") + juce::String("cannot read the session's clips: ") +
                  juce::String(restored.error().text());
     say(noted);
     updateHostDisplay(ChangeDetails().withProgramChanged(true));
@@ -265,8 +265,8 @@ std::optional<juce::String> PluginProcessor::restoreActuator(ParameterValues& va
     if (profile && slot != ownProfileSlot && profile != builtInProfile(slot))
     {
         values.set(id, static_cast<double>(ownProfileSlot + first));
-        note = channel == 0 ? juce::String("the session's own version of the actuator is used")
-                            : "the session's own version of actuator " + juce::String(channel + 1) + " is used";
+        note = channel == 0 ? juce::String("using the session's own version of the actuator")
+                            : "using the session's own version of actuator " + juce::String(channel + 1);
     }
     if (values.index(id) == ownProfileSlot + first)
     {

@@ -4,6 +4,7 @@
 #include "document/BuiltInProfiles.h"
 #include "editor/Controls.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 
@@ -46,9 +47,10 @@ ActuatorsPage::ActuatorsPage(PluginProcessor& shown) : processor(shown)
         };
         const juce::String number(c + 1);
         row.actuator = choice(of(ChannelSetting::actuator));
-        row.load.setButtonText("Load" + juce::String::fromUTF8("…"));
-        row.load.setTitle("Load actuator " + number);
-        editor::prepareButton(row.load, "Takes the actuator of haptic channel " + number + " from a profile file",
+        row.load.setButtonText(juce::String::fromUTF8("Load…"));
+        row.load.setTitle(editor::tr("Load actuator {0}", {number}));
+        editor::prepareButton(row.load,
+                              editor::tr("Loads the actuator of haptic channel {0} from a profile file", {number}),
                               [this, c]
                               {
                                   if (onLoad)
@@ -59,7 +61,7 @@ ActuatorsPage::ActuatorsPage(PluginProcessor& shown) : processor(shown)
         row.gain = slider(of(ChannelSetting::gain), {});
         row.delay = slider(of(ChannelSetting::delay), {});
         row.meter = std::make_unique<editor::LevelMeter>(
-            "Output " + number, "Peak of haptic channel " + number + "; 0 dB is full drive",
+            editor::tr("Output {0}", {number}), editor::tr("Peak of haptic channel {0}; 0 dB is full drive", {number}),
             editor::LevelMeter::Scale{.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f});
         addAndMakeVisible(*row.meter);
     }
@@ -122,9 +124,9 @@ void ActuatorsPage::refresh()
                             static_cast<std::size_t>(OutputMode::addToChannel));
     const juce::String text =
         used == 1
-            ? "One haptic channel is played. For more, give the haptic output more channels in the host, or choose "
-              "\"Haptic replaces sound\" or \"Haptic added to one channel\" as main output."
-            : juce::String(static_cast<int>(used)) + " haptic channels are played";
+            ? editor::tr("One haptic channel. For more, add channels to the haptic output in the host, or set the "
+                         "main output to \"Haptic replaces sound\" or \"Haptic added to one channel\".")
+            : editor::tr("{0} haptic channels", {juce::String(static_cast<int>(used))});
     if (text != hint.getText())
         hint.setText(text, juce::dontSendNotification);
 }
@@ -208,7 +210,7 @@ void ActuatorsPage::paint(juce::Graphics& g)
     const Columns heads = columnsOf(lineOf(0));
     const auto head = [&](int column, const char* text)
     {
-        g.drawText(text, heads[static_cast<std::size_t>(column)], juce::Justification::centredLeft, true);
+        g.drawText(editor::tr(text), heads[static_cast<std::size_t>(column)], juce::Justification::centredLeft, true);
     };
     head(actuatorColumn, "Actuator");
     head(placeColumn, "Place");

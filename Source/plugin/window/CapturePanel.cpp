@@ -4,6 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "io/ClipFile.h"
 
 #include <algorithm>
@@ -23,15 +24,15 @@ constexpr std::array<int, 4> lengths{3, 5, 10, 30}; // s
 } // namespace
 
 CapturePanel::CapturePanel(PluginProcessor& heard)
-    : source(heard), button("Capture"), editButton("Edit"), saveButton("Save" + toText("…"))
+    : source(heard), button("Capture"), editButton("Edit"), saveButton(toText("Save…"))
 {
     for (const int seconds : lengths)
-        length.addItem("Last " + juce::String(seconds) + " s", seconds);
+        length.addItem(editor::tr("Last {0} s", {juce::String(seconds)}), seconds);
     length.setSelectedId(5, juce::dontSendNotification);
     length.setTitle("Length of the capture");
-    length.setTooltip("How much of what was heard becomes a clip");
-    button.setDescription("Turns the last seconds of the sound into a clip");
-    editor::prepareButton(button, "Turns the last seconds of the sound into a clip", [this] { captureNow(); });
+    length.setTooltip("How much of the recent sound becomes a clip");
+    button.setDescription("Turns the last seconds of sound into a clip");
+    editor::prepareButton(button, "Turns the last seconds of sound into a clip", [this] { captureNow(); });
     editButton.setDescription("Opens the captured clip in the clip editor");
     editButton.setEnabled(false);
     editor::prepareButton(editButton, "Opens the captured clip in the clip editor",
@@ -57,7 +58,7 @@ void CapturePanel::resized()
     row.removeFromLeft(grid);
     length.setBounds(row.removeFromLeft(13 * grid));
     row.removeFromLeft(grid);
-    editButton.setBounds(row.removeFromLeft(7 * grid));
+    editButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);
     saveButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);
@@ -80,13 +81,15 @@ void CapturePanel::take(Result<Clip> made)
     button.setEnabled(true);
     if (!made)
     {
-        say("No clip: " + juce::String(made.error().text()), true);
+        say(editor::tr("No clip: {0}", {editor::translateMessage(juce::String(made.error().text()))}), true);
         return;
     }
     clip = std::move(made).value();
     const auto written = editor::writeForDragging(*clip);
     file = written ? *written : juce::File();
-    say(written ? juce::String() : "Cannot be dragged: " + toText(written.error().text()), !written);
+    say(written ? juce::String()
+                : editor::tr("Cannot be dragged: {0}", {editor::translateMessage(toText(written.error().text()))}),
+        !written);
     chip.show(*clip, [this] { return file; });
     saveButton.setEnabled(true);
     editButton.setEnabled(true);
@@ -95,7 +98,7 @@ void CapturePanel::take(Result<Clip> made)
 void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
-        "Save the clip",
+        editor::tr("Save clip"),
         juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(file.getFileName()),
         "*.json;*.pacb");
     chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
@@ -113,7 +116,7 @@ void CapturePanel::save(const juce::File& chosen)
     const auto written =
         writeClip(target.getFullPathName().toStdString(), *clip, packed ? packedFormat() : jsonFormat());
     if (!written)
-        say("Not saved: " + juce::String(written.error().text()), true);
+        say(editor::tr("Not saved: {0}", {editor::translateMessage(juce::String(written.error().text()))}), true);
 }
 
 void CapturePanel::say(const juce::String& text, bool wrong)

@@ -3,6 +3,7 @@
 
 #include "document/BuiltInProfiles.h"
 #include "editor/Controls.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 
@@ -57,6 +58,7 @@ bool systemIsDark()
 
 juce::AudioProcessorEditor* Plugin::createEditor()
 {
+    editor::useLanguage({}); // a host has no settings of ours to ask
     return new PluginWindow(*this);
 }
 
@@ -64,13 +66,12 @@ PluginWindow::PluginWindow(Plugin& shown)
     : AudioProcessorEditor(shown),
       processor(shown),
       tooltips(this, 600),
-      inputMeter("Input", "Peak of the sound that is turned into touch",
-                 {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
+      inputMeter("Input", "Peak of the input sound", {.low = -60.0f, .high = 6.0f, .warnAbove = 0.0f}),
       outputMeter("Output", "Peak of the haptic signal; 0 dB is full drive",
                   {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
       reductionMeter("Gain reduction", "Gain reduction by the limiter and the actuator's protection",
                      {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
-      feltMeter("Above touch threshold", "How far the haptic signal stands above what is just felt",
+      feltMeter("Above touch threshold", "Haptic level above the touch threshold",
                 {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true}),
       capture(shown)
 {
@@ -82,9 +83,9 @@ PluginWindow::PluginWindow(Plugin& shown)
 
     for (int i = 0; i < processor.getNumPrograms(); ++i)
         programChoice.addItem(processor.getProgramName(i), i + 1);
-    programChoice.setTitle("Program");
-    programChoice.setDescription("Settings to start from");
-    programChoice.setTooltip("Settings to start from");
+    programChoice.setTitle("Preset");
+    programChoice.setDescription("Preset to start from");
+    programChoice.setTooltip("Preset to start from");
     programChoice.onChange = [this]
     {
         if (programChoice.getSelectedId() > 0)
@@ -95,25 +96,24 @@ PluginWindow::PluginWindow(Plugin& shown)
     };
     adopt(programChoice, nullptr);
     actuator = choice(Id::profile);
-    loadButton.setButtonText("Load" + juce::String::fromUTF8("…"));
+    loadButton.setButtonText(juce::String::fromUTF8("Load…"));
     loadButton.setTitle("Load an actuator");
-    editor::prepareButton(loadButton, "Takes an actuator from a profile file", [this] { chooseActuator(0); });
+    editor::prepareButton(loadButton, "Loads an actuator from a profile file", [this] { chooseActuator(0); });
     adopt(loadButton, nullptr);
     bypassToggle = toggle(Id::bypass, "Bypass");
     actuatorsButton.setButtonText("Actuators");
     actuatorsButton.setClickingTogglesState(true);
     editor::prepareButton(actuatorsButton,
-                          "Several actuators: what each haptic channel plays, and what moves the touch over them",
+                          "Settings for several actuators: one per haptic channel, and panning across them",
                           [this] { show(actuatorsButton.getToggleState() ? Page::actuators : Page::live); });
     adopt(actuatorsButton, nullptr);
     clipsButton.setButtonText("Clips");
     clipsButton.setTitle("Clip editor");
     clipsButton.setClickingTogglesState(true);
-    editor::prepareButton(clipsButton,
-                          "Captured and opened clips, to see, edit and export; they are kept with the session",
+    editor::prepareButton(clipsButton, "View, edit and export captured and opened clips; saved with the session",
                           [this] { show(clipsButton.getToggleState() ? Page::clips : Page::live); });
     adopt(clipsButton, nullptr);
-    editor::prepareButton(themeButton, "Light or dark", [this] { setDark(!look.isDark()); });
+    editor::prepareButton(themeButton, "Switches between light and dark theme", [this] { setDark(!look.isDark()); });
     adopt(themeButton, nullptr);
 
     sourceChoice = choice(Id::source);
@@ -149,8 +149,9 @@ PluginWindow::PluginWindow(Plugin& shown)
     adopt(capture, nullptr);
     status.setFont(editor::smallFont());
     status.setJustificationType(juce::Justification::centredRight);
-    status.setTitle("State");
+    status.setTitle("Status");
     addAndMakeVisible(status);
+    editor::translateTexts(*this);
 
     setDark(look.isDark());
     const auto wanted = processor.windowSize(); // before the limits set a size
@@ -203,8 +204,8 @@ std::unique_ptr<editor::ParameterChoice> PluginWindow::choice(ParameterId parame
 void PluginWindow::setDark(bool dark)
 {
     look.setDark(dark);
-    themeButton.setButtonText(dark ? "Light" : "Dark");
-    themeButton.setTitle(dark ? "Light colours" : "Dark colours");
+    themeButton.setButtonText(editor::tr(dark ? "Light" : "Dark"));
+    themeButton.setTitle(editor::tr(dark ? "Light theme" : "Dark theme"));
     status.setColour(juce::Label::textColourId, look.palette().dim);
     sendLookAndFeelChange();
     if (clipView)
@@ -231,6 +232,7 @@ void PluginWindow::show(Page wanted)
         {
             chooseActuator(channel);
         };
+        editor::translateTexts(*actuatorsPage);
         addChildComponent(*actuatorsPage);
         actuatorsPage->sendLookAndFeelChange(); // it was made before it had this look
     }
@@ -305,14 +307,14 @@ juce::String PluginWindow::statusText() const
 {
     juce::String note = processor.note();
     if (note.isNotEmpty())
-        return note;
+        return editor::translateMessage(note);
     const double milliseconds = 1000.0 * processor.latency() / processor.sampleRate();
-    return processor.actuatorName() + ", latency " + juce::String(milliseconds, 2) + " ms";
+    return editor::tr("{0}, latency {1} ms", {processor.actuatorName(), juce::String(milliseconds, 2)});
 }
 
 void PluginWindow::chooseActuator(std::size_t channel)
 {
-    chooser = std::make_unique<juce::FileChooser>("Load an actuator", juce::File(), "*.json");
+    chooser = std::make_unique<juce::FileChooser>(editor::tr("Load an actuator"), juce::File(), "*.json");
     chooser->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
                          [this, channel](const juce::FileChooser& chosen)
                          {
@@ -321,8 +323,9 @@ void PluginWindow::chooseActuator(std::size_t channel)
                              const auto loaded = processor.loadActuator(chosen.getResult(), channel);
                              if (!loaded)
                                  juce::NativeMessageBox::showMessageBoxAsync(
-                                     juce::MessageBoxIconType::WarningIcon, "Not a profile",
-                                     chosen.getResult().getFileName() + ": " + juce::String(loaded.error().text()),
+                                     juce::MessageBoxIconType::WarningIcon, editor::tr("Not a profile"),
+                                     chosen.getResult().getFileName() + ": " +
+                                         editor::translateMessage(juce::String(loaded.error().text())),
                                      this);
                          });
 }
@@ -398,7 +401,7 @@ void PluginWindow::resized()
     feltMeter.setBounds(row(touch));
     placeKnobs(card(right, "Gate"), {gateThreshold.get(), gateRelease.get()});
 
-    auto roles = card(lower.removeFromLeft(lower.getWidth() * 2 / 5), "What is felt");
+    auto roles = card(lower.removeFromLeft(lower.getWidth() * 2 / 5), "Layers");
     lower.removeFromLeft(grid);
     for (std::size_t i = 0; i < roleLevels.size(); ++i)
     {
@@ -424,7 +427,7 @@ void PluginWindow::placeHeader(juce::Rectangle<int> area)
     area.removeFromRight(grid);
     clipsButton.setBounds(area.removeFromRight(8 * grid));
     area.removeFromRight(grid);
-    actuatorsButton.setBounds(area.removeFromRight(10 * grid));
+    actuatorsButton.setBounds(area.removeFromRight(12 * grid));
     area.removeFromRight(2 * grid);
     loadButton.setBounds(area.removeFromRight(9 * grid));
     area.removeFromRight(grid);

@@ -465,7 +465,7 @@ TEST_CASE("Parts of a quarter of a second that nobody feels are said to be empty
         addEmptyParts(losses, voice);
         return std::move(losses).sorted();
     };
-    const std::string message = "nothing here is strong enough to be felt";
+    const std::string message = "too weak to be felt";
     CHECK(found({{0.0, 0.003}, {2.0, 0.003}}) == std::vector<FormatLoss>{{LossKind::empty, 0.0, 2.0, 0.003, message}});
     CHECK(found({{0.0, 0.0}, {2.0, 0.0}}, {{1.0, 0.002, 0.5}}) ==
           std::vector<FormatLoss>{{LossKind::empty, 0.0, 2.0, 0.002, message}});
@@ -624,7 +624,7 @@ TEST_CASE("Envelopes of Android say what some devices do not play", "[formats]")
         const auto bent = lossesOf(hill, LossKind::frequency, "basic envelope", hertz);
         REQUIRE(bent.size() == 1);
         CHECK(bent[0].error == Approx(std::abs(std::log2(hertz / end))));
-        CHECK(bent[0].message == "basic envelope: frequencies outside 65 to 300 Hz are limited to this range");
+        CHECK(bent[0].message == "basic envelope: frequencies are limited to 65 to 300 Hz");
     }
 }
 
@@ -659,7 +659,7 @@ TEST_CASE("Sums of bands are limited to the same numbers as ever", "[formats]")
     const auto tooMany = limitSum(two, 0.5, 7);
     REQUIRE_FALSE(tooMany.ok());
     CHECK(tooMany.error().code == ErrorCode::tooLarge);
-    CHECK(tooMany.error().message == "needs too many points to be kept within full drive");
+    CHECK(tooMany.error().message == "too many points needed to stay within full drive");
 }
 
 TEST_CASE("Events of HJIF have the numbers that they had", "[formats]")

@@ -94,7 +94,7 @@ TEST_CASE("Events nearer than they can be played are named each", "[formats]")
     CHECK(losses[0].error == 0.6);
     CHECK(losses[1].time == 0.507);
     CHECK(losses[1].error == 0.4);
-    CHECK(losses[0].message == "events less than 10 ms apart run into each other");
+    CHECK(losses[0].message == "events less than 10 ms apart overlap");
     CHECK(lossesOf([&](LossList& list) { list.addCrowding(events, 0.0055); }).at(0).message.find("5.5 ms") !=
           std::string::npos);
 }

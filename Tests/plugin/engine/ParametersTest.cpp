@@ -61,7 +61,7 @@ TEST_CASE("Texts are read as people type them")
     CHECK(read(ParameterId::source, "side") == 1.0);
     CHECK(read(ParameterId::source, "2") == 2.0);
     CHECK(read(ParameterId::profile, "lra 235 hz") == 4.0);
-    CHECK(read(ParameterId::profile, "Own file") == 31.0);
+    CHECK(read(ParameterId::profile, "From file") == 31.0);
     CHECK(textOf(rowOf(ParameterId::transposition), -0.001) == "0.00 st");
     CHECK(textOf(rowOf(ParameterId::release), 99.96) == "100 ms");
 }

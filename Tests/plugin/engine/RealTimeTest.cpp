@@ -142,9 +142,9 @@ TEST_CASE("State can be saved from a background thread while sound plays and par
 TEST_CASE("An actuator chosen by automation is taken without anybody's help")
 {
     Rig rig;
-    CHECK(rig.plugin.actuatorName() == "Flat drive signal");
+    CHECK(rig.plugin.actuatorName() == "Flat drive");
     rig.plugin.parameter(ParameterId::profile).setValue(1.0f / 31.0f);
-    for (int i = 0; i < 500 && rig.plugin.actuatorName() == "Flat drive signal"; ++i)
+    for (int i = 0; i < 500 && rig.plugin.actuatorName() == "Flat drive"; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK(rig.plugin.actuatorName() == "L5 voice coil in a wristband");
 }

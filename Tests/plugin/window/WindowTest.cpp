@@ -1,6 +1,7 @@
 // The window, without any screen.
 
 #include "editor/CaptureJob.h"
+#include "editor/Unmarked.h"
 #include "io/ClipFile.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
@@ -128,6 +129,26 @@ TEST_CASE("Every control has a name, a help text and a place that the keyboard r
                      CHECK(child.getHeight() >= 16);
                  });
     CHECK(controls >= 22);
+}
+
+TEST_CASE("No text of the window bypasses the tables of translations")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    const test::MarkedLanguage marked;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    window.show(plugin::PluginWindow::Page::actuators);
+    window.refresh();
+    juce::StringArray found;
+    const juce::StringArray names{"Pacini",  "L5 wristband", "L5 test jig",
+                                  "LRA",     "ERM coin",     "DualSense",
+                                  "Joy-Con", "Standard",     rig.plugin.actuatorName()};
+    juce::StringArray presets = names;
+    for (int i = 0; i < rig.plugin.getNumPrograms(); ++i)
+        presets.add(rig.plugin.getProgramName(i));
+    test::addUnmarked(window, presets, found);
+    INFO(found.joinIntoString("\n"));
+    CHECK(found.isEmpty());
 }
 
 TEST_CASE("No control lies on another one or outside of the window, at any size")

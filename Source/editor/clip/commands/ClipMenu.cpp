@@ -29,7 +29,7 @@ Menu clipMenu(EditorView& view)
     const auto anyClip = hasClip(session);
     Menu menu("Clip");
     menu.add(
-        trim, "Trim to time range", "Keeps the time range only",
+        trim, "Trim to time range", "Deletes everything outside the time range",
         [&session]
         {
             const auto range = *session.clipSelection.timeRange();
@@ -38,17 +38,17 @@ Menu clipMenu(EditorView& view)
         },
         [&session] { return session.model.clip() && session.clipSelection.timeRange(); }, {ctrl('t')});
     menu.add(
-        reverse, "Reverse", "Plays the clip from its end", [&session] { session.model.edit("Reverse", ReverseEdit{}); },
+        reverse, "Reverse", "Reverses the clip in time", [&session] { session.model.edit("Reverse", ReverseEdit{}); },
         anyClip);
     menu.add(transposePitch, "Transpose...", "Shifts all frequencies by semitones",
              [&view] { ask(view, transposeOperation()); }, anyClip, {ctrlShift('t')});
     menu.add(
-        stretch, "Stretch...", "Longer or shorter, at the same pitch",
+        stretch, "Stretch...", "Changes the length and keeps the pitch",
         [&view] { ask(view, stretchOperation(view.session().model)); }, anyClip);
     menu.add(repeatClipTimes, "Repeat...", "Repeats the clip a number of times",
              [&view] { ask(view, repeatOperation()); }, anyClip, {ctrl('r')});
     menu.add(
-        splitClipHere, "Split at playhead", "The part after the playhead becomes a clip of its own",
+        splitClipHere, "Split at playhead", "Moves everything after the playhead to a new clip",
         [&session]
         {
             if (!session.model.splitAt(session.transport.playhead()))
@@ -62,20 +62,20 @@ Menu clipMenu(EditorView& view)
         [&session] { session.model.joinNext(); }, [&session] { return session.model.nextClipId() != 0; },
         {juce::KeyPress('j')});
     menu.addLine();
-    menu.add(keepVersionA, "Keep this version as A", "Keeps the clip as it is now, to compare it with what it becomes",
+    menu.add(keepVersionA, "Store as version A", "Stores the clip as it is now, to compare with later edits",
              [&session] { session.model.keepVersion(); }, anyClip, {ctrl('k')});
     menu.addSwitch(
-        compareWithA, "Compare with A", "Shows and plays version A, and the clip again; playing goes on",
+        compareWithA, "Compare with A", "Switches between version A and the clip, also during playback",
         [&session] { session.model.setComparing(!session.model.isComparing()); },
         [&session] { return session.model.isComparing(); }, {juce::KeyPress('c')},
         [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
-        takeVersionA, "Take version A", "The clip becomes version A",
+        takeVersionA, "Revert to version A", "Replaces the clip with version A",
         [&session]
         {
             const auto kept = session.model.keptVersion();
             session.model.setComparing(false);
-            session.clipSelection.setEdited("Take version A", {*kept, {}});
+            session.clipSelection.setEdited("Revert to version A", {*kept, {}});
         },
         [&session] { return session.model.keptVersion() != nullptr; });
     menu.addLine();

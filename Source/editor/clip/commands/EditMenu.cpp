@@ -12,9 +12,9 @@ namespace pacini::editor
 
 namespace
 {
-juce::String nameWithStep(const char* name, const std::string& step)
+juce::String nameWithStep(const char* name, const char* named, const std::string& step)
 {
-    return step.empty() ? tr(name) : tr(name) + " " + tr(toText(step)).toLowerCase();
+    return step.empty() ? tr(name) : tr(named, {translateMessage(toText(step))});
 }
 
 std::optional<Lane> focusedLane()
@@ -49,32 +49,31 @@ Menu editMenu(EditorView& view)
             [&session] { return session.model.document().canUndo(); }, {ctrl('z')})
         .fullName = [&session]
     {
-        return nameWithStep("Undo", session.model.document().undoName());
+        return nameWithStep("Undo", "Undo: {0}", session.model.document().undoName());
     };
     menu.add(
-            redo, "Redo", "Redoes the last step that was undone", [&session] { session.model.redo(); },
+            redo, "Redo", "Redoes the last undone step", [&session] { session.model.redo(); },
             [&session] { return session.model.document().canRedo(); }, {ctrlShift('z'), ctrl('y')})
         .fullName = [&session]
     {
-        return nameWithStep("Redo", session.model.document().redoName());
+        return nameWithStep("Redo", "Redo: {0}", session.model.document().redoName());
     };
     menu.addLine();
-    menu.add(cut, "Cut", "Copies and removes what is selected, or the time range",
-             [&session] { session.clipSelection.cut(); }, anyClip, {ctrl('x')});
-    menu.add(copy, "Copy", "Copies what is selected, or the time range of all lanes",
+    menu.add(cut, "Cut", "Cuts the selection or the time range", [&session] { session.clipSelection.cut(); }, anyClip,
+             {ctrl('x')});
+    menu.add(copy, "Copy", "Copies the selection, or the time range in all lanes",
              [&session] { session.clipSelection.copy(); }, anyClip, {ctrl('c')});
     menu.add(
-        paste, "Paste at playhead",
-        "Pastes into the lanes it was copied from; a single lane into the one with the focus",
+        paste, "Paste at playhead", "Pastes into the same lanes; a single lane goes into the focused one",
         [&session] { session.clipSelection.paste(session.transport.playhead(), focusedLane()); },
         [&session] { return session.model.clip() && session.clipSelection.canPaste(); }, {ctrl('v')});
-    menu.add(deleteSelection, "Delete points", "Removes the selected points and transients",
+    menu.add(deleteSelection, "Delete points", "Deletes the selected points and transients",
              [&session] { session.clipSelection.deleteSelection(); }, anySelected,
              {Key(Key::deleteKey), Key(Key::backspaceKey)});
     menu.addLine();
-    menu.add(selectAll, "Select all", "Selects all points of the lane with the focus, else all transients",
+    menu.add(selectAll, "Select all", "Selects all points of the focused lane, or all transients",
              [&session] { session.clipSelection.select(everything(*session.model.clip())); }, anyClip, {ctrl('a')});
-    menu.add(selectNone, "Select nothing", "Selects nothing", [&session] { session.clipSelection.select({}); },
+    menu.add(selectNone, "Deselect all", "Clears the selection", [&session] { session.clipSelection.select({}); },
              anySelected, {ctrlShift('a')});
     return menu;
 }

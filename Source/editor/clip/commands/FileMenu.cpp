@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/sheets/ExportSheet.h"
@@ -16,7 +17,7 @@ juce::PopupMenu recentProjects(EditorView& view)
     for (const auto& file : recent.files())
         menu.addItem(pathText(file), RecentFiles::exists(file), false, [&view, file] { view.files().open({file}); });
     menu.addSeparator();
-    menu.addItem("Forget them", [&recent] { (void)recent.clear(); });
+    menu.addItem(tr("Clear list"), [&recent] { (void)recent.clear(); });
     return menu;
 }
 
@@ -33,41 +34,40 @@ Menu fileMenu(EditorView& view)
 {
     const auto anyClip = hasClip(view.session());
     Menu menu("File");
-    menu.add(newProject, "New project", "Begins an empty project",
+    menu.add(newProject, "New project", "Starts an empty project",
              [&view] { view.files().whenSaved([&view] { view.session().model.newProject(); }); }, {}, {ctrl('n')});
-    menu.add(openFile, "Open...", "Opens sounds, clips of all known formats and projects",
+    menu.add(openFile, "Open...", "Opens sounds, clips of any supported format, and projects",
              [&view] { view.files().askWhatToOpen(); }, {}, {ctrl('o')});
-    menu.add(openFolder, "Open folder...", "Adds every sound and clip in a folder, and in the folders inside it",
+    menu.add(openFolder, "Open folder...", "Adds all sounds and clips in a folder and its subfolders",
              [&view] { view.files().askWhatFolder(); }, {}, {ctrlShift('o')});
     menu.addMenu(
-        openRecent, "Recent projects", "Opens a project that was open before", [&view] { return recentProjects(view); },
+        openRecent, "Recent projects", "Opens a recent project", [&view] { return recentProjects(view); },
         [&view] { return !view.session().model.recentFiles().files().empty(); });
     menu.addMenu(
-        openDemo, "Open a demo sound", "Opens one of the sounds that come with Pacini",
-        [&view] { return demoSounds(view); }, [&view] { return !view.hostServices().demoSounds.empty(); },
+        openDemo, "Open a demo sound", "Opens a sound that comes with Pacini", [&view] { return demoSounds(view); },
+        [&view] { return !view.hostServices().demoSounds.empty(); },
         [&view] { view.files().open({view.hostServices().demoSounds.front()}); });
     menu.add(
         openSample, "Open the sample project",
-        "Three clips with hand edits, groups, markers and notes, to try things on; it opens as a new project",
+        "Opens three clips with edits, groups, markers and notes to experiment with, as a new project",
         [&view] { view.files().openSample(); }, [&view] { return view.files().hasSample(); });
     menu.addLine();
-    menu.add(save, "Save project", "Writes the project to its file", [&view] { view.files().save(); }, anyClip,
-             {ctrl('s')});
-    menu.add(saveAs, "Save project as...", "Writes the project to another file", [&view] { view.files().saveAs(); },
+    menu.add(save, "Save project", "Saves the project", [&view] { view.files().save(); }, anyClip, {ctrl('s')});
+    menu.add(saveAs, "Save project as...", "Saves the project under a new name", [&view] { view.files().saveAs(); },
              anyClip, {ctrlShift('s')});
     menu.addLine();
-    menu.add(exportClips, "Export...", "Writes clips for use elsewhere, in any format",
+    menu.add(exportClips, "Export...", "Exports clips to any supported format",
              [&view] { view.showSheet(std::make_unique<ExportSheet>(view.session().model, view.session().actuators)); },
              anyClip, {ctrl('e')});
     menu.addLine();
     menu.add(
-        stopWork, "Stop opening and analysing", "Skips files that are not opened and analysed yet",
+        stopWork, "Cancel import", "Cancels opening and analysis of the remaining files",
         [&view] { view.session().sounds.stopWork(); }, [&view] { return view.session().sounds.workNow().has_value(); },
         {juce::KeyPress(juce::KeyPress::escapeKey)});
     if (view.hostServices().quit)
     {
         menu.addLine();
-        menu.add(quit, "Quit", "Closes the program", [&view] { view.hostServices().quit(); }, {}, {ctrl('q')});
+        menu.add(quit, "Quit", "Quits the editor", [&view] { view.hostServices().quit(); }, {}, {ctrl('q')});
     }
     return menu;
 }

@@ -10,10 +10,10 @@ namespace pacini::editor
 Menu helpMenu(EditorView& view)
 {
     Menu menu("Help");
-    menu.add(manual, "Manual", "Explains the editor, step by step",
+    menu.add(manual, "Manual", "Explains the editor step by step",
              [&view] { view.showSheet(std::make_unique<HelpSheet>()); }, {},
              {juce::KeyPress(juce::KeyPress::F1Key, juce::ModifierKeys::shiftModifier, 0)});
-    menu.add(shortcuts, "Keys and mouse", "Shows what keys and mouse do",
+    menu.add(shortcuts, "Keyboard and mouse", "Lists shortcuts and mouse actions",
              [&view] { view.showSheet(std::make_unique<ShortcutsSheet>(view.menus().all())); }, {},
              {juce::KeyPress(juce::KeyPress::F1Key)});
     return menu;

@@ -68,20 +68,20 @@ Menu markerMenu(EditorView& view)
     };
     using Key = juce::KeyPress;
     Menu menu("Marker");
-    menu.add(addMarker, "Add marker", "Adds a marker at the playhead, also while playing",
+    menu.add(addMarker, "Add marker", "Adds a marker at the playhead, also during playback",
              [&session] { addHere(session); }, hasClip(session), {Key('m')});
     menu.add(renameMarker, "Rename marker...", "Renames the marker at the playhead", [&view] { rename(view); },
              onMarker, {Key(Key::F2Key)});
     menu.add(
-        deleteMarker, "Delete marker", "Removes the marker at the playhead",
+        deleteMarker, "Delete marker", "Deletes the marker at the playhead",
         [&session]
         { setMarkers(session, "Delete marker", withoutMarker(session.model.clip()->markers, *markerHere(session))); },
         onMarker, {Key('m', juce::ModifierKeys::shiftModifier, 0)});
     menu.addLine();
-    menu.add(nextMarker, "Next marker", "Brings the playhead to the next marker",
+    menu.add(nextMarker, "Next marker", "Moves the playhead to the next marker",
              [&session] { go(session, markerAfter(session.model.clip()->markers, session.transport.playhead())); },
              anyMarker, {ctrlShift(Key::rightKey)});
-    menu.add(markerBack, "Previous marker", "Brings the playhead to the marker before it",
+    menu.add(markerBack, "Previous marker", "Moves the playhead to the previous marker",
              [&session] { go(session, markerBefore(session.model.clip()->markers, session.transport.playhead())); },
              anyMarker, {ctrlShift(Key::leftKey)});
     return menu;

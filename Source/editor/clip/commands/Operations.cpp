@@ -22,7 +22,7 @@ struct Division
 };
 constexpr std::array<Division, 8> divisions{{{"1/1", 1.0},
                                              {"1/2", 1.0 / 2.0},
-                                             {"1/4 (a beat)", 1.0 / 4.0},
+                                             {"1/4 (beat)", 1.0 / 4.0},
                                              {"1/8", 1.0 / 8.0},
                                              {"1/8 triplet", 1.0 / 12.0},
                                              {"1/16", 1.0 / 16.0},
@@ -54,7 +54,7 @@ Operation gainOperation(const ClipSelection& selection)
 {
     return {"Gain",
             false,
-            {number("Gain", "dB", "How much louder (above 0) or softer levels become, in dB", silence, 24.0, 0.0, 1)},
+            {number("Gain", "dB", "Level change in dB; above 0 is louder", silence, 24.0, 0.0, 1)},
             [scope = selection.scope()](const OperationValues& v)
             {
                 return GainEdit{scope, v[0]};
@@ -72,58 +72,56 @@ Operation quantiseOperation(const ClipSelection& selection)
         const double step = v[0] == 0.0 ? v[1] : whole * divisions[static_cast<std::size_t>(v[3])].notes;
         return QuantiseEdit{scope, {step, v[4], v[5] / 100.0}};
     };
-    return {
-        "Quantise",
-        false,
-        {{.name = "Grid", .help = "Whether the grid is in seconds or in beats", .choices = {"Seconds", "Beats"}},
-         number("Distance", "s", "Distance between the lines of the grid, in s", 0.001, 10.0, 0.1, 3, whenFirstIs(0.0)),
-         number("Tempo", "beats/min", "Beats (quarter notes) a minute", 20.0, 400.0, 120.0, 1, whenFirstIs(1.0)),
-         {.name = "Division",
-          .help = "Distance between the lines of the grid, as a note",
-          .value = 5.0,
-          .choices = names,
-          .counts = whenFirstIs(1.0)},
-         number("First line", "s", "Time of any line of the grid, in s", 0.0, 60.0, 0.0, 3),
-         number("Strength", "%", "How far times move towards the grid: 100 % is all the way", 0.0, 100.0, 100.0)},
-        make};
+    return {"Quantise",
+            false,
+            {{.name = "Grid", .help = "Grid in seconds or beats", .choices = {"Seconds", "Beats"}},
+             number("Distance", "s", "Distance between grid lines, in s", 0.001, 10.0, 0.1, 3, whenFirstIs(0.0)),
+             number("Tempo", "bpm", "Quarter notes per minute", 20.0, 400.0, 120.0, 1, whenFirstIs(1.0)),
+             {.name = "Division",
+              .help = "Distance between grid lines, as a note value",
+              .value = 5.0,
+              .choices = names,
+              .counts = whenFirstIs(1.0)},
+             number("Offset", "s", "Time of any grid line, in s", 0.0, 60.0, 0.0, 3),
+             number("Strength", "%", "How far points move towards the grid; 100 % is all the way", 0.0, 100.0, 100.0)},
+            make};
 }
 
 Operation humaniseOperation(const ClipSelection& selection)
 {
-    return {"Humanise",
-            false,
-            {number("Time", "ms", "Largest random shift of times, earlier or later, in ms", 0.0, 200.0, 10.0, 1),
-             number("Level", "dB", "Largest random change of levels, up or down, in dB", 0.0, 12.0, 2.0, 1),
-             number("Pitch", "semitones", "Largest random change of frequencies, up or down, in semitones", 0.0, 12.0,
-                    0.5, 2),
-             number("Variation", "number", "Seed of the random changes: the same number always gives the same result",
-                    1.0, 999.0, 1.0)},
-            [scope = selection.scope()](const OperationValues& v)
-            {
-                return HumaniseEdit{scope, {v[0] / 1000.0, v[1], v[2], static_cast<std::uint64_t>(v[3])}};
-            }};
+    return {
+        "Humanise",
+        false,
+        {number("Time", "ms", "Max. random time shift, earlier or later, in ms", 0.0, 200.0, 10.0, 1),
+         number("Level", "dB", "Max. random level change, up or down, in dB", 0.0, 12.0, 2.0, 1),
+         number("Pitch", "semitones", "Max. random pitch change, up or down, in semitones", 0.0, 12.0, 0.5, 2),
+         number("Variation", "number", "Random seed; the same number always gives the same result", 1.0, 999.0, 1.0)},
+        [scope = selection.scope()](const OperationValues& v)
+        {
+            return HumaniseEdit{scope, {v[0] / 1000.0, v[1], v[2], static_cast<std::uint64_t>(v[3])}};
+        }};
 }
 
 Operation thinOperation(const ClipSelection& selection)
 {
-    return {
-        "Thin transients",
-        false,
-        {number("Closer than", "ms", "Of transients closer than this the strongest stays; skin tells 8 to 10 ms apart",
-                0.0, 500.0, 20.0, 1),
-         number("Weaker than", "dB", "Transients below this level are removed, in dB of full drive; at -60 dB all stay",
-                silence, 0.0, silence, 1)},
-        [range = selection.scope().range](const OperationValues& v)
-        {
-            return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
-        }};
+    return {"Thin transients",
+            false,
+            {number("Closer than", "ms",
+                    "Of transients closer than this only the strongest stays; skin resolves 8 to 10 ms", 0.0, 500.0,
+                    20.0, 1),
+             number("Weaker than", "dB", "Removes transients below this level, in dB re full drive; at -60 dB all stay",
+                    silence, 0.0, silence, 1)},
+            [range = selection.scope().range](const OperationValues& v)
+            {
+                return ThinEdit{range, v[0] / 1000.0, v[1] <= silence ? 0.0 : amplitudeOf(v[1])};
+            }};
 }
 
 Operation transposeOperation()
 {
     return {"Transpose",
             true,
-            {number("Shift", "semitones", "Twelve semitones are an octave: twice the frequency", -48.0, 48.0, 0.0, 2)},
+            {number("Shift", "semitones", "Twelve semitones are one octave, twice the frequency", -48.0, 48.0, 0.0, 2)},
             [](const OperationValues& v)
             {
                 return TransposeEdit{v[0]};
@@ -135,10 +133,10 @@ Operation stretchOperation(const EditorModel& model)
     const double duration = model.clip()->duration;
     return {"Stretch",
             true,
-            {{.name = "By", .help = "How the new length is given", .choices = {"Percent", "New duration"}},
-             number("Percent", "%", "New length in percent of the old one; pitches stay", 1.0, 1000.0, 100.0, 1,
+            {{.name = "By", .help = "How the new length is entered", .choices = {"Percent", "New length"}},
+             number("Percent", "%", "New length in percent of the old; pitch is kept", 1.0, 1000.0, 100.0, 1,
                     whenFirstIs(0.0)),
-             number("Duration", "s", "New length in s; pitches stay", std::max(0.01, 0.01 * duration),
+             number("Length", "s", "New length in s; pitch is kept", std::max(0.01, 0.01 * duration),
                     std::max(0.1, 10.0 * duration), duration, 3, whenFirstIs(1.0))},
             [duration](const OperationValues& v)
             {
@@ -151,7 +149,7 @@ Operation repeatOperation()
 {
     return {"Repeat",
             true,
-            {number("Times", "passes", "How many times the clip plays in all", 1.0, 100.0, 2.0)},
+            {number("Times", "passes", "How many times the clip plays in total", 1.0, 100.0, 2.0)},
             [](const OperationValues& v)
             {
                 return RepeatEdit{static_cast<int>(std::lround(v[0]))};

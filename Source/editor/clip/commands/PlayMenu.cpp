@@ -55,31 +55,31 @@ Menu playMenu(EditorView& view)
             id, name, help, [&session, what] { session.transport.setHeard(what); },
             [&session, what] { return session.transport.heard() == what; }, {ctrl(key)});
     };
-    menu.add(playOrPause, "Play or pause", "Starts at the playhead, or stops there",
-             [&session] { playOrStop(session); }, anyClip, {Key(Key::spaceKey)});
-    menu.add(toStart, "To start", "Brings the playhead to the start",
+    menu.add(playOrPause, "Play/pause", "Plays from the playhead, or pauses", [&session] { playOrStop(session); },
+             anyClip, {Key(Key::spaceKey)});
+    menu.add(toStart, "Go to start", "Moves the playhead to the start",
              [&session] { session.transport.setPlayhead(0.0); }, anyClip, {Key(Key::homeKey)});
-    menu.add(toEnd, "To end", "Brings the playhead to the end",
+    menu.add(toEnd, "Go to end", "Moves the playhead to the end",
              [&session] { session.transport.setPlayhead(session.model.clip()->duration); }, anyClip,
              {Key(Key::endKey)});
-    menu.add(stepBack, "Playhead back", "Moves the playhead a tenth of the view back",
+    menu.add(stepBack, "Move playhead left", "Moves the playhead left by a tenth of the view",
              [&session] { step(session, -1); }, anyClip, {ctrl(Key::leftKey)});
-    menu.add(stepForward, "Playhead forward", "Moves the playhead a tenth of the view forward",
+    menu.add(stepForward, "Move playhead right", "Moves the playhead right by a tenth of the view",
              [&session] { step(session, 1); }, anyClip, {ctrl(Key::rightKey)});
     menu.addLine();
-    menu.add(rangeFromHere, "Range begins here", "The time range begins at the playhead",
+    menu.add(rangeFromHere, "Set range start", "Starts the time range at the playhead",
              [&session] { beginRange(session); }, anyClip, {Key('i')});
-    menu.add(rangeToHere, "Range ends here", "The time range ends at the playhead", [&session] { endRange(session); },
+    menu.add(rangeToHere, "Set range end", "Ends the time range at the playhead", [&session] { endRange(session); },
              anyClip, {Key('o')});
     menu.addSwitch(
-        loop, "Loop", "Plays the time range, or the whole clip, again and again",
+        loop, "Loop", "Repeats the time range or the whole clip",
         [&session] { session.transport.setLooping(!session.transport.isLooping()); },
         [&session] { return session.transport.isLooping(); }, {ctrl('l')});
     menu.addLine();
-    hear(hearHaptic, "Haptic only", "The drive signal alone", Heard::haptic, '1');
-    hear(hearSound, "Sound only", "The sound alone", Heard::sound, '2');
-    hear(hearBoth, "Haptic and sound", "Both, each on its own outputs", Heard::both, '3');
-    menu.add(hapticOrSound, "Switch haptic and sound", "Switches between them while playing, to compare them",
+    hear(hearHaptic, "Haptic only", "Plays only the drive signal", Heard::haptic, '1');
+    hear(hearSound, "Sound only", "Plays only the sound", Heard::sound, '2');
+    hear(hearBoth, "Haptic and sound", "Plays both, each on its own outputs", Heard::both, '3');
+    menu.add(hapticOrSound, "Toggle haptic/sound", "Switches between haptic and sound to compare them",
              [&session]
              { session.transport.setHeard(session.transport.heard() == Heard::haptic ? Heard::sound : Heard::haptic); },
              anyClip, {Key('h')});

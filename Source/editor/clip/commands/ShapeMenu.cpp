@@ -35,26 +35,24 @@ Menu shapeMenu(EditorView& view)
             },
             anyClip);
     };
-    menu.add(changeGain, "Gain...", "Louder or softer by a number of dB: the selection, the time range or the clip",
+    menu.add(changeGain, "Gain...", "Changes the level of the selection, the time range or the clip",
              asking(view, gainOperation, false), anyClip, {ctrl('g')});
     menu.addLine();
     fade(fadeIn, "Fade in", "Fades in over the selection, the time range or the clip", FadeDirection::in,
          FadeShape::linear);
     fade(fadeOut, "Fade out", "Fades out over the selection, the time range or the clip", FadeDirection::out,
          FadeShape::linear);
-    fade(fadeInSmoothly, "Fade in smoothly", "Fades in with a soft begin and end", FadeDirection::in,
-         FadeShape::smooth);
-    fade(fadeOutSmoothly, "Fade out smoothly", "Fades out with a soft begin and end", FadeDirection::out,
-         FadeShape::smooth);
+    fade(fadeInSmoothly, "Smooth fade in", "Fades in with an S-shaped curve", FadeDirection::in, FadeShape::smooth);
+    fade(fadeOutSmoothly, "Smooth fade out", "Fades out with an S-shaped curve", FadeDirection::out, FadeShape::smooth);
     menu.addLine();
-    menu.add(invertCurves, "Invert", "Turns levels, frequencies and sharpness upside down",
+    menu.add(invertCurves, "Invert", "Flips levels, frequencies and sharpness upside down",
              [&session] { session.model.edit("Invert", InvertEdit{session.clipSelection.scope()}); }, anyClip,
              {ctrl('i')});
-    menu.add(quantise, "Quantise...", "Moves times towards a grid of seconds or beats",
+    menu.add(quantise, "Quantise...", "Moves points towards a grid in seconds or beats",
              asking(view, quantiseOperation, true), anyClip, {Key('q')});
-    menu.add(humanise, "Humanise...", "Changes times, levels and pitches a little at random",
-             asking(view, humaniseOperation, true), anyClip, {ctrl('h')});
-    menu.add(thinOut, "Thin transients...", "Removes transients that are too close to stronger ones, or too weak",
+    menu.add(humanise, "Humanise...", "Varies timing, level and pitch at random", asking(view, humaniseOperation, true),
+             anyClip, {ctrl('h')});
+    menu.add(thinOut, "Thin transients...", "Removes transients that are weak or too close to stronger ones",
              asking(view, thinOperation, true),
              [&session] { return session.model.clip() && !session.model.clip()->transients.empty(); });
     return menu;

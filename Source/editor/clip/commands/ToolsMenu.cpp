@@ -12,7 +12,7 @@ Menu toolsMenu(EditorView& view)
 {
     Menu menu("Tools");
     menu.add(measureActuator, "Measure an actuator...",
-             "Finds the response of an actuator with a sensor, flattens it and saves it as a profile",
+             "Measures an actuator with a sensor, equalises its response and saves a profile",
              [&view, controller = std::make_shared<std::shared_ptr<MeasurementController>>()]
              {
                  if (dynamic_cast<MeasurePage*>(view.sheet()) != nullptr)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/sheets/PreferencesSheet.h"
@@ -17,7 +18,7 @@ juce::PopupMenu snapChoices(Session& session)
     juce::PopupMenu menu;
     const auto add = [&](const char* name, bool SnapTargets::*target)
     {
-        menu.addItem(name, true, session.viewState.snapTargets().*target,
+        menu.addItem(tr(name), true, session.viewState.snapTargets().*target,
                      [&session, target]
                      {
                          SnapTargets wanted = session.viewState.snapTargets();
@@ -28,7 +29,7 @@ juce::PopupMenu snapChoices(Session& session)
     add("Transients", &SnapTargets::transients);
     add("Markers", &SnapTargets::markers);
     add("Playhead", &SnapTargets::playhead);
-    add("Lines of the ruler", &SnapTargets::grid);
+    add("Ruler lines", &SnapTargets::grid);
     return menu;
 }
 } // namespace
@@ -69,10 +70,10 @@ Menu viewMenu(EditorView& view)
     };
     using Key = juce::KeyPress;
     Menu menu("View");
-    menu.add(zoomIn, "Zoom in", "Shows less time", [&view] { view.clipView().zoomAtPlayhead(zoomStep); }, anyClip,
+    menu.add(zoomIn, "Zoom in", "Zooms in", [&view] { view.clipView().zoomAtPlayhead(zoomStep); }, anyClip,
              {Key('+'), Key('='), Key('+', juce::ModifierKeys::shiftModifier, 0)});
-    menu.add(zoomOut, "Zoom out", "Shows more time", [&view] { view.clipView().zoomAtPlayhead(1.0 / zoomStep); },
-             anyClip, {Key('-')});
+    menu.add(zoomOut, "Zoom out", "Zooms out", [&view] { view.clipView().zoomAtPlayhead(1.0 / zoomStep); }, anyClip,
+             {Key('-')});
     menu.add(fit, "Fit clip", "Shows the whole clip", [&session] { session.viewState.fit(); }, anyClip, {Key('0')});
     menu.add(
         zoomToRange, "Zoom to range", "Shows the time range, or the selection",
@@ -88,18 +89,18 @@ Menu viewMenu(EditorView& view)
         {Key('r')});
     menu.addLine();
     menu.add(tallerLanes, "Taller lanes", "Makes lanes taller", [taller] { taller(laneStep); }, anyClip, {ctrl('+')});
-    menu.add(lowerLanes, "Lower lanes", "Makes lanes lower", [taller] { taller(-laneStep); }, anyClip, {ctrl('-')});
+    menu.add(lowerLanes, "Shorter lanes", "Makes lanes shorter", [taller] { taller(-laneStep); }, anyClip, {ctrl('-')});
     menu.addSwitch(
-        decibels, "Levels in dB", "Levels on a scale of decibels, or linear",
+        decibels, "Levels in dB", "Shows levels in decibels instead of linear",
         [&session] { session.viewState.setAmplitudesInDecibels(!session.viewState.amplitudesInDecibels()); },
         [&session] { return session.viewState.amplitudesInDecibels(); });
     menu.addLine();
     menu.addSwitch(
-        draw, "Draw curves", "A drag in a lane draws its curve; with the key held, as long as that",
+        draw, "Draw curves", "Drag in a lane to draw its curve; hold the key to draw temporarily",
         [&view] { view.switchDrawing(); }, [&session] { return session.viewState.isDrawing(); },
         {Key(EditorView::drawKeyCode)}, anyClip);
     menu.addSwitch(
-        snap, "Snap", "Dragging snaps to what is near; with Alt it does not",
+        snap, "Snap", "Dragging snaps to nearby targets; hold Alt to bypass",
         [&session]
         {
             SnapTargets wanted = session.viewState.snapTargets();
@@ -108,45 +109,44 @@ Menu viewMenu(EditorView& view)
         },
         [&session] { return session.viewState.snapTargets().on; }, {Key('n')});
     menu.addMenu(
-        snapTo, "Snap to", "Dragging snaps to these", [&session] { return snapChoices(session); },
+        snapTo, "Snap to", "What dragging snaps to", [&session] { return snapChoices(session); },
         [&session] { return session.viewState.snapTargets().on; });
     menu.addLine();
-    menu.addSwitch(showWaveform, "Waveform", "Shows the sound as its waveform",
+    menu.addSwitch(showWaveform, "Waveform", "Shows the waveform of the sound",
                    give(&ViewOptions::sound, SoundView::waveform), has(&ViewOptions::sound, SoundView::waveform),
                    {alt('1')});
-    menu.addSwitch(showSpectrum, "Spectrogram", "Shows the sound as its frequencies over time",
+    menu.addSwitch(showSpectrum, "Spectrogram", "Shows the spectrogram of the sound",
                    give(&ViewOptions::sound, SoundView::spectrum), has(&ViewOptions::sound, SoundView::spectrum),
                    {alt('2')});
-    menu.addSwitch(showBoth, "Waveform over spectrogram", "Shows both over each other",
+    menu.addSwitch(showBoth, "Waveform over spectrogram", "Draws the waveform over the spectrogram",
                    give(&ViewOptions::sound, SoundView::both), has(&ViewOptions::sound, SoundView::both), {alt('3')});
-    menu.addSwitch(wholeSpectrum, "All frequencies of the spectrogram",
-                   "Up to half the sample rate, or to 2 kHz, which is all that can be felt",
+    menu.addSwitch(wholeSpectrum, "Full-range spectrogram",
+                   "Shows the full range instead of up to 2 kHz, the limit of touch",
                    change(&ViewOptions::wholeSpectrum), has(&ViewOptions::wholeSpectrum, true));
-    menu.addSwitch(showActuator, "What the actuator plays",
-                   "Shows the drive of the actuator and what is lost, below the lanes", change(&ViewOptions::actuator),
-                   has(&ViewOptions::actuator, true), {alt('4')});
+    menu.addSwitch(showActuator, "Actuator output", "Shows the actuator's drive and losses below the lanes",
+                   change(&ViewOptions::actuator), has(&ViewOptions::actuator, true), {alt('4')});
     menu.addLine();
-    menu.addSwitch(followOff, "Do not follow the playhead", "The view stays while playing",
+    menu.addSwitch(followOff, "Don't follow playhead", "Keeps the view still during playback",
                    give(&ViewOptions::follow, Follow::off), has(&ViewOptions::follow, Follow::off));
-    menu.addSwitch(followPage, "Turn pages with the playhead", "The view turns when the playhead leaves it",
+    menu.addSwitch(followPage, "Follow by page", "Turns the page when the playhead leaves the view",
                    give(&ViewOptions::follow, Follow::page), has(&ViewOptions::follow, Follow::page));
-    menu.addSwitch(followSmooth, "Keep the playhead in the middle", "The view moves along while playing",
+    menu.addSwitch(followSmooth, "Keep playhead centred", "Scrolls continuously during playback",
                    give(&ViewOptions::follow, Follow::smooth), has(&ViewOptions::follow, Follow::smooth));
     menu.addLine();
     menu.addSwitch(
-        lightLook, "Light colours", "Dark text on light ground", [&view] { view.setDark(!view.isDark()); },
+        lightLook, "Light theme", "Dark text on a light background", [&view] { view.setDark(!view.isDark()); },
         [&view] { return !view.isDark(); });
-    menu.add(largerInterface, "Larger interface", "Everything larger, to twice the size",
+    menu.add(largerInterface, "Larger interface", "Enlarges the interface, up to 200 %",
              [&view] { view.setScale(view.scale() + scaleStep); }, {}, {ctrlShift('+')});
-    menu.add(smallerInterface, "Smaller interface", "Everything smaller, to three quarters",
+    menu.add(smallerInterface, "Smaller interface", "Shrinks the interface, down to 75 %",
              [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-')});
     menu.addLine();
-    menu.add(preferences, "Preferences...", "How the editor looks and behaves",
+    menu.add(preferences, "Preferences...", "Appearance and behaviour of the editor",
              [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});
     if (view.hostServices().showDevices)
     {
         menu.addLine();
-        menu.add(soundDevices, "Sound devices...", "Chooses the device and its outputs",
+        menu.add(soundDevices, "Audio devices...", "Chooses the audio device and its outputs",
                  [&view] { view.hostServices().showDevices(); });
     }
     return menu;

@@ -27,7 +27,7 @@ juce::String share(std::span<const Loss> losses, Loss wanted, const char* name)
     const double percent = losses.empty() ? 0.0 : 100.0 * count / static_cast<double>(losses.size());
     if (percent <= 0.0)
         return {};
-    return tr(name) + " " + (percent < 1.0 ? juce::String("< 1") : juce::String(juce::roundToInt(percent))) + " %";
+    return tr(name, {percent < 1.0 ? juce::String("< 1") : juce::String(juce::roundToInt(percent))});
 }
 
 constexpr double roomBelowTouch = 12.0;  // dB
@@ -64,7 +64,7 @@ ActuatorRow::ActuatorRow(const EditorModel& project, const Actuators& profiles, 
     : model(project), actuators(profiles), viewState(sight)
 {
     setOpaque(true);
-    setTitle("What the actuator plays");
+    setTitle("Actuator output");
     subscriptions.on({&model.contentChanged, &actuators.changed, &viewState.lookChanged}, [this] { update(); });
     subscriptions.on({&viewState.axisChanged}, [this] { repaint(getLocalBounds().withTrimmedLeft(laneHeadWidth)); });
     update();
@@ -142,7 +142,7 @@ void ActuatorRow::timerCallback()
                  if (stop != cancelled || stop->load())
                      return;
                  waiting = false;
-                 failure = made ? juce::String() : toText(made.error().text());
+                 failure = made ? juce::String() : translateMessage(toText(made.error().text()));
                  show(made ? *made : nullptr);
              });
 }
@@ -155,14 +155,14 @@ void ActuatorRow::show(std::shared_ptr<const ActuatorTrace> wanted)
     juce::String told;
     if (shown)
     {
-        const juce::String limited = share(shown->losses, Loss::limited, "limited");
-        const juce::String soft = share(shown->losses, Loss::belowTouch, "not felt");
+        const juce::String limited = share(shown->losses, Loss::limited, "limited {0} %");
+        const juce::String soft = share(shown->losses, Loss::belowTouch, "not felt {0} %");
         summary = limited + (limited.isNotEmpty() && soft.isNotEmpty() ? ", " : "") + soft;
         for (const auto& change : shown->changes)
-            told << (told.isEmpty() ? "" : "; ") << toText(change);
+            told << (told.isEmpty() ? "" : "; ") << translateMessage(toText(change));
     }
-    setDescription(told.isEmpty() ? juce::String("The drive of the actuator in dB of full drive, and what is lost")
-                                  : "Fitted to the actuator: " + told);
+    setDescription(told.isEmpty() ? tr("Actuator drive in dB re full drive, and losses")
+                                  : tr("Adapted to the actuator: {0}", {told}));
     setTooltip(getDescription());
     repaint();
 }
@@ -193,21 +193,21 @@ juce::String ActuatorRow::textAt(juce::Point<float> place) const
     {
         const auto& source = shown->sources[sourceAt(static_cast<double>(place.y) - lossPlot().getY())];
         text << laneName(*clip, source.lane) << ": ";
-        const auto why = toText(shown->textOf(source, *step));
+        const auto why = translateMessage(toText(shown->textOf(source, *step)));
         if (why.isNotEmpty())
             return text + why;
         if (source.levels[*step] <= ActuatorTrace::silent)
-            return text + "silent";
-        return text + "played at " + hertzText(static_cast<double>(source.played[*step])) + ", " +
-               juce::String(juce::roundToInt(source.levels[*step])) + " dB";
+            return text + tr("silent");
+        return text + tr("played at {0}, {1} dB", {hertzText(static_cast<double>(source.played[*step])),
+                                                   juce::String(juce::roundToInt(source.levels[*step]))});
     }
     const double level = 20.0 * std::log10(std::max(1e-6, static_cast<double>(shown->peaks[*step])));
-    text << (level <= inaudible ? juce::String("silent") : juce::String(level, 1) + " dB of full drive");
-    const auto why = toText(shown->textOf(*step));
+    text << (level <= inaudible ? tr("silent") : tr("{0} dB re full drive", {juce::String(level, 1)}));
+    const auto why = translateMessage(toText(shown->textOf(*step)));
     if (why.isNotEmpty())
         return text + ", " + why;
     if (level > shown->touch)
-        text << ", " << juce::roundToInt(level - shown->touch) << " dB above touch";
+        text << ", " << tr("{0} dB above threshold", {juce::String(juce::roundToInt(level - shown->touch))});
     return text;
 }
 
@@ -238,7 +238,7 @@ void ActuatorRow::paint(juce::Graphics& g)
         g.setColour(failure.isNotEmpty() && chosen ? p.warning : p.dim);
         g.setFont(smallFont());
         g.drawFittedText(
-            !chosen ? tr("No actuator is chosen: pick one at the top right to see what it plays, and what is lost")
+            !chosen ? tr("No actuator chosen. Pick one at the top right to see what it plays and what is lost.")
             : failure.isNotEmpty() ? failure
                                    : tr(toText("Rendering…")),
             plot.reduced(grid, 2), juce::Justification::centredLeft, 2);
@@ -279,8 +279,8 @@ void ActuatorRow::paintHead(juce::Graphics& g)
     };
     auto legend = head.withSizeKeepingCentre(head.getWidth(), 44);
     const bool dark = darkOf(*this);
-    for (const Item& item : {Item{Loss::belowTouch, "not felt"}, Item{Loss::outOfRange, "out of range"},
-                             Item{Loss::noVoice, "no own voice"}})
+    for (const Item& item :
+         {Item{Loss::belowTouch, "not felt"}, Item{Loss::outOfRange, "out of range"}, Item{Loss::noVoice, "merged"}})
     {
         auto line = legend.removeFromTop(14);
         const auto swatch = [&](Loss loss)
@@ -345,7 +345,7 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     }
     g.setColour(p.dim);
     g.fillRect(visible.getX(), touch, visible.getWidth(), 1);
-    const auto text = tr("touch") + " " + juce::String(juce::roundToInt(shown->touch)) + " dB";
+    const auto text = tr("threshold {0} dB", {juce::String(juce::roundToInt(shown->touch))});
     const juce::Rectangle<int> label(plot.getX() + 3, touch - 14, smallFont().getStringWidth(text) + 8, 13);
     g.setColour(p.well.withAlpha(0.75f));
     g.fillRect(label);

@@ -105,7 +105,7 @@ private:
         g.fillRoundedRectangle(place.toFloat(), 4.0f);
         g.setColour(p.background);
         g.setFont(usualFont());
-        g.drawFittedText(tr("Version A, to compare; press C to go back"), place.reduced(grid, 0),
+        g.drawFittedText(tr("Version A, for comparison. Press C to return."), place.reduced(grid, 0),
                          juce::Justification::centred, 1);
     }
 
@@ -189,7 +189,7 @@ void ClipView::rebuild()
         // Bands of one number can have other frequencies.
         for (std::size_t k = 0; k < clip->bands.size(); ++k)
             if (auto* row = rowOf({LaneKind::amplitude, k}))
-                row->setTitle("Band at " + laneName(*clip, {LaneKind::amplitude, k}));
+                row->setTitle(tr("Band at {0}", {laneName(*clip, {LaneKind::amplitude, k})}));
         for (std::size_t k = 0; k < clip->noise.size(); ++k)
             if (auto* row = rowOf({LaneKind::noise, k}))
                 row->setTitle(laneName(*clip, {LaneKind::noise, k}));

@@ -45,20 +45,20 @@ CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& s
     const auto clip = model.clip();
     const juce::String name = clip ? laneName(*clip, shown) : juce::String();
     const bool band = shown.kind == LaneKind::amplitude;
-    setTitle(band ? "Band at " + name : name);
+    setTitle(band ? tr("Band at {0}", {name}) : name);
     setDescription(isFrequency(shown.kind)
-                       ? "Frequency over time. Double-click adds a point, Delete removes what is selected"
-                       : "Level over time. Double-click adds a point, Delete removes what is selected");
+                       ? "Frequency over time. Double-click to add a point; Delete removes the selection"
+                       : "Level over time. Double-click to add a point; Delete removes the selection");
     if (!band)
         return;
     const auto prepare = [this](juce::ToggleButton& button, const juce::String& title, const juce::String& help,
                                 std::function<void()> click)
     {
         prepareButton(button, help, std::move(click));
-        button.setTitle(title + " " + getTitle().toLowerCase());
+        button.setTitle(tr(title, {getTitle()}));
         addAndMakeVisible(button);
     };
-    prepare(pitchButton, "Pitch of", "Shows the pitch of this band (Hz) in place of its level (dB)",
+    prepare(pitchButton, "Pitch: {0}", "Shows the pitch of this band (Hz) instead of its level (dB)",
             [this]
             {
                 shown.kind = pitchButton.getToggleState() ? LaneKind::pitch : LaneKind::amplitude;
@@ -74,9 +74,9 @@ CurveLane::CurveLane(EditorModel& project, ClipSelection& selected, ViewState& s
             (wanted.*set).erase(shown.index);
         transport.setAudition(std::move(wanted));
     };
-    prepare(soloButton, "Solo", "Only bands with this are heard and felt; the clip stays as it is",
+    prepare(soloButton, "Solo: {0}", "Plays soloed bands only; the clip is not changed",
             [this, hearing] { hearing(&Audition::solo, soloButton.getToggleState()); });
-    prepare(muteButton, "Mute", "This band is neither heard nor felt; the clip stays as it is",
+    prepare(muteButton, "Mute: {0}", "Silences this band; the clip is not changed",
             [this, hearing] { hearing(&Audition::muted, muteButton.getToggleState()); });
     showHearing();
     subscriptions.on({&transport.changed}, [this] { showHearing(); });
@@ -118,7 +118,7 @@ PlotLane::Style CurveLane::style() const
         return {};
     const auto* look = dynamic_cast<const Look*>(&getLookAndFeel());
     const Curve* points = curve();
-    Style result{laneName(*clip, shown), counted(points != nullptr ? points->size() : 0, "point", "points"),
+    Style result{laneName(*clip, shown), counted(points != nullptr ? points->size() : 0, "{0} point", "{0} points"),
                  laneColour(*clip, shown, paletteFor(*this), look == nullptr || look->isDark())};
     if (shown.kind == LaneKind::pitch || shown.kind == LaneKind::amplitude)
         result.note = {};

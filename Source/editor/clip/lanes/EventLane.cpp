@@ -38,7 +38,7 @@ EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& s
     setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
     setDescription(
         shows == Shows::amplitude
-            ? "Short events and their levels: round heads are dull, pointed ones crisp. Double-click adds one"
+            ? "Short events and their levels: round heads are dull, pointed heads crisp. Double-click to add one"
             : "How crisp events feel: 0 % dull, 100 % crisp");
 }
 
@@ -46,8 +46,8 @@ PlotLane::Style EventLane::style() const
 {
     const auto colour = paletteFor(*this).warning;
     if (shows == Shows::sharpness)
-        return {"Sharpness", "0 " + tr("to") + " 100 %", colour};
-    return {"Transients", counted(count(), "event", "events"), colour};
+        return {"Sharpness", juce::String(toText("0–100 %")), colour};
+    return {"Transients", counted(count(), "{0} event", "{0} events"), colour};
 }
 
 ValueAxis EventLane::valueAxis(double height) const
@@ -176,8 +176,9 @@ SelectionMove EventLane::move(Breakpoint from, Breakpoint to) const
 
 juce::String EventLane::valueText(double value) const
 {
-    return shows == Shows::amplitude ? amplitudeText(value)
-                                     : juce::String(juce::roundToInt(100.0 * std::clamp(value, 0.0, 1.0))) + " % sharp";
+    return shows == Shows::amplitude
+               ? amplitudeText(value)
+               : tr("{0} % sharp", {juce::String(juce::roundToInt(100.0 * std::clamp(value, 0.0, 1.0)))});
 }
 
 } // namespace pacini::editor

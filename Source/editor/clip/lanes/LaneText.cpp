@@ -2,6 +2,7 @@
 #include "editor/clip/lanes/LaneText.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <cmath>
 
@@ -42,7 +43,7 @@ juce::String rangeText(double low, double high)
 juce::String amplitudeText(double amplitude)
 {
     if (amplitude <= 0.0)
-        return "silent";
+        return tr("silent");
     return juce::String(20.0 * std::log10(amplitude), 1) + " dB";
 }
 
@@ -51,13 +52,14 @@ juce::String laneName(const Clip& clip, Lane lane)
     switch (lane.kind)
     {
     case LaneKind::envelope:
-        return "Envelope";
+        return tr("Envelope");
     case LaneKind::centroid:
-        return "Centroid";
+        return tr("Centroid");
     case LaneKind::noise:
         return lane.index < clip.noise.size()
-                   ? "Noise " + rangeText(clip.noise[lane.index].lowFrequency, clip.noise[lane.index].highFrequency)
-                   : juce::String("Noise");
+                   ? tr("Noise {0}",
+                        {rangeText(clip.noise[lane.index].lowFrequency, clip.noise[lane.index].highFrequency)})
+                   : tr("Noise");
     default:
         return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
     }

@@ -20,7 +20,8 @@ constexpr double maxWidth = 160.0; // pixels of a name
 constexpr double flagWidth = 7.0;
 constexpr double pickBefore = 4.0; // pixels left of a flag
 constexpr int leastText = 14;
-const char* const help = "Click: playhead. Drag: moves a marker; Alt: no snapping. Double-click: rename. M adds one";
+const char* const help =
+    "Click to move the playhead. Drag to move a marker (Alt: no snapping). Double-click to rename. M adds one";
 } // namespace
 
 MarkerStrip::MarkerStrip(EditorModel& project, const ViewState& sight, Transport& playing)
@@ -85,7 +86,7 @@ void MarkerStrip::mouseMove(const juce::MouseEvent& event)
     if (const auto clip = model.clip(); clip && marker)
         setTooltip(toText(clip->markers[*marker].name) + ", " + juce::String(clip->markers[*marker].time, 3) + " s");
     else
-        setTooltip(help);
+        setTooltip(tr(help));
 }
 
 void MarkerStrip::ask(Command command)
@@ -112,14 +113,14 @@ void MarkerStrip::mouseDown(const juce::MouseEvent& event)
     menu.setLookAndFeel(&getLookAndFeel());
     const auto add = [&](const juce::String& name, Command command)
     {
-        menu.addItem(name,
+        menu.addItem(tr(name),
                      [self = juce::Component::SafePointer<MarkerStrip>(this), command]
                      {
                          if (self)
                              self->ask(command);
                      });
     };
-    add("Rename" + toText("…"), renameMarker);
+    add(toText("Rename…"), renameMarker);
     add("Delete", deleteMarker);
     menu.showMenuAsync(juce::PopupMenu::Options().withTargetComponent(this).withMousePosition());
 }

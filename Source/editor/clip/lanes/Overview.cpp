@@ -18,7 +18,7 @@ Overview::Overview(const EditorModel& project, ViewState& sight) : model(project
 {
     setOpaque(true);
     setTitle("Overview");
-    setTooltip("The whole clip. Drag the frame to scroll, its edges to zoom; double-click shows everything");
+    setTooltip("The whole clip. Drag the frame to scroll, its edges to zoom; double-click to fit");
     subscriptions.on({&viewState.axisChanged}, [this] { repaint(); });
     subscriptions.on({&model.contentChanged},
                      [this]

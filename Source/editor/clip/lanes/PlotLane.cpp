@@ -365,8 +365,8 @@ void PlotLane::scaleByKeys(double pixels, double steps)
     wanted.spread = std::pow(spreadStep, nudgedSteps);
     clipSelection.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
     nudged = clipSelection.selected();
-    say(juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0) +
-        (steps != 0.0 ? " % of the differences" : " % of the time"));
+    say(tr(steps != 0.0 ? "{0} % of the level differences" : "{0} % of the length",
+           {juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0)}));
 }
 
 void PlotLane::nudge(double pixels, double steps)

@@ -21,8 +21,8 @@ SelectionBar::SelectionBar(EditorModel& project, ClipSelection& selected, const 
                            const Transport& playing)
     : model(project), clipSelection(selected), viewState(sight), transport(playing)
 {
-    setTitle("Time of the selection");
-    setTooltip("Drag an end: stretches what is selected in time, in all lanes; Alt: no snapping");
+    setTitle("Selection in time");
+    setTooltip("Drag an end to stretch the selection in time, in all lanes (Alt: no snapping)");
     setMouseCursor(juce::MouseCursor::LeftRightResizeCursor);
     subscriptions.on({&clipSelection.changed, &model.contentChanged}, [this] { follow(); });
     subscriptions.on({&viewState.axisChanged},

@@ -36,8 +36,8 @@ TimeRuler::TimeRuler(const EditorModel& project, ClipSelection& selected, const 
 {
     setOpaque(true);
     setTitle("Time ruler");
-    setTooltip("Click: playhead. Drag: time range for loops and edits, or an end of it; Alt: no snapping. "
-               "Double-click: no range");
+    setTooltip("Click to move the playhead. Drag to set the time range for loops and edits, or one of its ends (Alt: "
+               "no snapping). Double-click to clear it");
     subscriptions.on({&viewState.axisChanged, &clipSelection.rangeChanged, &transport.loopChanged},
                      [this] { repaint(); });
 }

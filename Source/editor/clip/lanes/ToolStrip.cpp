@@ -19,7 +19,7 @@ ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
         button.setWantsKeyboardFocus(true);
         addAndMakeVisible(button);
     };
-    prepare(drawButton, "Draw", "A drag in a lane draws its curve (D; held: as long as it is held)",
+    prepare(drawButton, "Draw", "Drag in a lane to draw its curve (D; hold to draw temporarily)",
             [this] { viewState.setDrawing(!viewState.isDrawing()); });
     prepare(snapButton, "Snap", "Dragging snaps to transients, markers, playhead or ruler lines (N)",
             [this]
@@ -28,7 +28,7 @@ ToolStrip::ToolStrip(EditorModel& project, ViewState& sight)
                 wanted.on = !wanted.on;
                 viewState.setSnapTargets(wanted);
             });
-    prepare(versionButton, "Version A", "Shows and plays the version that was kept as A in the clip menu (C)",
+    prepare(versionButton, "Version A", "Shows and plays version A (C)",
             [this] { model.setComparing(!model.isComparing()); });
     subscriptions.on({&viewState.lookChanged, &model.contentChanged, &model.versionChanged}, [this] { showState(); });
     showState();

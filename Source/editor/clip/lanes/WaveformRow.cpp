@@ -31,15 +31,14 @@ WaveformRow::WaveformRow(const EditorModel& project, const ProjectSounds& projec
 {
     setOpaque(true);
     setTitle("Sound");
-    prepareButton(viewButton, "Shows the sound as waveform, as spectrogram, or both over each other (Alt+1 to 3)",
+    prepareButton(viewButton, "Waveform, spectrogram or both (Alt+1 to 3)",
                   [this]
                   {
                       ViewOptions wanted = viewState.viewOptions();
                       wanted.sound = static_cast<SoundView>((static_cast<int>(wanted.sound) + 1) % 3);
                       viewState.setViewOptions(wanted);
                   });
-    prepareButton(rangeButton,
-                  "The highest frequency of the spectrogram: 2 kHz, above which nothing is felt, or all (Hz)",
+    prepareButton(rangeButton, "Top of the spectrogram: 2 kHz, the limit of touch, or the full range",
                   [this]
                   {
                       ViewOptions wanted = viewState.viewOptions();
@@ -82,14 +81,13 @@ void WaveformRow::showOptions()
                               : options.sound == SoundView::spectrum ? "Spectrum"
                                                                      : "Both";
     viewButton.setButtonText(tr(name));
-    viewButton.setTitle("View of the sound: " + name.toLowerCase());
+    viewButton.setTitle(tr("View of the sound: {0}", {tr(name)}));
     rangeButton.setButtonText(options.wholeSpectrum ? tr("All") : juce::String("2 kHz"));
-    rangeButton.setTitle(juce::String("Highest frequency: ") + (options.wholeSpectrum ? "all" : "2 kHz"));
+    rangeButton.setTitle(tr("Highest frequency: {0}", {options.wholeSpectrum ? tr("All") : juce::String("2 kHz")}));
     rangeButton.setVisible(spectral);
     spectrum.show(spectral ? sounds.soundOfClip() : nullptr, options.wholeSpectrum);
-    setTooltip(spectral
-                   ? "The frequencies of the sound over time, Hz; bright is loud in dark colours, dark in light ones"
-                   : "The sound that the clip was made from, mean of its channels, -1 to 1");
+    setTooltip(tr(spectral ? "Spectrogram of the sound, Hz over time; stronger colour is louder"
+                           : "The clip's source sound, channels averaged, -1 to 1"));
 }
 
 void WaveformRow::resized()
@@ -110,9 +108,8 @@ void WaveformRow::mouseMove(const juce::MouseEvent& event)
     const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
     const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
     const double level = spectrum.levelAt(time, frequency);
-    setTooltip(
-        juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
-        (level <= SpectrumLevel::floor ? juce::String("silent") : juce::String(juce::roundToInt(level)) + " dB"));
+    setTooltip(juce::String(time, 3) + " s, " + hertzText(frequency) + ", " +
+               (level <= SpectrumLevel::floor ? tr("silent") : juce::String(juce::roundToInt(level)) + " dB"));
 }
 
 void WaveformRow::paint(juce::Graphics& g)
@@ -134,8 +131,7 @@ void WaveformRow::paint(juce::Graphics& g)
     {
         g.setColour(p.dim);
         g.setFont(smallFont());
-        g.drawText(tr("This clip has no sound of its own"), plot.reduced(grid, 0), juce::Justification::centredLeft,
-                   true);
+        g.drawText(tr("This clip has no source sound"), plot.reduced(grid, 0), juce::Justification::centredLeft, true);
         return;
     }
     const juce::Graphics::ScopedSaveState saved(g);
@@ -190,8 +186,8 @@ void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
     g.drawFittedText(tr("Sound"), head.removeFromTop(19), juce::Justification::centredLeft, 1);
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(sound != nullptr ? juce::String(sound->audio.sampleRate / 1000.0, 1) + " kHz, " +
-                                            juce::String(sound->audio.channels) + " ch"
+    g.drawFittedText(sound != nullptr ? tr("{0} kHz, {1} ch", {juce::String(sound->audio.sampleRate / 1000.0, 1),
+                                                               juce::String(sound->audio.channels)})
                                       : tr("none"),
                      head, juce::Justification::centredLeft, 1);
 }

@@ -5,6 +5,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     : view(shown),
       model(shown.session().model),
       sounds(shown.session().sounds),
-      replaceButton("Replace sound" + toText("…")),
-      findButton("Find it" + toText("…")),
+      replaceButton(toText("Replace sound…")),
+      findButton(toText("Locate…")),
       resetButton("Reset"),
       normalise("Scale to full drive"),
       edits(shown.session().model, shown.session().viewState, shown.session().transport)
@@ -44,13 +45,13 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     };
     label(state, {});
     state.setAccessible(true);
-    state.setTitle("Sound of the clip");
+    state.setTitle("Source sound");
     state.setJustificationType(juce::Justification::topLeft);
     label(presetLabel, "Preset");
     label(spacingLabel, "Spacing");
 
     preset.setTitle("Preset");
-    preset.setTooltip("Settings of the analysis that have a name");
+    preset.setTooltip("Named analysis settings");
     for (std::size_t i = 0; i < encoderPresets().size(); ++i)
         preset.addItem(toText(encoderPresets()[i].name), 1 + static_cast<int>(i));
     preset.onChange = [this]
@@ -62,7 +63,7 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
         edited();
     };
     spacing.setTitle("Spacing of the bands");
-    spacing.setTooltip("Bands of equal width in octaves, as the ear and the skin have them, or in Hz");
+    spacing.setTooltip("Bands of equal width in octaves, as ear and skin resolve them, or in Hz");
     spacing.addItem("Octaves", logarithmic);
     spacing.addItem("Equal Hz", linear);
     const auto edit = [this]
@@ -71,35 +72,34 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     };
     spacing.onChange = edit;
     normalise.setTitle("Scale to full drive");
-    prepareButton(normalise, "Scales the loudest moment to full drive; off: full scale of the sound is full drive",
-                  edit);
-    prepareButton(resetButton, "Back to the settings of the preset Standard",
+    prepareButton(normalise, "Scales the loudest moment to full drive; off: digital full scale is full drive", edit);
+    prepareButton(resetButton, "Resets to the Standard preset",
                   [this]
                   {
                       set({});
                       edited();
                   });
     prepareButton(
-        replaceButton, "Uses another sound file for this clip; its edits are kept",
+        replaceButton, "Replaces the source sound of this clip and keeps its edits",
         [this]
         {
             const auto item = model.item();
             const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
-            view.files().askForSound("Replace the sound", sound != nullptr ? sound->path : std::filesystem::path(),
+            view.files().askForSound("Replace sound", sound != nullptr ? sound->path : std::filesystem::path(),
                                      [this](const std::filesystem::path& file) { sounds.replaceSound(file); });
         });
     prepareButton(
-        findButton, "Shows Pacini where the sound is now, or another missing sound beside it",
+        findButton, "Locates the missing sound file, and others in the same folder",
         [this]
         {
             const auto item = model.item();
             if (const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr)
-                view.files().askForSound("Find " + pathText(sound->path.filename()), sound->path,
+                view.files().askForSound(tr("Locate {0}", {pathText(sound->path.filename())}), sound->path,
                                          [this](const std::filesystem::path& file) { sounds.findSounds(file); });
         });
     addAll(*this, {&replaceButton, &findButton, &preset, &resetButton, &spacing, &normalise, &edits});
 
-    prepare(bands, "Bands", "", "How many frequency bands the sound is split into, 1 to 32");
+    prepare(bands, "Bands", "", "Number of frequency bands, 1 to 32");
     knob(bands).setRange(1.0, 32.0, 1.0);
     prepare(low, "Lowest", " Hz", "Lower end of the lowest band, in Hz");
     knob(low).setRange(1.0, 1700.0, 1.0);
@@ -107,18 +107,17 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
     prepare(high, "Highest", " Hz", "Upper end of the highest band, in Hz");
     knob(high).setRange(10.0, 1800.0, 1.0);
     knob(high).setSkewFactorFromMidPoint(400.0);
-    prepare(detail, "Detail", " /s", "At most this many points per second and band; simple sounds take fewer");
+    prepare(detail, "Detail", " /s", "Max. points per second and band; simple sounds need fewer");
     knob(detail).setRange(0.5, 200.0, 0.5);
     knob(detail).setSkewFactorFromMidPoint(20.0);
-    prepare(
-        sensitivity, "Events", " x",
-        "How sensitive the search for transients is: above 1 weaker and closer hits count, below 1 only clear ones");
+    prepare(sensitivity, "Events", " x",
+            "Transient sensitivity: above 1 also finds weaker and closer hits, below 1 only clear ones");
     knob(sensitivity).setRange(0.25, 4.0, 0.05);
     knob(sensitivity).setSkewFactorFromMidPoint(1.0);
     prepare(audible, "Audible", " %",
-            "How far loudness drives what lives above the range of touch: rain, ticks, birds; 0: only what lies in it");
+            "How strongly sound above the range of touch (rain, ticks, birds) drives the haptics; 0: not at all");
     knob(audible).setRange(0.0, 100.0, 1.0);
-    prepare(bits, "Precision", " bit", "Bits of each value, 4 to 16: fewer make smaller files and coarser levels");
+    prepare(bits, "Precision", " bit", "Bits per value, 4 to 16; fewer make smaller files and coarser levels");
     knob(bits).setRange(4.0, 16.0, 1.0);
     // The ends of the bands push each other along.
     knob(low).onValueChange = [this]
@@ -205,7 +204,7 @@ void AnalysisPanel::set(const EncoderParams& wanted)
 void AnalysisPanel::showPreset(const EncoderParams& wanted)
 {
     const EncoderPreset* known = presetOf(wanted);
-    preset.setText(known != nullptr ? toText(known->name) : juce::String("Own settings"), juce::dontSendNotification);
+    preset.setText(tr(known != nullptr ? toText(known->name) : juce::String("Custom")), juce::dontSendNotification);
 }
 
 void AnalysisPanel::edited()
@@ -241,22 +240,22 @@ void AnalysisPanel::show()
     const bool missing = source != nullptr && sounds.isMissing(source->id);
     juce::String text;
     if (model.isShowingUnanalysed())
-        text = "The sound is being analysed.";
+        text = tr("Analysing the sound.");
     else if (!item)
-        text = "There is no clip.";
+        text = tr("No clip.");
     else if (source == nullptr)
-        text = "This clip was opened without a sound, so that there is nothing to analyse. "
-               "Add a sound with the button below.";
+        text = tr("This clip has no source sound to analyse. Add one below.");
     else
     {
         text << pathText(source->path.filename()) << "\n";
         if (missing)
-            text << "The sound is missing: find it to analyse it again. All edits work without it.";
+            text << tr("The sound file is missing. Locate it to analyse again; everything else works without it.");
         else
-            text << juce::String(source->duration, 2) << " s, " << juce::String(source->sampleRate / 1000.0, 1)
-                 << " kHz, " << juce::String(source->channels) << (source->channels == 1 ? " channel" : " channels")
-                 << (source->embedded ? "\nA copy is kept in the project" : "")
-                 << (!sound ? "\nIt is being read" + toText("…") : juce::String());
+            text << tr(source->channels == 1 ? "{0} s, {1} kHz, {2} channel" : "{0} s, {1} kHz, {2} channels",
+                       {juce::String(source->duration, 2), juce::String(source->sampleRate / 1000.0, 1),
+                        juce::String(source->channels)})
+                 << (source->embedded ? "\n" + tr("Embedded in the project") : juce::String())
+                 << (!sound ? "\n" + tr(toText("Loading…")) : juce::String());
     }
     state.setText(text, juce::dontSendNotification);
     replaceButton.setEnabled(item != nullptr);

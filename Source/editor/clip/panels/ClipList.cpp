@@ -27,7 +27,7 @@ ClipList::ClipList(EditorModel& project) : model(project)
 {
     list.setRowHeight(clipRowHeight);
     list.setTitle("Clips of the project");
-    list.setTooltip("Choose a clip to see it. Return renames, Delete removes, Alt with the arrow keys moves");
+    list.setTooltip("Choose a clip to edit it. Return renames, Delete removes, Alt+arrow keys move");
     list.setOutlineThickness(0);
     list.addKeyListener(this);
     list.addMouseListener(this, true); // a ListBox drags in windows of their own
@@ -87,7 +87,7 @@ juce::String ClipList::nameOf(const ClipRow& row) const
     const auto item = model.document().clip(row.clip);
     if (!item)
         return {};
-    return item->clip->name.empty() ? "Clip " + juce::String(item->id) : toText(item->clip->name);
+    return item->clip->name.empty() ? tr("Clip {0}", {juce::String(item->id)}) : toText(item->clip->name);
 }
 
 void ClipList::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool selected)
@@ -132,10 +132,10 @@ juce::String ClipList::getNameForRow(int row)
     if (shown == nullptr)
         return {};
     if (shown->clip == 0)
-        return "Group " + nameOf(*shown);
+        return tr("Group {0}", {nameOf(*shown)});
     const auto item = model.document().clip(shown->clip);
-    return nameOf(*shown) + ", " + (item ? lengthText(item->clip->duration) : juce::String()) +
-           (shown->group.empty() ? juce::String() : ", in group " + toText(shown->group));
+    const auto text = nameOf(*shown) + ", " + (item ? lengthText(item->clip->duration) : juce::String());
+    return shown->group.empty() ? text : tr("{0}, in group {1}", {text, toText(shown->group)});
 }
 
 juce::String ClipList::getTooltipForRow(int row)
@@ -143,8 +143,9 @@ juce::String ClipList::getTooltipForRow(int row)
     const ClipRow* shown = at(row);
     if (shown == nullptr)
         return {};
-    return shown->clip == 0 ? "Group " + nameOf(*shown) + ": clips dropped below come into it"
-                            : nameOf(*shown) + ": drag to move, double-click to rename, right-click for more";
+    return tr(shown->clip == 0 ? "Group {0}: drop clips below to add them"
+                               : "{0}: drag to move, double-click to rename, right-click for more",
+              {nameOf(*shown)});
 }
 
 void ClipList::selectedRowsChanged(int row)
@@ -175,7 +176,7 @@ juce::PopupMenu ClipList::groupMenuOf(int row)
     using Self = juce::Component::SafePointer<ClipList>;
     if (clip)
     {
-        menu.addItem("No group", true, now.empty(),
+        menu.addItem(tr("No group"), true, now.empty(),
                      [self = Self(this), row]
                      {
                          if (self)
@@ -190,7 +191,7 @@ juce::PopupMenu ClipList::groupMenuOf(int row)
                          });
         menu.addSeparator();
     }
-    menu.addItem("New group",
+    menu.addItem(tr("New group"),
                  [self = Self(this), row]
                  {
                      if (self)
@@ -209,7 +210,7 @@ juce::PopupMenu ClipList::menuOf(int row)
     using Self = juce::Component::SafePointer<ClipList>;
     const auto item = [&](const juce::String& text, auto function)
     {
-        menu.addItem(text,
+        menu.addItem(tr(text),
                      [self = Self(this), row, function]
                      {
                          if (self)
@@ -219,7 +220,7 @@ juce::PopupMenu ClipList::menuOf(int row)
     item("Rename", [](ClipList& self, int at) { self.beginRename(at); });
     if (shown->clip == 0)
     {
-        item("Remove group, keep its clips", [](ClipList& self, int at) { self.remove(at); });
+        item("Ungroup", [](ClipList& self, int at) { self.remove(at); });
         return menu;
     }
     item("Duplicate", [](ClipList& self, int at) { self.duplicate(at); });
@@ -227,7 +228,7 @@ juce::PopupMenu ClipList::menuOf(int row)
     menu.addSeparator();
     item("Move up", [](ClipList& self, int at) { self.move(at, static_cast<std::size_t>(std::max(0, at - 1))); });
     item("Move down", [](ClipList& self, int at) { self.move(at, static_cast<std::size_t>(at) + 2); });
-    menu.addSubMenu("Move to group", groupMenuOf(row));
+    menu.addSubMenu(tr("Move to group"), groupMenuOf(row));
     return menu;
 }
 
@@ -430,7 +431,7 @@ void ClipList::beginRename(int row)
         return;
     list.scrollToEnsureRowIsOnscreen(row);
     nameField = std::make_unique<juce::TextEditor>();
-    nameField->setTitle(shown->clip != 0 ? "Name of the clip" : "Name of the group");
+    nameField->setTitle(tr(shown->clip != 0 ? "Clip name" : "Group name"));
     nameField->setFont(usualFont());
     nameField->setText(nameOf(*shown), false);
     nameField->setSelectAllWhenFocused(true);

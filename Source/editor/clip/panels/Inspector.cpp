@@ -18,7 +18,7 @@ namespace
 /// "0.250 to 1.500 s".
 juce::String stretchText(TimeRange range)
 {
-    return juce::String(range.from, 3) + " " + tr("to") + " " + juce::String(range.to, 3) + " s";
+    return tr("{0} to {1} s", {juce::String(range.from, 3), juce::String(range.to, 3)});
 }
 
 constexpr int inspectorRowHeight = 3 * grid;
@@ -88,11 +88,11 @@ Inspector::Inspector(EditorView& shown)
         one.setWantsKeyboardFocus(true);
         addAndMakeVisible(one);
     };
-    field(timeField, "Time of what is selected", "Time in s of the first thing selected; the others move along");
-    field(valueField, "Value of what is selected",
-          "Level in dB, or frequency in Hz, of the first thing selected; the others follow in proportion");
-    field(sharpField, "Sharpness of what is selected",
-          "0 % dull to 100 % crisp, of the first transient selected; the others follow");
+    field(timeField, "Selection time", "Time of the first selected item in s; the others move along");
+    field(valueField, "Selection value",
+          "Level in dB or frequency in Hz of the first selected item; the others scale along");
+    field(sharpField, "Selection sharpness",
+          "Sharpness of the first selected transient, 0 % dull to 100 % crisp; the others follow");
     // What is typed there moves the first thing selected, and the others with it.
     const auto moves = [this](juce::Label& typed, const char* name, auto moveOf)
     {
@@ -146,7 +146,7 @@ Inspector::Inspector(EditorView& shown)
         addAndMakeVisible(one);
     };
     slider(gain, 0.0, "Gain",
-           "Changes the levels of the selection, the time range or the clip, in dB; returns to 0 when released");
+           "Changes the level of the selection, the time range or the clip in dB; springs back to 0");
     gain.setRange(-24.0, 24.0, 0.1);
     gain.setTextValueSuffix(" dB");
     gain.setNumDecimalPlacesToDisplay(1);
@@ -154,7 +154,7 @@ Inspector::Inspector(EditorView& shown)
     {
         gainMoved();
     };
-    slider(keep, 100.0, "Points to keep", "Simplifies the curves to this share of their points, in percent");
+    slider(keep, 100.0, "Points kept", "Reduces the curves to this percentage of their points");
     keep.setRange(2.0, 100.0, 1.0);
     keep.setTextValueSuffix(" %");
     keep.setValue(100.0, juce::dontSendNotification);
@@ -169,7 +169,7 @@ Inspector::Inspector(EditorView& shown)
     };
     button(fadeInButton, fadeIn, "Fades in over the selection, the time range or the clip");
     button(fadeOutButton, fadeOut, "Fades out over the selection, the time range or the clip");
-    button(reverseButton, reverse, "Plays the whole clip from its end");
+    button(reverseButton, reverse, "Reverses the whole clip");
     setSize(200, inspectorPreferredHeight);
     addChildComponent(chip);
     subscriptions.on({&model.contentChanged, &clipSelection.changed, &clipSelection.rangeChanged},
@@ -217,14 +217,14 @@ void Inspector::showSelection()
     if (count > 0)
     {
         const auto range = *timeOf(selection, *clip);
-        scope = counted(selectedCount(selection), "point selected", "points selected");
+        scope = counted(selectedCount(selection), "{0} point selected", "{0} points selected");
         if (count > 1)
-            scope << "\n" << stretchText(range) << ", " << tr("their lanes");
+            scope << "\n" << tr("{0}, their lanes", {stretchText(range)});
     }
     else if (const auto& range = clipSelection.timeRange())
-        scope = tr("Range") + " " + stretchText(*range) + ",\n" + tr("all lanes");
+        scope = tr("Range {0},", {stretchText(*range)}) + "\n" + tr("all lanes");
     else
-        scope = tr("Nothing selected:") + "\n" + tr("edits are for the whole clip");
+        scope = tr("Nothing selected:") + "\n" + tr("edits apply to the whole clip");
     scopeText.setText(scope, juce::dontSendNotification);
 }
 
@@ -234,12 +234,11 @@ void Inspector::showFacts()
     if (!clip)
         return;
     juce::String text;
-    text << juce::String(clip->duration, 2) << " s, " << counted(clip->bands.size(), "band", "bands") << "\n"
-         << counted(breakpointCount(*clip), "point", "points") << ", "
-         << counted(clip->transients.size(), "transient", "transients");
+    text << juce::String(clip->duration, 2) << " s, " << counted(clip->bands.size(), "{0} band", "{0} bands") << "\n"
+         << counted(breakpointCount(*clip), "{0} point", "{0} points") << ", "
+         << counted(clip->transients.size(), "{0} transient", "{0} transients");
     if (const auto item = model.item(); item && !item->unfitting.empty())
-        text << "\n"
-             << counted(item->unfitting.size(), "edit waits for another analysis", "edits wait for another analysis");
+        text << "\n" << counted(item->unfitting.size(), "{0} unapplied edit", "{0} unapplied edits");
     facts.setText(text, juce::dontSendNotification);
     chip.show(*clip,
               [this]
@@ -247,7 +246,7 @@ void Inspector::showFacts()
                   const auto dragged = model.clip();
                   const auto written = dragged ? writeForDragging(*dragged) : Result<juce::File>(juce::File());
                   if (!written)
-                      model.onError("The clip cannot be dragged", toText(written.error().text()));
+                      model.onError("Cannot drag the clip", toText(written.error().text()));
                   return written ? *written : juce::File();
               });
 }
@@ -278,11 +277,13 @@ void Inspector::simplifyMoved()
     const auto lanes = scopeLanes();
     auto simplified = keepShare(*start, lanes, keep.getValue() / 100.0);
     if (!simplified)
-        return cost.setText(juce::String(simplified.error().text()), juce::dontSendNotification);
+        return cost.setText(translateMessage(juce::String(simplified.error().text())), juce::dontSendNotification);
     const SimplifyCost& found = simplified->cost;
     juce::String text;
-    text << static_cast<int>(found.before) << " to " << static_cast<int>(found.after) << " points\nError up to "
-         << juce::String(100.0 * found.amplitudeError, 2) << " % of full drive";
+    text << tr("{0} to {1} points",
+               {juce::String(static_cast<int>(found.before)), juce::String(static_cast<int>(found.after))})
+         << "\n"
+         << tr("Max. error {0} % of full drive", {juce::String(100.0 * found.amplitudeError, 2)});
     if (found.frequencyError > 0.0)
         text << ", " << juce::String(found.frequencyError, 1) << " Hz";
     cost.setText(text, juce::dontSendNotification);

@@ -25,7 +25,7 @@ MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, Clip
              {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
       reduction("Gain reduction", "Gain reduction by the actuator's protection, dB",
                 {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
-      felt("Above touch threshold", "How far the drive stands above what is just felt on the chosen actuator, dB",
+      felt("Above touch threshold", "Drive level above the touch threshold of the chosen actuator, dB",
            {.low = -20.0f, .high = 70.0f, .from = 0.0f, .sign = true})
 {
     setTitle("Meters");

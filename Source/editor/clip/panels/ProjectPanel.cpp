@@ -4,6 +4,7 @@
 #include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
 namespace pacini::editor
@@ -27,8 +28,8 @@ ProjectPanel::ProjectPanel(EditorView& shown)
       list(shown.session().model),
       duplicateButton("Duplicate"),
       removeButton("Remove"),
-      groupButton("Group" + toText("…")),
-      keepCopy("Keep a copy inside")
+      groupButton(toText("Group…")),
+      keepCopy("Embed sound")
 {
     setTitle("Project");
     addAndMakeVisible(list);
@@ -38,16 +39,16 @@ ProjectPanel::ProjectPanel(EditorView& shown)
         one.onClick = std::move(click);
         addAndMakeVisible(one);
     };
-    button(duplicateButton, "Adds a copy of the chosen clip (Ctrl+D)", [this] { list.duplicate(list.chosenRow()); });
-    button(removeButton, "Removes the chosen clip, or the chosen group and keeps its clips (Delete in the list)",
+    button(duplicateButton, "Duplicates the chosen clip (Ctrl+D)", [this] { list.duplicate(list.chosenRow()); });
+    button(removeButton, "Removes the chosen clip, or ungroups the chosen group (Delete)",
            [this] { list.remove(list.chosenRow()); });
-    button(groupButton, "Moves the chosen clip into a group, or makes a new one",
+    button(groupButton, "Moves the chosen clip to a group, or to a new one",
            [this] {
                list.groupMenuOf(list.chosenRow())
                    .showMenuAsync(juce::PopupMenu::Options().withTargetComponent(groupButton));
            });
-    keepCopy.setTitle("Keep a copy of the sound inside the project");
-    prepareButton(keepCopy, "The project file then holds the whole sound of this clip and can go anywhere without it",
+    keepCopy.setTitle("Embed the sound in the project");
+    prepareButton(keepCopy, "Stores the sound in the project file, so that the project can be moved without it",
                   [this]
                   {
                       const auto item = model.item();
@@ -88,8 +89,8 @@ ProjectPanel::ProjectPanel(EditorView& shown)
         };
         addAndMakeVisible(one);
     };
-    notes(clipNotes, "Notes of the clip", "Notes of the clip, saved with the project");
-    notes(projectNotes, "Notes of the project", "Notes of the project, saved with it");
+    notes(clipNotes, "Clip notes", "Notes on the clip, saved with the project");
+    notes(projectNotes, "Project notes", "Notes on the project, saved with it");
     setSize(200, projectPreferredHeight);
     subscriptions.on({&model.projectChanged, &sounds.changed}, [this] { show(); });
     lookAndFeelChanged();
@@ -105,12 +106,12 @@ void ProjectPanel::keepNotes()
     const std::string ofProject = projectNotes.getText().toStdString();
     const int id = notesOf;
     if (const auto item = model.document().clip(id); item && item->notes != ofClip)
-        model.change([&](Document& document) { return document.setNotes(id, ofClip, "Notes of the clip"); });
+        model.change([&](Document& document) { return document.setNotes(id, ofClip, "Clip notes"); });
     if (model.document().project().notes != ofProject)
         model.change(
             [&](Document& document) -> Result<void>
             {
-                document.setProjectNotes(ofProject, "Notes of the project");
+                document.setProjectNotes(ofProject, "Project notes");
                 return {};
             });
 }
@@ -135,10 +136,10 @@ void ProjectPanel::show()
     const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
     keepCopy.setEnabled(sound != nullptr);
     keepCopy.setToggleState(sound != nullptr && sound->embedded != nullptr, juce::dontSendNotification);
-    juce::String note = "This clip has no sound.";
+    juce::String note = tr("This clip has no sound.");
     if (sound != nullptr)
-        note = pathText(sound->path.filename()) + ", " + sizeText(sound->bytes) +
-               (sounds.isMissing(sound->id) && !sound->embedded ? ", missing" : "");
+        note = tr(sounds.isMissing(sound->id) && !sound->embedded ? "{0}, {1}, missing" : "{0}, {1}",
+                  {pathText(sound->path.filename()), sizeText(sound->bytes)});
     copyNote.setText(note, juce::dontSendNotification);
     copyNote.setTooltip(sound != nullptr ? pathText(sound->path) : juce::String());
 }

@@ -23,9 +23,8 @@ class UnfittingList::Row final : public juce::Component
 public:
     explicit Row(UnfittingList& all)
     {
-        prepareButton(show, "Goes to the time of this edit", [this, &all] { all.showEdit(index); });
-        prepareButton(remove, "Removes this edit from the clip; undo brings it back",
-                      [this, &all] { all.removeEdit(index); });
+        prepareButton(show, tr("Shows this edit in the clip"), [this, &all] { all.showEdit(index); });
+        prepareButton(remove, tr("Deletes this edit (undo restores it)"), [this, &all] { all.removeEdit(index); });
         addAndMakeVisible(show);
         addAndMakeVisible(remove);
     }
@@ -35,8 +34,8 @@ public:
         index = row;
         title = name;
         reason = why;
-        show.setTitle("Show " + title);
-        remove.setTitle("Remove " + title);
+        show.setTitle(tr("Show: {0}", {title}));
+        remove.setTitle(tr("Remove: {0}", {title}));
         setTitle(title + ": " + reason);
         repaint();
     }
@@ -65,7 +64,7 @@ public:
 private:
     int index = 0;
     juce::String title, reason;
-    juce::TextButton show{"Show"}, remove{"Remove"};
+    juce::TextButton show{tr("Show")}, remove{tr("Remove")};
 };
 
 UnfittingList::UnfittingList(EditorModel& project, ViewState& sight, Transport& playing)
@@ -73,9 +72,8 @@ UnfittingList::UnfittingList(EditorModel& project, ViewState& sight, Transport& 
 {
     list.setRowHeight(unfittingRowHeight);
     list.setColour(juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
-    list.setTitle("Edits that do not fit");
-    list.setTooltip(
-        "Hand edits that do not fit this analysis. They are kept, and applied again when they fit another one");
+    list.setTitle("Unapplied edits");
+    list.setTooltip("Edits that do not fit this analysis. They are kept and reapplied when they fit again");
     addAndMakeVisible(list);
     refresh();
 }
@@ -96,8 +94,8 @@ juce::String UnfittingList::heading() const
 {
     const auto item = model.item();
     const int count = item ? static_cast<int>(item->unfitting.size()) : 0;
-    return count == 0 ? juce::String("Edits")
-                      : juce::String(count) + (count == 1 ? " edit does" : " edits do") + " not fit";
+    return count == 0 ? tr("Edits")
+                      : counted(static_cast<std::size_t>(count), "{0} unapplied edit", "{0} unapplied edits");
 }
 
 int UnfittingList::getNumRows()
@@ -120,7 +118,7 @@ juce::String UnfittingList::reasonOf(int row) const
 {
     const auto item = model.item();
     return item && row >= 0 && row < static_cast<int>(item->unfitting.size())
-               ? toText(item->unfitting[static_cast<std::size_t>(row)].reason)
+               ? translateMessage(toText(item->unfitting[static_cast<std::size_t>(row)].reason))
                : juce::String();
 }
 
@@ -132,7 +130,7 @@ juce::Component* UnfittingList::refreshComponentForRow(int row, bool, juce::Comp
         return nullptr;
     if (!owned)
         owned = std::make_unique<Row>(*this);
-    juce::String title = toText(editTitle(*edit));
+    juce::String title = translateMessage(toText(editTitle(*edit)));
     if (const auto time = editTime(*edit))
         title << ", " << juce::String(time->from, 2) << " s";
     static_cast<Row&>(*owned).set(row, title, reasonOf(row));
@@ -142,7 +140,7 @@ juce::Component* UnfittingList::refreshComponentForRow(int row, bool, juce::Comp
 juce::String UnfittingList::getNameForRow(int row)
 {
     const auto edit = editOf(row);
-    return edit ? toText(editTitle(*edit)) + ": " + reasonOf(row) : juce::String();
+    return edit ? translateMessage(toText(editTitle(*edit))) + ": " + reasonOf(row) : juce::String();
 }
 
 void UnfittingList::showEdit(int row)
@@ -183,8 +181,8 @@ void UnfittingList::paint(juce::Graphics& g)
     g.setFont(smallFont());
     const auto item = model.item();
     const std::size_t count = item ? item->edits.size() : 0;
-    constexpr auto hint = "Hand edits stay when the sound is analysed again. Those that no longer fit are listed here.";
-    g.drawFittedText(tr(count == 0 ? hint : "All hand edits fit this analysis."), getLocalBounds(),
+    constexpr auto hint = "Edits survive re-analysis. Those that no longer fit are listed here.";
+    g.drawFittedText(tr(count == 0 ? hint : "All edits fit this analysis."), getLocalBounds(),
                      juce::Justification::topLeft, 4, 1.0f);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/ClipSelection.h"
 
+#include "editor/Translation.h"
+
 #include <utility>
 
 namespace pacini::editor
@@ -114,8 +116,8 @@ void ClipSelection::paste(double time, const std::optional<Lane>& into)
         pasted->selection = {}; // what follows is for the time range
     const auto leftOut = static_cast<int>(pasted->leftOut);
     if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && model.onError)
-        model.onError("Pasted with gaps",
-                      "This clip has no band near " + juce::String(leftOut) + " of the lanes that were copied.");
+        model.onError("Partly pasted",
+                      tr("This clip has no band near {0} of the copied lanes.", {juce::String(leftOut)}));
 }
 
 } // namespace pacini::editor

@@ -2,6 +2,7 @@
 #include "editor/clip/session/EditorModel.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 
 #include <utility>
 
@@ -24,13 +25,13 @@ EditorModel::~EditorModel()
 void EditorModel::report(const std::string& title, const Error& error) const
 {
     if (onError)
-        onError(toText(title), toText(error.text()));
+        onError(translateMessage(toText(title)), translateMessage(toText(error.text())));
 }
 
 bool EditorModel::take(Result<void> result)
 {
     if (!result)
-        report("That is not possible", result.error());
+        report("Not possible", result.error());
     return result.ok();
 }
 
@@ -171,7 +172,7 @@ bool EditorModel::follow(int before)
     {
         const auto failure = autosave->lastError();
         if (failure && !autosaveFailed)
-            report("Autosave does not work at the moment. Save the project", *failure);
+            report("Autosave failed. Save the project now", *failure);
         autosaveFailed = failure.has_value();
         autosave->update(open->snapshot());
     }
@@ -228,7 +229,8 @@ void EditorModel::setComparing(bool wanted)
 bool EditorModel::mayEdit(Gesture gesture) const
 {
     if (comparing && gesture == 0 && onError)
-        onError("This is version A", "It is kept to compare with. Go back to the clip to edit it, or take version A.");
+        onError("This is version A",
+                "Version A is for comparison. Press C to return to the clip, or revert to version A.");
     return !comparing;
 }
 

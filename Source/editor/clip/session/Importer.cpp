@@ -3,6 +3,7 @@
 
 #include "document/FolderFiles.h"
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "editor/clip/session/ProjectSounds.h"
 
 #include <utility>
@@ -19,7 +20,7 @@ juce::String shortened(const juce::StringArray& lines)
     juce::StringArray shown(lines);
     shown.removeRange(maxLines, shown.size());
     if (lines.size() > maxLines)
-        shown.add("and " + juce::String(lines.size() - maxLines) + " more");
+        shown.add(tr("and {0} more", {juce::String(lines.size() - maxLines)}));
     return shown.joinIntoString("\n");
 }
 } // namespace
@@ -51,8 +52,8 @@ std::optional<WorkState> Importer::state() const
         return std::nullopt;
     WorkState now{doing, task->progress};
     if (const std::size_t all = begun + waiting.size(); all > 1)
-        now.text << " (" << juce::String(static_cast<int>(begun)) << " of " << juce::String(static_cast<int>(all))
-                 << ")";
+        now.text = tr("{0} ({1} of {2})",
+                      {now.text, juce::String(static_cast<int>(begun)), juce::String(static_cast<int>(all))});
     return now;
 }
 
@@ -79,7 +80,7 @@ void Importer::next()
 
 void Importer::list(const std::filesystem::path& folder)
 {
-    doing = "Looking into " + pathText(folder.filename());
+    doing = tr("Scanning {0}", {pathText(folder.filename())});
     jobs.run([folder] { return openableFiles(folder); },
              [this, folder, mine = task](const std::vector<std::filesystem::path>& found)
              {
@@ -87,7 +88,7 @@ void Importer::list(const std::filesystem::path& folder)
                      return;
                  waiting.insert(waiting.begin(), found.begin(), found.end());
                  if (found.empty())
-                     failures.add(pathText(folder.filename()) + ": holds no sounds and no clips");
+                     failures.add(tr("{0} contains no sounds or clips", {pathText(folder.filename())}));
                  next();
              });
 }
@@ -95,10 +96,10 @@ void Importer::list(const std::filesystem::path& folder)
 void Importer::read(const std::filesystem::path& file)
 {
     ++begun;
-    doing = "Reading " + pathText(file.filename());
+    doing = tr("Reading {0}", {pathText(file.filename())});
     jobs.run(
         [file, mine = task] {
-            return mine->stopped ? Result<Imported>(Error{ErrorCode::io, "", "was stopped"}) : readFile(file);
+            return mine->stopped ? Result<Imported>(Error{ErrorCode::io, "", "was cancelled"}) : readFile(file);
         },
         [this, file, mine = task](Result<Imported> imported)
         {
@@ -116,7 +117,7 @@ void Importer::analyseSound(Imported imported)
 {
     if (!anyShown)
         model.showUnanalysed(imported.sound);
-    doing = "Analysing " + pathText(imported.reference.path.filename());
+    doing = tr("Analysing {0}", {pathText(imported.reference.path.filename())});
     task->progress = 0.0;
     jobs.run(
         [imported, mine = task]
@@ -141,12 +142,12 @@ void Importer::put(Imported imported)
 {
     const juce::String name = toText(imported.clip.name);
     for (const auto& warning : imported.warnings)
-        gaps.add(name + ": " + toText(warning));
+        gaps.add(name + ": " + translateMessage(toText(warning)));
     // A sound was shown unless the user has turned to another clip since.
     const bool shown = !anyShown && (!imported.sound || model.isShowingUnanalysed());
     const auto id = sounds.insert(std::move(imported));
     if (!id)
-        failures.add(name + ": " + toText(id.error().text()));
+        failures.add(name + ": " + translateMessage(toText(id.error().text())));
     else if (shown)
         model.show(*id);
     anyShown = true;
@@ -157,7 +158,7 @@ void Importer::fail(const std::filesystem::path& file, const Error& error)
 {
     if (model.isShowingUnanalysed())
         model.endUnanalysed();
-    failures.add(pathText(file.filename()) + ": " + toText(error.message));
+    failures.add(pathText(file.filename()) + ": " + translateMessage(toText(error.message)));
     next();
 }
 
@@ -170,16 +171,16 @@ void Importer::finish()
     tellWork();
     if (!model.onError || (failed.isEmpty() && missed.isEmpty()))
         return;
-    juce::String title = "Read with gaps", text;
+    juce::String title = tr("Imported with losses"), text;
     if (!failed.isEmpty())
     {
-        title = all > 1 ? juce::String(failed.size()) + " of " + juce::String(static_cast<int>(all)) +
-                              (failed.size() == 1 ? " files was not opened" : " files were not opened")
-                        : juce::String("Not opened");
+        title = all > 1 ? tr("{0} of {1} files not opened",
+                             {juce::String(failed.size()), juce::String(static_cast<int>(all))})
+                        : tr("Not opened");
         text = shortened(failed);
     }
     if (!missed.isEmpty())
-        text << (failed.isEmpty() ? "" : "\n\nRead with gaps:\n") << shortened(missed);
+        text << (failed.isEmpty() ? juce::String() : "\n\n" + tr("Imported with losses:") + "\n") << shortened(missed);
     model.onError(title, text);
 }
 

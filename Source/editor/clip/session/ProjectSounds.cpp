@@ -2,6 +2,7 @@
 #include "editor/clip/session/ProjectSounds.h"
 
 #include "editor/Text.h"
+#include "editor/Translation.h"
 #include "io/InputFile.h"
 
 #include <pacini/foundation/Result.h>
@@ -63,7 +64,7 @@ void ProjectSounds::openFiles(const std::vector<std::filesystem::path>& files)
         if (file.extension() == ".pacini")
         {
             if (auto opened = model.openProject(file); !opened)
-                model.report(file.filename().string() + " was not opened", opened.error());
+                model.report(tr("{0} not opened", {pathText(file.filename())}).toStdString(), opened.error());
         }
         else
             others.push_back(file);
@@ -151,7 +152,7 @@ void ProjectSounds::load()
             {
                 missing.insert(id);
                 changed.emit();
-                return model.report("The sound cannot be read; the clip can be edited without it", read.error());
+                return model.report("Cannot read the sound; the clip can be edited without it", read.error());
             }
             sounds[id] = *read;
             changed.emit();
@@ -198,10 +199,10 @@ void ProjectSounds::findSounds(const std::filesystem::path& chosen)
                      return;
                  if (found.empty())
                      return model.report(
-                         chosen.filename().string() + " is another sound",
+                         tr("{0} is a different sound", {pathText(chosen.filename())}).toStdString(),
                          {ErrorCode::invalidData, "",
-                          "Its content is not that of the missing sound, and the missing sound is not beside "
-                          "it. To use it all the same, choose \"Replace sound...\" on the page Analysis."});
+                          "Its content differs from the missing sound, and the missing sound is not in its folder. To "
+                          "use it anyway, choose \"Replace sound...\" on the Analysis page."});
                  for (const AudioReference& source : found)
                      missing.erase(source.id);
                  model.change([&](Document& document)
@@ -210,8 +211,8 @@ void ProjectSounds::findSounds(const std::filesystem::path& chosen)
                  changed.emit();
                  if (found.size() < wanted && model.onError)
                      model.onError("Some sounds are still missing",
-                                   juce::String(static_cast<int>(found.size())) + " of " +
-                                       juce::String(static_cast<int>(wanted)) + " were found there.");
+                                   tr("{0} of {1} were found there.", {juce::String(static_cast<int>(found.size())),
+                                                                       juce::String(static_cast<int>(wanted))}));
              });
 }
 
@@ -229,9 +230,9 @@ void ProjectSounds::keepSound(int sourceId, bool wanted)
             const auto found = locateAudio(now, folders);
             if (!found || found->changed)
                 return Error{ErrorCode::io, "",
-                             wanted ? "The sound is not where it was, so that it cannot be copied."
+                             wanted ? "The sound file has moved or changed and cannot be embedded."
                                     : "The file " + reference.path.filename().string() +
-                                          " is not there any more: the copy in the project is the only one."};
+                                          " is gone; the embedded sound is the only copy left."};
             now.path = found->path;
             if (!wanted)
                 return now;
@@ -246,11 +247,10 @@ void ProjectSounds::keepSound(int sourceId, bool wanted)
             if (of != generation)
                 return;
             if (!read)
-                model.report(wanted ? "The sound was not copied" : "The copy is kept", read.error());
+                model.report(wanted ? "Sound not embedded" : "Embedded sound kept", read.error());
             else
-                model.change(
-                    [&](Document& document)
-                    { return document.setSound(*read, wanted ? "Keep a copy of the sound" : "Keep no copy"); });
+                model.change([&](Document& document)
+                             { return document.setSound(*read, wanted ? "Embed sound" : "Remove embedded sound"); });
             changed.emit();
         });
 }
@@ -265,9 +265,9 @@ void ProjectSounds::reanalyse(const EncoderParams& wanted)
     if (!heard || reference == nullptr)
         return;
     if (auto valid = validate(wanted); !valid)
-        return model.report("That is not possible", valid.error());
+        return model.report("Not possible", valid.error());
     Again next{model.activeId(), wanted, "Analysis", std::make_shared<Task>()};
-    againText = "Analysing " + toText(now->clip->name) + " again";
+    againText = tr("Re-analysing {0}", {toText(now->clip->name)});
     analyseAgain(std::move(next),
                  [heard, reference = *reference]() -> Result<Imported> {
                      return Imported{reference, heard, {}, {}, {}};
@@ -280,7 +280,7 @@ void ProjectSounds::replaceSound(const std::filesystem::path& file)
     if (!now)
         return;
     Again next{model.activeId(), now->encoder, "Replace sound", std::make_shared<Task>()};
-    againText = "Analysing " + pathText(file.filename());
+    againText = tr("Analysing {0}", {pathText(file.filename())});
     analyseAgain(std::move(next),
                  [file]() -> Result<Imported>
                  {
@@ -301,7 +301,7 @@ void ProjectSounds::analyseAgain(Again wanted, const std::function<Result<Import
         [wanted, read]() -> Result<Imported>
         {
             if (wanted.task->stopped)
-                return Error{ErrorCode::invalidData, "", "was stopped"};
+                return Error{ErrorCode::invalidData, "", "was cancelled"};
             auto imported = read();
             if (!imported)
                 return imported;
@@ -328,7 +328,7 @@ void ProjectSounds::putAgain(const Again& done, Result<Imported> analysed, bool 
     if (!now)
         return;
     if (!analysed)
-        return model.report(otherSound ? "The sound was not replaced" : "Not analysed", analysed.error());
+        return model.report(otherSound ? "Sound not replaced" : "Not analysed", analysed.error());
     // The clip keeps its name, whatever its sound is called.
     analysed->clip.name = now->analysis->name;
     std::optional<AudioReference> other;

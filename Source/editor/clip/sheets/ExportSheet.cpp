@@ -24,25 +24,26 @@ int itemOf(EventExport events)
 
 juce::String lossText(const FormatLoss& loss)
 {
-    juce::String text = juce::String(loss.time, 2) + " s";
-    if (loss.duration > 0.0)
-        text << " to " << juce::String(loss.time + loss.duration, 2) << " s";
-    text << ": " << toText(loss.message);
+    juce::String text =
+        loss.duration > 0.0
+            ? tr("{0} to {1} s", {juce::String(loss.time, 2), juce::String(loss.time + loss.duration, 2)})
+            : juce::String(loss.time, 2) + " s";
+    text << ": " << translateMessage(toText(loss.message));
     if (loss.error > 0.0)
     {
         if (loss.kind == LossKind::frequency)
-            text << " (up to " << juce::String(loss.error, 2) << " octaves)";
+            text << " " << tr("(up to {0} octaves)", {juce::String(loss.error, 2)});
         else if (loss.kind == LossKind::timeStep)
-            text << " (up to " << juce::String(1000.0 * loss.error, 1) << " ms)";
+            text << " " << tr("(up to {0} ms)", {juce::String(1000.0 * loss.error, 1)});
         else
-            text << " (up to " << juce::String(100.0 * loss.error, 1) << " % of full drive)";
+            text << " " << tr("(up to {0} % of full drive)", {juce::String(100.0 * loss.error, 1)});
     }
     return text;
 }
 } // namespace
 
 ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
-    : Sheet("Export", 680, 520), model(project), actuators(profiles), browseButton("Browse" + toText("…"))
+    : Sheet("Export", 680, 520), model(project), actuators(profiles), browseButton(toText("Browse…"))
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -57,9 +58,9 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     label(targetLabel, "File");
     label(lossLabel, "What is kept");
     format.setTitle("Format");
-    format.setTooltip("The format of the files");
+    format.setTooltip("Format of the exported files");
     for (const ClipFormat& one : exportFormats())
-        format.addItem(toText(one.title) + "  " + toText(one.extension), format.getNumItems() + 1);
+        format.addItem(tr(toText(one.title)) + "  " + toText(one.extension), format.getNumItems() + 1);
     format.setSelectedId(1, juce::dontSendNotification);
     format.onChange = [this]
     {
@@ -67,8 +68,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
         formatChanged();
     };
     rate.setTitle("Sample rate");
-    rate.setTooltip("Sample rate of formats that hold samples, in Hz");
-    rate.addItem("As the sound", sourceRate);
+    rate.setTooltip("Sample rate of formats that contain samples, in Hz");
+    rate.addItem("Same as sound", sourceRate);
     for (const int hertz : {48000, 8000, 2000})
         rate.addItem(juce::String(hertz) + " Hz", hertz);
     rate.setSelectedId(sourceRate, juce::dontSendNotification);
@@ -77,21 +78,21 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
         showLosses();
     };
     events.setTitle("Events");
-    events.setTooltip("Each event a transient of its own, or merged into the voice where that is as strong");
+    events.setTooltip("Each event as its own transient, or merged into the voice where that is as strong");
     events.addItem("Transients", itemOf(EventExport::transients));
-    events.addItem("Merged into the voice", itemOf(EventExport::merged));
-    events.setTextWhenNothingSelected(tr("As the format has them"));
+    events.addItem("Merged into voice", itemOf(EventExport::merged));
+    events.setTextWhenNothingSelected(tr("Set by the format"));
     events.onChange = [this]
     {
         showLosses();
     };
     const auto count = model.document().project().clips.size();
-    all.setButtonText(count > 1 ? "All " + juce::String(static_cast<int>(count)) + " clips of the project"
-                                : juce::String("All clips of the project"));
+    all.setButtonText(count > 1 ? tr("All {0} clips of the project", {juce::String(static_cast<int>(count))})
+                                : tr("All clips of the project"));
     all.setTitle("Export all clips");
     all.setEnabled(count > 1);
-    prepareButton(all, "One file for each clip, named after it, into a folder", [this] { formatChanged(); });
-    target.setTitle("File or folder to write");
+    prepareButton(all, "One file per clip, in a folder", [this] { formatChanged(); });
+    target.setTitle("Destination file or folder");
     target.setFont(usualFont());
     target.setIndents(grid, 7);
     target.onReturnKey = [this]
@@ -102,7 +103,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     {
         close();
     };
-    prepareButton(browseButton, "Chooses where to write", [this] { browse(); });
+    prepareButton(browseButton, "Chooses where to save", [this] { browse(); });
     losses.setMultiLine(true);
     losses.setReadOnly(true);
     losses.setCaretVisible(false);
@@ -157,7 +158,7 @@ void ExportSheet::formatChanged()
     const auto clip = model.clip();
     juce::File now(juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()));
     const juce::File folder = now.isDirectory() ? now : now.getParentDirectory();
-    targetLabel.setText(all.getToggleState() ? "Folder" : "File", juce::dontSendNotification);
+    targetLabel.setText(tr(all.getToggleState() ? "Folder" : "File"), juce::dontSendNotification);
     target.setText(all.getToggleState()
                        ? folder.getFullPathName()
                        : folder.getChildFile(toText(exportName(*clip, chosenFormat()))).getFullPathName(),
@@ -169,7 +170,7 @@ void ExportSheet::formatChanged()
 
 void ExportSheet::showLosses()
 {
-    const juce::String kept = toText(chosenFormat().keeps);
+    const juce::String kept = tr(toText(chosenFormat().keeps));
     losses.setText(kept + "\n", false);
     const int number = ++asked;
     jobs.run([clip = model.clip(), wanted = choice()] { return exportLosses(*clip, wanted); },
@@ -181,12 +182,12 @@ void ExportSheet::showLosses()
                  lines.add(kept);
                  lines.add(juce::String());
                  if (!found)
-                     lines.add("Cannot be written: " + toText(found.error().text()));
+                     lines.add(tr("Cannot be exported: {0}", {translateMessage(toText(found.error().text()))}));
                  else if (found->empty())
-                     lines.add("Nothing of this clip is lost.");
+                     lines.add(tr("No losses."));
                  else
                  {
-                     lines.add(juce::String(static_cast<int>(found->size())) + " losses:");
+                     lines.add(counted(found->size(), "{0} loss:", "{0} losses:"));
                      for (const FormatLoss& loss : *found)
                          lines.add(lossText(loss));
                  }
@@ -201,7 +202,7 @@ void ExportSheet::browse()
     using Browser = juce::FileBrowserComponent;
     const bool folder = all.getToggleState();
     chooser =
-        std::make_unique<juce::FileChooser>(folder ? "Export into a folder" : "Export to a file",
+        std::make_unique<juce::FileChooser>(tr(folder ? "Export to a folder" : "Export to a file"),
                                             juce::File::getCurrentWorkingDirectory().getChildFile(target.getText()),
                                             folder ? juce::String() : "*" + toText(chosenFormat().extension));
     chooser->launchAsync(folder ? Browser::openMode | Browser::canSelectDirectories
@@ -234,13 +235,14 @@ void ExportSheet::run()
     }
     setAnswerEnabled(false);
     ++asked;
-    losses.setText(toText("Writing…"), false);
+    losses.setText(tr(toText("Exporting…")), false);
     jobs.run([clips, wanted] { return pacini::exportClips(clips, wanted); },
              [this](Result<std::vector<ExportReport>> done)
              {
                  setAnswerEnabled(true);
                  if (!done)
-                     return losses.setText("Not written: " + toText(done.error().text()), false);
+                     return losses.setText(tr("Not exported: {0}", {translateMessage(toText(done.error().text()))}),
+                                           false);
                  close();
              });
 }

@@ -4,6 +4,7 @@
 #include "HelpData.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -38,12 +39,22 @@ HelpSheet::~HelpSheet()
     topics.setModel(nullptr);
 }
 
-/// A topic begins with a heading of the first order; one paragraph a line.
+/// A topic begins with a heading of the first order; one paragraph a line. `1-editing.de.md` is `1-editing.md` in
+/// German; where a language has no manual, the English one is shown.
 std::vector<HelpSheet::Topic> HelpSheet::readTopics()
 {
-    juce::StringArray names;
+    juce::StringArray english, translated;
     for (int i = 0; i < helpData::namedResourceListSize; ++i)
-        names.add(helpData::namedResourceList[i]);
+    {
+        const char* name = helpData::namedResourceList[i];
+        const juce::String file(helpData::getNamedResourceOriginalFilename(name));
+        const auto language = file.fromFirstOccurrenceOf(".", false, false).upToFirstOccurrenceOf(".md", false, false);
+        if (language == "md")
+            english.add(name);
+        else if (language == languageInUse())
+            translated.add(name);
+    }
+    juce::StringArray names = translated.isEmpty() ? english : translated;
     names.sort(false);
     std::vector<Topic> found;
     for (const auto& name : names)

@@ -4,6 +4,7 @@
 #include "document/EditLayer.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ public:
             addAndMakeVisible(choice);
             return;
         }
-        unit.setText(toText(field.unit) + ", " + numberText(field.low, shortDecimals(field.low)) + " to " +
-                         numberText(field.high, shortDecimals(field.high)),
+        unit.setText(tr("{0}, {1} to {2}", {tr(toText(field.unit)), numberText(field.low, shortDecimals(field.low)),
+                                            numberText(field.high, shortDecimals(field.high))}),
                      juce::dontSendNotification);
         unit.setFont(smallFont());
         unit.setMinimumHorizontalScale(0.7f);
@@ -65,7 +66,7 @@ public:
         slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
         slider.setRange(field.low, field.high, std::pow(10.0, -field.decimals));
         slider.setValue(first, juce::dontSendNotification);
-        slider.setTitle(juce::String(field.name) + " slider");
+        slider.setTitle(tr("{0} slider", {tr(field.name)}));
         slider.setTooltip(field.help);
         slider.setWantsKeyboardFocus(false);
         slider.onValueChange = [this]
@@ -74,7 +75,7 @@ public:
             changed();
         };
         addAndMakeVisible(slider);
-        number.setTitle(juce::String(field.name) + ", " + toText(field.unit));
+        number.setTitle(tr(field.name) + ", " + tr(toText(field.unit)));
         number.setTooltip(field.help);
         number.setFont(usualFont());
         number.setIndents(grid, 7);
@@ -237,13 +238,13 @@ juce::Component* OperationSheet::firstFocus()
 juce::String OperationSheet::scopeText() const
 {
     if (operation.wholeClip)
-        return "For the whole clip";
+        return tr("Applies to the whole clip");
     const EditScope scope = clipSelection.scope();
-    const auto times = juce::String(scope.range.from, 3) + " to " + juce::String(scope.range.to, 3) + " s";
+    const auto times = tr("{0} to {1} s", {juce::String(scope.range.from, 3), juce::String(scope.range.to, 3)});
     if (!scope.allLanes)
-        return "For what is selected: " + times;
-    return clipSelection.timeRange() ? "For the time range, all lanes: " + times
-                                     : juce::String("For the whole clip, all lanes");
+        return tr("Applies to the selection: {0}", {times});
+    return clipSelection.timeRange() ? tr("Applies to the time range, all lanes: {0}", {times})
+                                     : tr("Applies to the whole clip, all lanes");
 }
 
 void OperationSheet::setValue(std::size_t field, double value)

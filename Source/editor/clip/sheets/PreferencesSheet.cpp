@@ -36,17 +36,16 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
     ViewState& viewState = view.session().viewState;
     if (view.hostServices().chooseLanguage)
         addLanguages();
-    addChoice("Colours", "Light text on dark ground, or dark on light", {"Dark", "Light"}, view.isDark() ? 0 : 1,
+    addChoice("Theme", "Dark or light theme", {"Dark", "Light"}, view.isDark() ? 0 : 1,
               [this](int i) { view.setDark(i == 0); });
     juce::StringArray sizes;
     for (const double scale : scales)
         sizes.add(juce::String(juce::roundToInt(100.0 * scale)) + " %");
-    addChoice("Size of everything", "For high resolutions and tired eyes", sizes, nearest(scales, view.scale()),
+    addChoice("Interface scale", "Size of text and controls", sizes, nearest(scales, view.scale()),
               [this](int i) { view.setScale(scales[static_cast<std::size_t>(i)]); });
-    addChoice("Levels", "The scale of all lanes of levels", {"In dB", "Linear"},
-              viewState.amplitudesInDecibels() ? 0 : 1,
+    addChoice("Levels", "Scale of the level lanes", {"dB", "Linear"}, viewState.amplitudesInDecibels() ? 0 : 1,
               [&viewState](int i) { viewState.setAmplitudesInDecibels(i == 0); });
-    addChoice("Lanes", "The height of a band", {"Low", "Usual", "Tall", "Very tall"},
+    addChoice("Lanes", "Height of the lanes", {"Small", "Normal", "Tall", "Very tall"},
               nearest(laneHeights, viewState.laneHeight()),
               [&viewState](int i) { viewState.setLaneHeight(laneHeights[static_cast<std::size_t>(i)]); });
     const auto option = [&viewState](auto member, auto value)
@@ -56,13 +55,14 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
         viewState.setViewOptions(options);
     };
     const ViewOptions options = viewState.viewOptions();
-    addChoice("Sound", "How the sound is drawn", {"Waveform", "Spectrogram", "Both"}, static_cast<int>(options.sound),
+    addChoice("Sound", "How the sound is displayed", {"Waveform", "Spectrogram", "Both"},
+              static_cast<int>(options.sound),
               [option](int i) { option(&ViewOptions::sound, static_cast<SoundView>(i)); });
-    addChoice("While playing", "Whether the view goes along with the playhead",
-              {"The view stays", "Turn pages", "Playhead in the middle"}, static_cast<int>(options.follow),
+    addChoice("During playback", "Whether the view follows the playhead",
+              {"Don't follow", "Follow by page", "Keep centred"}, static_cast<int>(options.follow),
               [option](int i) { option(&ViewOptions::follow, static_cast<Follow>(i)); });
-    addSwitch("What the actuator plays", "Rows below the lanes: the drive of the actuator and what is lost",
-              options.actuator, [option](bool on) { option(&ViewOptions::actuator, on); });
+    addSwitch("Actuator output", "Shows the actuator's drive and losses below the lanes", options.actuator,
+              [option](bool on) { option(&ViewOptions::actuator, on); });
     const auto target = [&viewState](bool SnapTargets::*member, bool on)
     {
         SnapTargets targets = viewState.snapTargets();
@@ -72,8 +72,8 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
     const SnapTargets targets = viewState.snapTargets();
     for (const auto& [member, name] :
          {std::pair(&SnapTargets::on, "Snap"), std::pair(&SnapTargets::transients, "Snap to transients"),
-          std::pair(&SnapTargets::grid, "Snap to lines of the ruler")})
-        addSwitch(name, "Dragging snaps to what is near; with Alt it does not", targets.*member,
+          std::pair(&SnapTargets::grid, "Snap to ruler lines")})
+        addSwitch(name, "Dragging snaps to nearby targets; hold Alt to bypass", targets.*member,
                   [target, member = member](bool on) { target(member, on); });
     setAnswers({{"Close", {}}});
 }
@@ -84,11 +84,11 @@ void PreferencesSheet::addLanguages()
     for (const auto& code : languages())
     {
         codes.add(code);
-        names.add(languageName(code));
+        names.add(canShow(code) ? languageName(code) : tr("{0} (needs a font)", {juce::String("Japanese")}));
     }
     codes.add({});
-    names.add("As the system");
-    addChoice("Language", "The language of the interface, from the next start on", names,
+    names.add("System default");
+    addChoice("Language", "Interface language; takes effect at the next start", names,
               std::max(0, codes.indexOf(view.hostServices().language)),
               [this, codes](int i) { view.hostServices().chooseLanguage(codes[i]); });
 }
@@ -128,7 +128,7 @@ void PreferencesSheet::addSwitch(const juce::String& name, const juce::String& h
     prepareButton(*button, help,
                   [turn = std::move(turn), now = button.get()]
                   {
-                      now->setButtonText(now->getToggleState() ? "On" : "Off");
+                      now->setButtonText(tr(now->getToggleState() ? "On" : "Off"));
                       turn(now->getToggleState());
                   });
     add(name, std::move(button));

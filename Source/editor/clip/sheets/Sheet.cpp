@@ -2,6 +2,7 @@
 #include "editor/clip/sheets/Sheet.h"
 
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
 #include <algorithm>
 
@@ -127,7 +128,7 @@ bool Sheet::keyPressed(const juce::KeyPress& key)
 }
 
 MessageSheet::MessageSheet(const juce::String& title, const juce::String& text, std::vector<Answer> answers)
-    : Sheet(title, 560, 208)
+    : Sheet(translateMessage(title), 560, 208)
 {
     words.setMultiLine(true);
     words.setReadOnly(true);
@@ -137,12 +138,12 @@ MessageSheet::MessageSheet(const juce::String& title, const juce::String& text, 
     words.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words.setColour(juce::TextEditor::focusedOutlineColourId, juce::Colours::transparentBlack);
     words.setFont(usualFont());
-    words.setText(text, juce::dontSendNotification);
-    words.setTitle(title);
+    words.setText(translateMessage(text), juce::dontSendNotification);
+    words.setTitle(translateMessage(title));
     words.setWantsKeyboardFocus(false);
     addAndMakeVisible(words);
     setAnswers(std::move(answers));
-    setDescription(text);
+    setDescription(translateMessage(text));
 }
 
 void MessageSheet::layOut(juce::Rectangle<int> area)

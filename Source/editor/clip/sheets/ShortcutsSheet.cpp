@@ -20,22 +20,26 @@ class ShortcutsSheet::Table final : public juce::Component
 public:
     explicit Table(const std::vector<Menu>& menus)
     {
-        rows = {
-            {"In lanes", {}},
-            {"Double-click", "Adds a point or a transient"},
-            {"Drag a point", "Moves all that is selected; Shift: one direction only, Alt: no snapping"},
-            {"Ctrl+drag a line", "Bends it between its two points"},
-            {"Drag with D, or drawing", "Draws the curve"},
-            {"Drag elsewhere", "Selects what is inside, over several lanes; Shift adds"},
-            {"Arrow keys", "Move what is selected by a pixel, 1 dB, a semitone; Shift: ten times"},
-            {"Alt+left, right",
-             "Shorter or longer: what is selected, in time; also by the ends of its bar in the ruler"},
-            {"Alt+up, down", "More or less difference between the levels that are selected"},
-            {"Ruler", "Click: playhead; drag: time range, or an end of it; markers below it can be dragged"},
-            {", and .", "Select the point before and the next one"},
-            {"Return", "Adds a point at the playhead"},
-            {"Tab, Shift+Tab", "Next and previous lane or control"},
-            {"Wheel", "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: moves in time; Alt: lane height"}};
+        rows = {{"In lanes", {}},
+                {"Double-click", "Adds a point or a transient"},
+                {"Drag a point", "Moves the selection; Shift: one direction only, Alt: no snapping"},
+                {"Ctrl+drag a line", "Bends the line between its two points"},
+                {"Drag with D, or Draw", "Draws the curve"},
+                {"Drag elsewhere", "Selects what is inside the frame, across lanes; Shift adds"},
+                {"Arrow keys", "Move the selection by one pixel, 1 dB or a semitone; Shift: ten times as far"},
+                {"Alt+left, right", "Shortens or stretches the selection; so do the ends of its bar in the ruler"},
+                {"Alt+up, down", "Expands or compresses the selected levels"},
+                {"Ruler", "Click: playhead; drag: time range or one of its ends; markers below can be dragged"},
+                {", and .", "Select the previous or next point"},
+                {"Return", "Adds a point at the playhead"},
+                {"Tab, Shift+Tab", "Next and previous lane or control"},
+                {"Mouse wheel",
+                 "Scrolls; over ruler and sound, or with Ctrl: zooms; Shift: scrolls in time; Alt: lane height"}};
+        for (auto& [key, text] : rows)
+        {
+            key = tr(key);
+            text = tr(text);
+        }
         for (const Menu& menu : menus)
         {
             rows.push_back({tr(menu.name), {}});
@@ -45,7 +49,7 @@ public:
                         {action.keys.front().getTextDescription(), tr(action.name) + ": " + tr(action.help)});
         }
         setSize(600, static_cast<int>(rows.size()) * shortcutRowHeight);
-        setTitle("Keys and mouse");
+        setTitle("Keyboard and mouse");
         juce::StringArray lines;
         for (const auto& [key, text] : rows)
             lines.add(key + " " + text);
@@ -79,7 +83,7 @@ private:
     std::vector<std::pair<juce::String, juce::String>> rows;
 };
 
-ShortcutsSheet::ShortcutsSheet(const std::vector<Menu>& menus) : Sheet("Keys and mouse", 760, 600)
+ShortcutsSheet::ShortcutsSheet(const std::vector<Menu>& menus) : Sheet("Keyboard and mouse", 760, 600)
 {
     viewport.setViewedComponent(new Table(menus), true);
     viewport.setScrollBarsShown(true, false);

@@ -129,7 +129,7 @@ Pattern patternOf(const NormalisedVoice& voice, bool split, double duck, LossLis
     }
 
     LossTrack raised(LossKind::event, "the curve is raised around events so that it does not weaken them");
-    LossTrack shifted(LossKind::event, "one file cannot hold a sharpness so far from that of the curve");
+    LossTrack shifted(LossKind::event, "sharpness too far from the curve for one file");
     double done = 0.0;
     for (std::size_t i = 0; i < voice.events.size();)
     {

@@ -117,7 +117,7 @@ Result<bool> limitSum(std::vector<Band>& bands, double most, std::size_t maxPoin
             count += 2;
         }
         if (count > maxPoints)
-            return Error{ErrorCode::tooLarge, "", "needs too many points to be kept within full drive"};
+            return Error{ErrorCode::tooLarge, "", "too many points needed to stay within full drive"};
         band.amplitude = std::move(limited);
     }
     return true;

@@ -184,7 +184,7 @@ AndroidEnvelope basicOf(AndroidEnvelope envelope, const ExportParams& params, do
         point.frequency = sharpnessOf(point.frequency);
     if (bent > 1e-9)
         losses.add(LossKind::frequency, 0.0, duration, bent,
-                   fmt::format("basic envelope: frequencies outside {} to {} Hz are limited to this range",
+                   fmt::format("basic envelope: frequencies are limited to {} to {} Hz",
                                decimal(range.low, 0), decimal(range.high, 0)));
     return envelope;
 }
@@ -217,7 +217,7 @@ Result<AndroidExport> androidEffectsOf(const Clip& clip, const ExportParams& par
     result.effects.waveform = androidWaveformOf(voice, params.amplitudePoints, keepsPoints);
     addStepLosses(losses, voice, result.effects.waveform);
     addRounding(losses, voice);
-    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: has no frequency");
+    losses.add(LossKind::frequency, 0.0, voice.duration, 0.0, "waveform: no frequency");
 
     auto nodes = nodesOf(android, params);
     if (params.envelope)
@@ -254,7 +254,7 @@ Result<AndroidEnvelopeExport> androidEnvelopeOf(const Clip& clip, const ExportPa
         envelope = basicOf(std::move(envelope), params, duration, losses);
     else if (!params.profile)
         losses.add(LossKind::frequency, 0.0, duration, 0.0,
-                   "waveform envelope: Android plays none that leaves the device's frequencies; a profile has them");
+                   "waveform envelope: Android rejects frequencies outside the device's range; a profile sets it");
     return AndroidEnvelopeExport{std::move(envelope), std::move(losses)};
 }
 

@@ -319,8 +319,8 @@ Result<std::vector<EnvelopeNode>> fittedNodes(std::vector<EnvelopeNode> nodes, c
 void addFitLosses(LossList& losses, const std::vector<EnvelopeNode>& nodes, const std::vector<EnvelopeNode>& fitted)
 {
     constexpr double leastOctaves = 0.1;
-    LossTrack amplitudes(LossKind::points, "envelope: fewer control points than it bends, within the limits given");
-    LossTrack frequencies(LossKind::frequency, "envelope: fewer control points than its frequency bends");
+    LossTrack amplitudes(LossKind::points, "envelope: simplified to the limit of control points");
+    LossTrack frequencies(LossKind::frequency, "envelope: frequency simplified to the limit of control points");
     Curve amplitude, frequency;
     for (const EnvelopeNode& node : fitted)
     {
@@ -340,7 +340,7 @@ void addFitLosses(LossList& losses, const std::vector<EnvelopeNode>& nodes, cons
     const double longer = androidTime(fitted.back().tick - nodes.back().tick);
     if (longer > 0.0)
         losses.add(LossKind::length, androidTime(nodes.back().tick), 0.0, longer,
-                   "envelope: is longer, as a segment may not be so short");
+                   "envelope: extended to the shortest segment");
 }
 
 } // namespace pacini

@@ -44,7 +44,7 @@ std::vector<Point> rounded(const Curve& curve)
 /// are more events than points, points are doubled.
 void attach(std::vector<Point>& points, const std::vector<Transient>& events, LossList& losses)
 {
-    LossTrack raised(LossKind::event, "events below the amplitude around them are raised to it");
+    LossTrack raised(LossKind::event, "events are raised to the surrounding amplitude");
     std::vector<Point> result;
     result.reserve(points.size());
     std::size_t next = 0;

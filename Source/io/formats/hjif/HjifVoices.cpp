@@ -344,8 +344,8 @@ void addMerged(LossList& losses, const Clip& clip, const std::vector<HjifEvent>&
         if (!isHjifTap(events[i], clip.transients[i].amplitude))
             losses.add(LossKind::transient, clip.transients[i].time, 0.0, clip.transients[i].amplitude,
                        how == EventExport::merged
-                           ? "is no transient that is felt: its wave and the bands are as strong"
-                           : "is no transient that is felt: two periods of 91 Hz would be too far from what sounds");
+                           ? "dropped as a transient: its wave and the bands are as strong"
+                           : "dropped as a transient: two periods of 91 Hz would differ too much");
 }
 } // namespace
 

@@ -54,7 +54,7 @@ Result<OpenXrClip> openXrOf(const Clip& clip, const ExportParams& params)
         losses.add(LossKind::points, 0.0, clip.duration, 0.0,
                    fmt::format("amplitude envelope: {} amplitudes instead of {}", count, wanted));
     if (!clip.bands.empty())
-        losses.add(LossKind::frequency, 0.0, clip.duration, 0.0, "amplitude envelope: has no frequency");
+        losses.add(LossKind::frequency, 0.0, clip.duration, 0.0, "amplitude envelope: no frequency");
     const double step = std::max(clip.duration, 1e-3) / count;
     for (const Transient& event : voice.events)
         losses.add(LossKind::event, event.time, 0.0, 0.0, "amplitude envelope: events become bursts");

@@ -48,7 +48,7 @@ Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, 
     if (!samples)
         return samples.error();
     drive.samples = std::move(samples).value();
-    LossTrack cut(LossKind::amplitude, "samples beyond full scale are cut");
+    LossTrack cut(LossKind::amplitude, "samples beyond full scale are clipped");
     double loudest = 0.0;
     for (std::size_t n = 0; n < drive.samples.size(); ++n)
     {
@@ -63,7 +63,7 @@ Result<DriveSamples> driveSamples(const Clip& clip, const ExportParams& params, 
     for (const Band& band : clip.bands)
         if (band.centreFrequency > highest)
             drive.losses.add(LossKind::frequency, 0.0, clip.duration, std::log2(band.centreFrequency / highest),
-                             "frequencies above 0.45 of the sample rate become that");
+                             "frequencies are limited to 0.45 of the sample rate");
     if (!(loudest > 0.0))
         drive.losses.add(LossKind::empty, 0.0, clip.duration, 0.0, "nothing sounds");
     return drive;

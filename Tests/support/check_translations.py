@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Every text that users of the windows read is in the tables of Resources/translations, and nothing else is.
+
+Reads the string literals of the rooms with windows, and of what they show of rooms without. A literal is
+
+- a text of the table, or the fixed part of a template there ("Points of " of "Points of {0:text}"), or
+- no user text, by a rule or by the lists below, which say why.
+
+Besides, every table has every text, each translation has the placeholders of its text, and no text is unused.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+WINDOWS = ("Source/editor", "Source/app", "Source/plugin")
+DOCUMENT = ("Source/document",)
+
+# Writers say what is lost; the editor lists it before an export.
+LOSSES = re.compile(r"Source/io/formats/(.*Writer|.*/?LossList|VoiceReduction|ClipFormat|.*AndroidEffects|"
+                    r".*AndroidWaveform|.*EnvelopeFit|.*SumLimit|.*HjifVoices|.*DriveSamples)\.cpp$")
+
+# Names of presets of the plugin; what is said of them is for the command.
+PRESETS = Path("Core/pacini/realtime/TranslatorPresets.h")
+
+# Files without a text for users of windows.
+FILES = {
+    "names in files": [
+        "Source/app/editor/EditorSettings.cpp", "Source/app/editor/EditorSettings.h", "Source/document/Autosave.cpp",
+        "Source/document/AudioReference.h", "Source/document/Base64.h", "Source/document/BuiltInProfiles.cpp",
+        "Source/document/FolderFiles.cpp", "Source/document/RecentFiles.cpp", "Source/plugin/engine/PluginState.h"],
+    "errors of project files, which name places in JSON; English, as the command prints errors of files": [
+        "Source/document/ProjectFields.h", "Source/document/ProjectJson.cpp", "Source/document/ProjectJson.h",
+        "Source/document/OperationCheck.h", "Source/document/EditLayer.cpp", "Source/document/ItemEdits.cpp",
+        "Source/plugin/engine/PluginState.cpp"],
+    "the command line, which is English": ["Source/app/Settings.cpp", "Source/app/CommandLine.h"],
+    "units and values of parameters, which are the same in every language for hosts": [
+        "Source/plugin/engine/ParameterText.cpp"],
+    "codes of languages and names of fonts": ["Source/editor/Translation.cpp", "Source/editor/Translation.h"],
+}
+
+LITERALS = {
+    "names of products and of what devices are called": [
+        "Pacini", "Pacini Editor", "PaciniEditor", "pacini-editor", " - Pacini Editor", "Noto Sans CJK JP",
+        "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo", "IPAexGothic", "IPAPGothic",
+        "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
+        "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English"],
+    "names of threads, folders and settings": [
+        "Pacini capture", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
+        "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
+        "files", "clip", ".sound-", "md"],
+    "names that a new thing gets in the project, which is the same file in every language": [
+        "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement",
+        "Simulated actuator", "Nothing connected", "Sensor, axis x", "Sensor, axis y", "Sensor, axis z"],
+    "the command line and its log, which are English": [
+        "Pacini: ", "Pacini: no sound device: ", "--fresh", "FILE", "TYPE", "CODE",
+        "Pacini Editor: sounds become clips that can be reshaped, felt and exported.",
+        "Sounds, clips of any known format, folders of them, or a project",
+        "Start with the default settings, and leave the saved ones as they are",
+        "Kind of sound device, such as ALSA or JACK", "Of menus and controls: en or "],
+    "places in errors and identifiers": [
+        "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
+        "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
+    "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
+        "is not one of the project's sounds"],
+    "errors of hosts' names of buses": ["Main", "Sidechain"],
+    "names in files of formats": ["Simple Parametric", "noise {} {}"],
+    "codes of languages": ["en", "ja"],
+}
+
+# Texts of JUCE's own components, which look in the table, too.
+JUCE = {"Device:", "Output:", "Input:", "Audio device type:", "Sample rate:", "Audio buffer size:", "Test",
+        "Active output channels:", "Active input channels:", "OK", "<< none >>", "(no choices)", "Select All"}
+
+UNITS = {"Hz", "kHz", "dB", "ms", "s", "W", "ppm", "bit", "ch", "st", "k", "x", "Q", "m", "s²"}
+
+TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*'
+                   r"|'(?:\\.|[^'\\])'", re.S)
+PART = re.compile(r'"((?:\\.|[^"\\\n])*)"')
+PLACEHOLDER = re.compile(r"\{[^{}]*\}")
+
+
+def literals(path):
+    """Line and text of the string literals of a source; those side by side are one."""
+    text = path.read_text(encoding="utf-8")
+    for match in TOKEN.finditer(text):
+        token = match.group(0)
+        if not token.startswith('"'):
+            continue
+        before = text[text.rfind("\n", 0, match.start()) + 1:match.start()].strip()
+        if before.startswith("#include") or "static_assert" in before or 'extern "C"' in before:
+            continue
+        yield text.count("\n", 0, match.start()) + 1, "".join(PART.findall(token)).replace("\\n", "\n")
+
+
+def numbered(text):
+    """The placeholders of fmt, or of a message, as the plain ones of the table."""
+    count = iter(range(100))
+    return PLACEHOLDER.sub(lambda m: re.sub(r":.*", "}", m.group(0)) if re.match(r"\{\d+[:}]", m.group(0))
+                           else "{%d}" % next(count), text)
+
+
+def is_text(text, name):
+    """Whether a literal may be a text that someone reads."""
+    plain = PLACEHOLDER.sub(" ", text)
+    words = re.findall(r"[^\W\d_]+", plain)
+    if not any(len(word) > 1 for word in words) or all(word in UNITS for word in words):
+        return False
+    if re.fullmatch(r"[*.~/\w;-]*\.[a-z0-9]{1,10}([;*.\w]*)?", text) or text.startswith(("--", "\\x", ":")):
+        return False
+    if re.fullmatch(r"Free \d+", text):
+        return False  # numbers of profiles to come, which only lists of hosts show
+    if re.fullmatch(r"[a-z]+([A-Z][a-z0-9]*|\d)+", text):
+        return False  # an identifier
+    if name.startswith("Source/io"):
+        return " " in text.strip() and not re.search(r"[<>#=\n\t]|;$|\\\"|import |\{\{|: \{\}$", text)
+    if name.startswith("Source/document") or name.endswith("ParameterTable.h"):
+        return not re.fullmatch(r"[a-z-]+\d*", text) or text in ("travel", "heat")
+    return True
+
+
+def table(path):
+    pairs = {}
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.startswith('"'):
+            continue
+        match = re.fullmatch(r'"((?:\\.|[^"\\])*)" = "((?:\\.|[^"\\])*)"', line)
+        if not match:
+            raise SystemExit(f"{path}:{number}: not \"text\" = \"translation\"")
+        if match.group(1) in pairs:
+            raise SystemExit(f"{path}:{number}: a second time: {match.group(1)}")
+        pairs[match.group(1)] = match.group(2)
+    return pairs
+
+
+def tables_of(root):
+    return {path.stem: table(path) for path in sorted((root / "Resources/translations").glob("*.txt"))}
+
+
+def check(root, tables):
+    """What is wrong, a line each; and the texts that tables must have."""
+    no_texts = {text for texts in LITERALS.values() for text in texts}
+    skipped = {name for names in FILES.values() for name in names}
+    wanted = {}
+    for folder in WINDOWS + DOCUMENT + ("Source/io/formats",):
+        for path in sorted((root / folder).rglob("*")):
+            name = path.relative_to(root).as_posix()
+            if path.suffix not in (".cpp", ".h") or name in skipped:
+                continue
+            if folder == "Source/io/formats" and not LOSSES.search(name):
+                continue
+            for line, text in literals(path):
+                if text not in no_texts and is_text(text, name):
+                    wanted.setdefault(numbered(text), f"{name}:{line}")
+    for line, text in literals(root / PRESETS):
+        if re.match(r"[A-Z]", text):
+            wanted.setdefault(text, f"{PRESETS.as_posix()}:{line}")
+    problems = []
+    for code, pairs in tables.items():
+        keys = {numbered(key) for key in pairs}
+        parts = {part for key in keys if "{" in key for part in PLACEHOLDER.split(key)}
+        for text, place in wanted.items():
+            lines = [line for line in text.split("\n") if line.strip()]
+            if not all(line in keys or line in parts or not is_text(line, place) for line in lines):
+                problems.append(f"{place}: not in {code}.txt: {text!r}")
+        literal = set(wanted) | {line for text in wanted for line in text.split("\n")}
+        for key, translation in pairs.items():
+            plain = numbered(key)
+            if sorted(PLACEHOLDER.findall(key)) != sorted(PLACEHOLDER.findall(translation)):
+                problems.append(f"{code}.txt: other placeholders: {key!r} = {translation!r}")
+            if not translation.strip():
+                problems.append(f"{code}.txt: no translation: {key!r}")
+            used = plain in literal or key in JUCE
+            if not used and "{" in key:
+                fixed = [part for part in PLACEHOLDER.split(plain) if re.search(r"\w", part)]
+                used = bool(fixed) and all(part in literal for part in fixed)
+            if not used:
+                problems.append(f"{code}.txt: not used: {key!r}")
+    return problems, wanted
+
+
+def selftest(root):
+    """Each kind of mistake is found."""
+    tables = tables_of(root)
+    german = tables["de"]
+    del german["Go to start"]
+    german["{0} points"] = "Punkte"
+    german["A text that no window has"] = "Ein Text, den kein Fenster hat"
+    german["Close"] = ""
+    problems = "\n".join(check(root, tables)[0])
+    missed = [kind for kind in ("not in de.txt: 'Go to start'", "other placeholders: '{0} points'",
+                                "not used: 'A text that no window has'", "no translation: 'Close'")
+              if kind not in problems]
+    for text, wanted in (("Go to start", True), ("silent", True), (" dB", False), ("*.wav;*.flac", False),
+                         ("snapToGrid", False), ("{0} Hz", False)):
+        if is_text(text, "Source/editor/A.cpp") != wanted:
+            missed.append(f"is_text({text!r})")
+    print("\n".join(missed) if missed else "all found")
+    return 1 if missed else 0
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
+    if sys.argv[2:] == ["--selftest"]:
+        return selftest(root)
+    problems, wanted = check(root, tables_of(root))
+    for problem in problems:
+        print(problem)
+    print(f"{len(wanted)} texts, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
