@@ -34,6 +34,24 @@ std::vector<float> raised(PolyphaseInterpolator& interpolator, const std::vector
 
 } // namespace
 
+TEST_CASE("Interpolators that share a design are as ones of their own", "[filters]")
+{
+    InterpolatorDesigns designs;
+    const auto first = designs.get(12, 0.3);
+    CHECK(designs.get(12, 0.3) == first);
+    CHECK(designs.get(12, 0.30001) != first);
+    CHECK(designs.get(11, 0.3) != first);
+    CHECK(designs.get(1, 0.3) == designs.get(1, 0.2)); // nothing is filtered
+    for (int i = 0; i < 100; ++i)                      // more than are kept
+        CHECK(designs.get(7, 0.2 + 1e-3 * i)->isOf(7, 0.2 + 1e-3 * i));
+    CHECK(designs.get(12, 0.3) != first); // made anew
+    const auto x = sine(300, 0.1, 1.0, 0.7, 0.4), y = sine(300, 0.05, 1.0, 0.5, 0.1);
+    PolyphaseInterpolator a(first), b(first), alone(12, 0.3), other(12, 0.3);
+    CHECK(raised(a, x, 50) == raised(alone, x));
+    CHECK(raised(b, y, 50) == raised(other, y));
+    CHECK(a.latencyFrames() == alone.latencyFrames());
+}
+
 TEST_CASE("A tone of the pass band comes out at the higher rate as it was, images 70 dB down", "[filters]")
 {
     for (const std::size_t factor : {2u, 3u, 5u, 12u, 24u})

@@ -694,6 +694,51 @@ TEST_CASE("Blocks and the time at which commands come change nothing", "[runtime
     }
 }
 
+namespace
+{
+/// How many of the performances with seeds [from, to), under tight budgets of voices, of time or of both, differ in
+/// some size of blocks.
+int differingUnderBudgets(std::uint64_t from, std::uint64_t to)
+{
+    int differing = 0;
+    for (std::uint64_t seed = from; seed < to; ++seed)
+    {
+        const Performance performance(seed, 20000);
+        Random random(seed + 1000);
+        EngineParams params = paramsOf(1 + seed % 3, seed % 2 == 0 ? std::optional(lra()) : std::nullopt);
+        if (seed % 5 == 0)
+            params.actuators.back().profile = erm();
+        params.panLaw = seed % 7 == 0 ? PanLaw::both : PanLaw::constantPower;
+        params.maxPlays = 1000;
+        const std::size_t voices = 1 + random.next() % 6;
+        const double time = random.uniform(8.0, 100.0); // of plays that are predicted to take 5 to 40 ns each
+        if (seed % 3 != 1)
+            params.budget.voices = voices;
+        if (seed % 3 != 0)
+            params.budget.nanosecondsPerFrame = time;
+        const Channels wanted = perform(performance, params, 24000, 256, 64);
+        for (const auto& [block, ahead] :
+             {std::pair<std::size_t, std::size_t>{7, 5000}, {64, 64}, {100, 24000}, {1777, 500}})
+            if (perform(performance, params, 24000, block, ahead) != wanted)
+            {
+                UNSCOPED_INFO("seed " << seed << ", blocks of " << block);
+                ++differing;
+            }
+    }
+    return differing;
+}
+} // namespace
+
+TEST_CASE("Blocks change nothing under tight budgets of voices and of time", "[runtime]")
+{
+    CHECK(differingUnderBudgets(1, 31) == 0);
+}
+
+TEST_CASE("Blocks change nothing under tight budgets, a thousand times", "[runtime][slow]")
+{
+    CHECK(differingUnderBudgets(31, 1031) == 0);
+}
+
 TEST_CASE("Rendering touches no heap, whatever is started, changed, replaced and stopped", "[runtime]")
 {
     EngineParams params = paramsOf(3, lra());

@@ -8,7 +8,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -102,51 +104,40 @@ private:
     std::size_t newest = 0;
 };
 
-/// Interpolation by a whole factor with a windowed-sinc filter in polyphase form (Crochiere and Rabiner, "Multirate
-/// Digital Signal Processing", 1983, ch. 2): every output frame costs `taps` products. Linear phase; the delay is
-/// latencyFrames() output frames. Frequencies up to `pass` (cycles per input frame) keep their level within 0.01 dB,
-/// images are 70 dB down or more, 79 dB for `pass` of 0.3 and above, where the filters are long. Not a DspBlock: it has
-/// more output than input.
-class PolyphaseInterpolator
+/// Windowed-sinc filter in polyphase form that raises the rate by a whole factor (Crochiere and Rabiner, "Multirate
+/// Digital Signal Processing", 1983, ch. 2). Frequencies up to `pass` (cycles per input frame) keep their level within
+/// 0.01 dB, images are 70 dB down or more, 79 dB for `pass` of 0.3 and above, where the filters are long. Immutable:
+/// interpolators can share it.
+class InterpolatorDesign
 {
 public:
-    /// `pass` in (0, 0.45).
-    PolyphaseInterpolator(std::size_t factor, double pass) : ratio(factor)
+    /// `passes` in (0, 0.45). Allocates.
+    InterpolatorDesign(std::size_t factor, double passes) : ratio(factor), pass(passes)
     {
         assert(factor >= 1 && pass > 0.0 && pass < 0.45);
-        if (ratio == 1)
+        if (ratio > 1)
         {
-            coefficients = PolyphaseRows(1, 1);
-            coefficients.at(0, 0) = 1.0f;
+            design();
+            return;
         }
-        else
-            design(pass);
-        history = NewestFirst(tapsPerPhase);
+        coefficients = PolyphaseRows(1, 1);
+        coefficients.at(0, 0) = 1.0f;
     }
 
     [[nodiscard]] std::size_t factor() const noexcept { return ratio; }
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return (tapsPerPhase / 2) * ratio; }
 
     /// A row for each input frame that an output frame depends on, the newest first.
     [[nodiscard]] const PolyphaseRows& rows() const noexcept { return coefficients; }
     [[nodiscard]] std::size_t taps() const noexcept { return tapsPerPhase; }
 
-    void reset() noexcept { history.reset(); }
-
-    /// `out` has factor() times as many frames as `in`.
-    void process(std::span<const float> in, std::span<float> out) noexcept
+    /// Whether it is that of these arguments.
+    [[nodiscard]] bool isOf(std::size_t factor, double passes) const noexcept
     {
-        assert(out.size() == in.size() * ratio);
-        float* target = out.data();
-        for (const float x : in)
-        {
-            coefficients.process(history.push(x), {}, target);
-            target += ratio;
-        }
+        return ratio == factor && (pass == passes || factor == 1);
     }
 
 private:
-    void design(double pass)
+    void design()
     {
         constexpr double attenuation = 80.0;
         const double transition =
@@ -167,8 +158,79 @@ private:
     }
 
     std::size_t ratio;
+    double pass;
     std::size_t tapsPerPhase = 1;
     PolyphaseRows coefficients;
+};
+
+/// Designs that were asked for last, for those who make many interpolators alike: a design costs more than all the rest
+/// of a decoder. [worker], from one thread at a time; what it gives may be used and freed anywhere.
+class InterpolatorDesigns
+{
+public:
+    /// The same as a new InterpolatorDesign. Allocates.
+    [[nodiscard]] std::shared_ptr<const InterpolatorDesign> get(std::size_t factor, double pass)
+    {
+        const auto found =
+            std::find_if(kept.begin(), kept.end(), [&](const auto& design) { return design->isOf(factor, pass); });
+        if (found == kept.end())
+        {
+            if (kept.size() == most)
+                kept.pop_back();
+            kept.insert(kept.begin(), std::make_shared<const InterpolatorDesign>(factor, pass));
+        }
+        else
+            std::rotate(kept.begin(), found, found + 1); // used last
+        return kept.front();
+    }
+
+private:
+    static constexpr std::size_t most = 64; // of about 2 kB
+
+    std::vector<std::shared_ptr<const InterpolatorDesign>> kept; // used last first
+};
+
+/// Interpolation by a whole factor with an InterpolatorDesign: every output frame costs `taps` products. Linear phase;
+/// the delay is latencyFrames() output frames. Not a DspBlock: it has more output than input.
+class PolyphaseInterpolator
+{
+public:
+    /// `pass` in (0, 0.45).
+    PolyphaseInterpolator(std::size_t factor, double pass)
+        : PolyphaseInterpolator(std::make_shared<const InterpolatorDesign>(factor, pass))
+    {
+    }
+
+    /// By a design, not null, that others may use at the same time.
+    explicit PolyphaseInterpolator(std::shared_ptr<const InterpolatorDesign> shared)
+        : design(std::move(shared)), history(design->taps())
+    {
+    }
+
+    [[nodiscard]] std::size_t factor() const noexcept { return design->factor(); }
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return (design->taps() / 2) * design->factor(); }
+
+    /// A row for each input frame that an output frame depends on, the newest first.
+    [[nodiscard]] const PolyphaseRows& rows() const noexcept { return design->rows(); }
+    [[nodiscard]] std::size_t taps() const noexcept { return design->taps(); }
+
+    void reset() noexcept { history.reset(); }
+
+    /// `out` has factor() times as many frames as `in`.
+    void process(std::span<const float> in, std::span<float> out) noexcept
+    {
+        const std::size_t ratio = design->factor();
+        assert(out.size() == in.size() * ratio);
+        float* target = out.data();
+        for (const float x : in)
+        {
+            design->rows().process(history.push(x), {}, target);
+            target += ratio;
+        }
+    }
+
+private:
+    std::shared_ptr<const InterpolatorDesign> design;
     NewestFirst history;
 };
 

@@ -766,10 +766,11 @@ private:
         hold(play);
     }
 
-    /// Holds a play that has faded out to be paused.
+    /// Holds a play that has faded out to be paused. One that has come to its end by then ends: a fade of which nothing
+    /// is mixed any more would go on for ever, or not, as blocks are cut.
     void hold(LivePlay& play) const noexcept
     {
-        if (!play.pausing || !play.content->fadedOut())
+        if (!play.pausing || !play.content->fadedOut() || play.content->finished())
             return;
         play.pausing = false;
         play.paused = true;
@@ -845,9 +846,8 @@ private:
                 if (giveBack({nullptr, play.leaving}))
                     play.leaving = nullptr;
             hold(play);
-            const bool over = play.leftOut
-                                  ? leftOutIsOver(play)
-                                  : !play.paused && !play.pausing && play.content->ended() && play.leaving == nullptr;
+            const bool silent = play.pausing ? play.content->finished() : play.content->ended();
+            const bool over = play.leftOut ? leftOutIsOver(play) : !play.paused && silent && play.leaving == nullptr;
             if (over)
             {
                 // Once it is given back, it may be freed at any time and its slot be another's.

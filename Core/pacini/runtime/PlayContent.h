@@ -174,6 +174,16 @@ public:
         return true;
     }
 
+    /// Whether all that sounded has come to its own end, whatever fades out. [audio]
+    [[nodiscard]] bool finished() const noexcept
+    {
+        for (std::size_t pass = 0; pass < passes.size(); ++pass)
+            if (sounding[pass] && !fadedAway(pass) &&
+                !std::all_of(passes[pass].begin(), passes[pass].end(), [](const Voice& v) { return v.voice.ended(); }))
+                return false;
+        return true;
+    }
+
     /// Whether it has faded out, though it might go on.
     [[nodiscard]] bool fadedOut() const noexcept
     {

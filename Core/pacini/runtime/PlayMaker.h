@@ -209,7 +209,7 @@ private:
         decoder.apart = true;
         PlayContent::Voice made{{0, std::move(clip), 0.0, decoder, steadyTimeline(kind.actuators.size())},
                                 PlayVoice({}, kind.actuators.size(), fs)};
-        made.voice.prepare(made.planned, {nullptr, 0, &kind.plan.row, liveDelay});
+        made.voice.prepare(made.planned, {nullptr, 0, &kind.plan.row, liveDelay, designs.get()});
         made.planned.clip = {};
         return made;
     }
@@ -229,6 +229,7 @@ private:
     std::list<std::unique_ptr<Fitted>> known; // used last first
     std::size_t points = 0;
     std::unique_ptr<MixBuffers> buffers = std::make_unique<MixBuffers>();
+    std::unique_ptr<InterpolatorDesigns> designs = std::make_unique<InterpolatorDesigns>();
 };
 
 } // namespace pacini

@@ -50,8 +50,10 @@ namespace pacini
 class Decoder
 {
 public:
-    /// `changes` happen while it plays, in order of time; those that are not finite do not.
-    Decoder(const Clip& clip, const DecoderParams& wanted, std::vector<DecoderChange> changes = {})
+    /// `changes` happen while it plays, in order of time; those that are not finite do not. `designs` are shared with
+    /// decoders made before; null: it has a design of its own.
+    Decoder(const Clip& clip, const DecoderParams& wanted, std::vector<DecoderChange> changes = {},
+            InterpolatorDesigns* designs = nullptr)
         : params(clamped(wanted)),
           playable(isPlayableRate(wanted.sampleRate)),
           scheduled(finiteOnes(std::move(changes))),
@@ -74,8 +76,9 @@ public:
         innerRate = fs / static_cast<double>(ratio);
         plan.innerRate = innerRate;
         makeParts(varied);
-        interpolator =
-            std::make_unique<PolyphaseInterpolator>(ratio, std::clamp(1.05 * highest / innerRate, 0.05, 0.44));
+        const double pass = std::clamp(1.05 * highest / innerRate, 0.05, 0.44);
+        interpolator = designs != nullptr ? std::make_unique<PolyphaseInterpolator>(designs->get(ratio, pass))
+                                          : std::make_unique<PolyphaseInterpolator>(ratio, pass);
         makeEvents(varied);
         wantedEnvelope.resize(hopFrames);
         inner.resize(hopFrames);

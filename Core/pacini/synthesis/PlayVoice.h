@@ -111,6 +111,7 @@ struct VoiceParams
     std::int64_t until = 0;                            ///< frame at which the scene ends, for that filter
     const ActuatorRow* row = nullptr;                  ///< of live pans; null = none
     Seconds liveDelay{0.0};                            ///< the longest live delay
+    InterpolatorDesigns* designs = nullptr;            ///< shared with other voices; null = one of its own
 };
 
 /// Voice of one play. Made without a decoder: prepare() and release() bound the memory of long scenes. Every call gets
@@ -132,7 +133,7 @@ public:
     {
         DecoderParams params = play.decoder;
         params.sampleRate = fs;
-        decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes);
+        decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes, voice.designs);
         if (voice.filter != nullptr)
             decoder->filterBy(*voice.filter, voice.until - start);
         if (voice.row != nullptr)
