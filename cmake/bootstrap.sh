@@ -24,6 +24,8 @@ package_packages=(dpkg-dev file)
 binding_packages=(mono-mcs mono-runtime love godot3-server libsdl2-dev)
 slow_binding_packages=(rustc cargo nodejs npm)
 node_modules=(koffi@3.3.4)
+# Schedulers that the scripts of Resources/cluster are for, likewise.
+cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -177,7 +179,8 @@ run_tests() { # preset, arguments of ctest
 
 case "${1:-}" in
 deps)
-    install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}" "${slow_binding_packages[@]}"
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}" "${slow_binding_packages[@]}" \
+        "${cluster_packages[@]}"
     install_host_modules
     install_node_modules
     ;;
@@ -225,7 +228,7 @@ test)
     ;;
 # What only CI runs, after `test`.
 slow-tests)
-    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}"
+    install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}"
     install_node_modules
     run_tests release --label-regex slow --no-tests=ignore
     ;;

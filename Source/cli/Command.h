@@ -34,6 +34,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> devicesCommand();
 [[nodiscard]] std::unique_ptr<Command> playCommand();
 [[nodiscard]] std::unique_ptr<Command> compareCommand();
+[[nodiscard]] std::unique_ptr<Command> manifestCommand();
 [[nodiscard]] std::unique_ptr<Command> measureCommand();
 [[nodiscard]] std::unique_ptr<Command> plotCommand();
 [[nodiscard]] std::unique_ptr<Command> benchCommand();

@@ -1,6 +1,7 @@
 #include "cli/Command.h"
 #include "cli/CommandTree.h"
 #include "cli/HelpText.h"
+#include "cli/Retry.h"
 #include "cli/Terminal.h"
 #include "cli/UsageText.h"
 
@@ -64,8 +65,8 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
     app.fallthrough(false);
     std::vector<std::unique_ptr<Command>> commands; // in the order of the help text
     for (const auto make : {encodeCommand, renderCommand, infoCommand, convertCommand, lintCommand, profilesCommand,
-                            devicesCommand, playCommand, compareCommand, measureCommand, plotCommand, benchCommand,
-                            helpCommand, completionsCommand, manCommand})
+                            devicesCommand, playCommand, compareCommand, manifestCommand, measureCommand, plotCommand,
+                            benchCommand, helpCommand, completionsCommand, manCommand})
         commands.push_back(make());
     std::vector<CLI::App*> declared;
     bool quiet = false, json = false, strict = false;
@@ -127,7 +128,15 @@ Exit parseAndRun(Console& console, int argc, const char* const* argv)
 int runCommandLine(int argc, const char* const* argv)
 {
     Console console;
-    Exit exit = parseAndRun(console, argc, argv);
+    std::vector<const char*> words(argv, argv + argc);
+    const auto retried = retriedCommand({words.begin(), words.end()});
+    if (retried)
+    {
+        words.clear();
+        for (const std::string& word : *retried)
+            words.push_back(word.c_str());
+    }
+    Exit exit = parseAndRun(console, static_cast<int>(words.size()), words.data());
     console.endReport(exit == Exit::ok);
     if (const auto failure = console.printFailure())
     {

@@ -1,5 +1,6 @@
 // Subcommand that compares haptic signals with the sounds they were made from.
 
+#include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/ComparePairs.h"
 #include "cli/CompareReport.h"
@@ -124,6 +125,20 @@ void report(Console& console, const CompareTask& task)
                         "is silent between 30 and 1000 Hz; only match and HTS say something");
 }
 
+/// What the manifest says of a pair.
+BatchOutcome outcomeOf(const CompareTask& task)
+{
+    BatchOutcome outcome;
+    if (task.failure)
+        outcome.error = task.failure->error.text();
+    else if (task.result)
+    {
+        outcome.duration = task.result->duration;
+        outcome.report = nlohmann::json(pairJson(task));
+    }
+    return outcome;
+}
+
 /// `pacini compare`: how much of a sound a haptic signal keeps.
 class CompareCommand : public Command
 {
@@ -138,6 +153,7 @@ private:
     std::string events;
     unsigned jobs = 0;
     bool allowTruncated = false;
+    Batch batch;
 };
 } // namespace
 
@@ -162,6 +178,7 @@ CLI::App* CompareCommand::declare(CLI::App& app)
     command->add_flag("--allow-truncated", allowTruncated, "Compare what is there of a file that was cut off");
     addOption(*command, "-j,--jobs", jobs, "Pairs to work on at a time [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
+    batch.declare(*command);
     command->footer(
         "Measures (from 30 to 1000 Hz unless said otherwise; the level of the candidate does not matter):\n"
         "  match           how well people would say that it matches the sound, 0 to 100: a prediction, of the mean "
@@ -203,6 +220,13 @@ Exit CompareCommand::run(Console& console)
     std::vector<CompareTask> tasks;
     for (const ComparePair& pair : paired->pairs)
         tasks.push_back({pair, {}, {}});
+    std::vector<BatchFile> files;
+    for (const ComparePair& pair : paired->pairs)
+        files.push_back({pair.reference, pair.name.generic_string()});
+    const auto chosen = batch.start(files, false);
+    if (!chosen)
+        return console.fail("", chosen.error());
+    keepChosen(tasks, *chosen);
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].pair.name.string();
@@ -215,6 +239,7 @@ Exit CompareCommand::run(Console& console)
                  {
                      compareOne(job, tasks[i], progress);
                      report(console, tasks[i]);
+                     batch.add(tasks[i].pair.name.generic_string(), outcomeOf(tasks[i]));
                  };
              });
 
@@ -225,7 +250,7 @@ Exit CompareCommand::run(Console& console)
     if (anyDone)
         console.print(compareTable(tasks));
     console.print(compareSummary(tasks, paired->failures.size()));
-    return anyFailed ? Exit::failed : Exit::ok;
+    return batch.finish(console) && !anyFailed ? Exit::ok : Exit::failed;
 }
 
 std::unique_ptr<Command> compareCommand()

@@ -148,32 +148,6 @@ Json toJson(const FeltFigures& figures)
               {"fluctuation", figures.fluctuation}}}};
 }
 
-Json toJson(const CompareTask& task)
-{
-    const CompareResult& r = *task.result;
-    Json json{{"reference", task.pair.reference.string()},
-              {"candidate", task.pair.candidate.string()},
-              {"duration", r.duration},
-              {"candidateDuration", r.candidateDuration}};
-    for (const Column& column : columns)
-        json[column.key] = orNull(column.value(r));
-    json["matchLag"] = r.match ? Json(r.matchLag) : Json(nullptr);
-    json["matchAligned"] = r.aligned;
-    json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
-    json["impression"] = toJson(r.impression);
-    json["htsParts"] = toJson(r.hts);
-    json["htsFParts"] = toJson(r.htsFidelity);
-    json["lag"] = orNull(r.measures.lag);
-    json["gain"] = orNull(r.measures.gain);
-    json["outOfBand"] = orNull(r.measures.outOfBand);
-    json["notFinite"] = r.notFinite;
-    json["silentReference"] = r.measures.silentReference;
-    json["events"] = r.events ? toJson(*r.events) : Json(nullptr);
-    json["seconds"] = r.seconds;
-    json["timesRealTime"] = r.seconds > 0.0 ? r.duration / r.seconds : 0.0;
-    return json;
-}
-
 /// Sums over what was done.
 struct Totals
 {
@@ -247,6 +221,32 @@ std::string compareTable(const std::vector<CompareTask>& tasks)
     return aligned(rows);
 }
 
+nlohmann::ordered_json pairJson(const CompareTask& task)
+{
+    const CompareResult& r = *task.result;
+    Json json{{"reference", task.pair.reference.string()},
+              {"candidate", task.pair.candidate.string()},
+              {"duration", r.duration},
+              {"candidateDuration", r.candidateDuration}};
+    for (const Column& column : columns)
+        json[column.key] = orNull(column.value(r));
+    json["matchLag"] = r.match ? Json(r.matchLag) : Json(nullptr);
+    json["matchAligned"] = r.aligned;
+    json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
+    json["impression"] = toJson(r.impression);
+    json["htsParts"] = toJson(r.hts);
+    json["htsFParts"] = toJson(r.htsFidelity);
+    json["lag"] = orNull(r.measures.lag);
+    json["gain"] = orNull(r.measures.gain);
+    json["outOfBand"] = orNull(r.measures.outOfBand);
+    json["notFinite"] = r.notFinite;
+    json["silentReference"] = r.measures.silentReference;
+    json["events"] = r.events ? toJson(*r.events) : Json(nullptr);
+    json["seconds"] = r.seconds;
+    json["timesRealTime"] = r.seconds > 0.0 ? r.duration / r.seconds : 0.0;
+    return json;
+}
+
 nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks)
 {
     const Totals totals(tasks);
@@ -260,7 +260,7 @@ nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks)
     report["timesRealTime"] = totals.timesRealTime();
     for (const CompareTask& task : tasks)
         if (task.result)
-            report["files"].push_back(toJson(task));
+            report["files"].push_back(pairJson(task));
     return report;
 }
 

@@ -25,6 +25,9 @@ struct CompareTask
 /// says nothing. The column of F1 is there when any pair has one.
 [[nodiscard]] std::string compareTable(const std::vector<CompareTask>& tasks);
 
+/// All measures of one pair that has a result.
+[[nodiscard]] nlohmann::ordered_json pairJson(const CompareTask& task);
+
 /// {"files": [...], "mean": {...}, "events": {...}, "seconds", "timesRealTime"}: the same figures and more. What says
 /// nothing is null and not in the means; "events" counts over all files.
 [[nodiscard]] nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks);

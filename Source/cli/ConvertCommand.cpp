@@ -1,5 +1,6 @@
 // Subcommand that converts clips and profiles between formats.
 
+#include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/ConvertJob.h"
 #include "cli/ExportOptions.h"
@@ -133,6 +134,7 @@ private:
     std::string output;
     std::string format;
     ExportOptions options;
+    std::string shard;
     std::string manifest;
     int quantise = 0;
     unsigned jobs = 0;
@@ -161,8 +163,11 @@ CLI::App* ConvertCommand::declare(CLI::App& app)
     addOption(*command, "--quantise", quantise,
               "Bits of each value of a packed clip [those the clip was encoded with, else 12]", wholeNumberFrom(4, 16));
     options.declare(*command);
+    addShard(*command, shard);
     addOption(*command, "--manifest", manifest,
-              fmt::format("File that records the result of each input [{} in the output folder]", manifestName),
+              fmt::format("File that records the result of each input; with --shard 2/8 NAME.2-of-8.json [{} in the "
+                          "output folder]",
+                          manifestName),
               "FILE");
     command->add_flag("-f,--force", force, "Convert also what the manifest says is up to date");
     overwriting.declare(*command);
@@ -237,7 +242,7 @@ Exit ConvertCommand::convertProfile(Console& console)
         return Exit::failed;
     if (dryRun)
     {
-        std::vector<ConvertTask> tasks{{input, output, ConvertResult(), {}, {}, {}}};
+        std::vector<ConvertTask> tasks{{input, output, {}, ConvertResult(), {}, {}, {}}};
         tasks.front().skipped = overwriting.keepsAll() && isOccupied(output);
         reportPlan(console, tasks);
         return Exit::ok;
@@ -346,29 +351,29 @@ Exit ConvertCommand::convertClips(Console& console)
     for (ConvertTask& task : tasks)
         if (task.replaceable == Replaceable::named)
             task.replaceable = replaceable();
-    std::vector<std::string> keys(tasks.size());
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-        keys[i] = i < found.failures.size() ? found.failures[i].path.generic_string()
-                                            : found.files[i - found.failures.size()].relative.generic_string();
+    std::vector<std::filesystem::path> all;
+    for (const ConvertTask& task : tasks)
+        all.push_back(task.input);
+    const auto inShard = inputsOfShard(all, shard);
+    if (!inShard)
+        return console.fail("", inShard.error(), Exit::usage);
+    keepChosen(tasks, *inShard);
     std::filesystem::path record = !manifest.empty() ? std::filesystem::path(manifest)
                                    : several         ? std::filesystem::path(output) / manifestName
                                                      : std::filesystem::path();
     if (!std::filesystem::is_directory(settings->folder, ignored) && several)
         record.clear(); // nothing could be written
+    record = manifestOfShard(record, shard);
+    if (!record.empty())
+        settings->folder = record.parent_path();
     const auto before = readManifest(record);
     if (!before && !overwriting.replacesAll())
         return console.fail(record.string(), {ErrorCode::invalidData, "",
                                               "exists and is no record of conversions; name another with --manifest"});
     GrowingManifest growing;
-    if (const auto started =
-            growing.start(dryRun ? std::filesystem::path() : record, before.value_or(ConvertManifest()));
+    if (const auto started = growing.start(dryRun ? std::filesystem::path() : record, before.value_or(Manifest()));
         !started)
         return console.fail(record.string(), started.error());
-    const auto entryBefore = [&](const std::string& key) -> const ManifestEntry*
-    {
-        const auto entry = before ? before->find(key) : ConvertManifest::const_iterator();
-        return before && entry != before->end() ? &entry->second : nullptr;
-    };
     const auto nameOf = [&](std::size_t i)
     {
         return tasks[i].input.filename().string();
@@ -380,7 +385,7 @@ Exit ConvertCommand::convertClips(Console& console)
                  return [&](std::size_t i, const std::function<void(double)>&)
                  {
                      ConvertTask& task = tasks[i];
-                     const ManifestEntry* earlier = entryBefore(keys[i]);
+                     const ManifestEntry* earlier = before ? before->find(task.key) : nullptr;
                      attempt(task, end,
                              [&]
                              { return convertClip(task.input, task.output, task.replaceable, *settings, earlier); });
@@ -394,7 +399,7 @@ Exit ConvertCommand::convertClips(Console& console)
                      }
                      // What was not replaced is still what it was made from before.
                      if (!dryRun && (task.result || (task.error && (earlier == nullptr || earlier->outputs.empty()))))
-                         growing.add(keys[i], entryOf(task));
+                         growing.add(task.key, entryOf(task));
                  };
              });
     bool failed = anyFailed(tasks);
@@ -414,7 +419,7 @@ Exit ConvertCommand::convertClips(Console& console)
         tasks, [](const ConvertTask& task) { return toJson(task); }, !several));
     if (several)
         console.note(summary(tasks));
-    else if (tasks.front().skipped)
+    else if (!tasks.empty() && tasks.front().skipped)
         console.note(fmt::format("{} exists and was left", printable(tasks.front().output.string())));
     return failed ? Exit::failed : Exit::ok;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 namespace pacini::cli
@@ -32,7 +33,9 @@ bool stillThere(const ManifestEntry& entry, const std::filesystem::path& folder)
 /// The name of an output in the manifest.
 std::string nameIn(const std::filesystem::path& folder, const std::filesystem::path& output)
 {
-    return output.lexically_proximate(folder).generic_string();
+    std::error_code unknown;
+    const auto path = std::filesystem::proximate(output, folder.empty() ? "." : folder, unknown);
+    return (unknown ? output : path).generic_string();
 }
 
 /// As mayReplace(), but what the manifest says was written is replaced too.

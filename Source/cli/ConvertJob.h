@@ -2,7 +2,7 @@
 
 // Conversion job: one clip from one format to another.
 
-#include "cli/ConvertManifest.h"
+#include "cli/Manifest.h"
 #include "cli/Overwrite.h"
 #include "io/ClipFile.h"
 

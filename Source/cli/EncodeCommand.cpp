@@ -1,5 +1,6 @@
 // Subcommand that encodes sounds.
 
+#include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/Counted.h"
 #include "cli/EncodeJob.h"
@@ -150,6 +151,7 @@ private:
     OverwriteOptions overwriting;
     bool dryRun = false;
     unsigned jobs = 0;
+    Batch batch;
 };
 } // namespace
 
@@ -198,6 +200,7 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
+    batch.declare(*command);
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
@@ -333,6 +336,8 @@ Exit EncodeCommand::run(Console& console)
     if (isStandardOutput(output))
         console.keepStdoutFree();
     auto tasks = makeTasks<EncodeResult>(found, names, overwriting, !dryRun);
+    if (const auto started = batch.start(tasks, dryRun); !started)
+        return console.fail("", started.error());
     BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
@@ -347,6 +352,7 @@ Exit EncodeCommand::run(Console& console)
                      EncodeTask& task = tasks[i];
                      attempt(task, end, [&] { return job.run(task.input, task.output, task.replaceable, progress); });
                      tellError(console, task, end);
+                     batch.add(task, [](const EncodeTask& done) { return toJson(done); });
                      if (!task.result)
                          return;
                      if (!task.result->upToDate && !dryRun)
@@ -368,7 +374,7 @@ Exit EncodeCommand::run(Console& console)
         console.addToReport(jsonReport(tasks, [](const EncodeTask& task) { return toJson(task); }));
         console.note(summary(tasks));
     }
-    return anyFailed(tasks) ? Exit::failed : Exit::ok;
+    return batch.finish(console) && !anyFailed(tasks) ? Exit::ok : Exit::failed;
 }
 
 std::unique_ptr<Command> encodeCommand()

@@ -1,6 +1,6 @@
 #include "cli/InputFiles.h"
 
-#include "cli/ConvertManifest.h"
+#include "cli/Manifest.h"
 #include "io/AtomicFile.h"
 #include "io/ClipFile.h"
 #include "io/FileExtension.h"
@@ -51,7 +51,7 @@ void addFolder(const fs::path& folder, const std::vector<std::string>& extension
         std::error_code ignored;
         if (isHidden(path) && entry->is_directory(ignored))
             entry.disable_recursion_pending();
-        else if (!isHidden(path) && path.filename() != manifestName && entry->is_regular_file(ignored) &&
+        else if (!isHidden(path) && !isManifestName(path) && entry->is_regular_file(ignored) &&
                  std::find(extensions.begin(), extensions.end(), lowerExtension(path)) != extensions.end())
             paths.push_back(path);
         entry.increment(error);

@@ -1,10 +1,10 @@
 // Subcommand that checks clips and scenes.
 
 #include "cli/Command.h"
-#include "cli/ConvertManifest.h"
 #include "cli/Counted.h"
 #include "cli/ExportOptions.h"
 #include "cli/InputFiles.h"
+#include "cli/Manifest.h"
 #include "cli/Options.h"
 #include "cli/SceneCheck.h"
 #include "cli/SceneTimeline.h"

@@ -1,5 +1,6 @@
 // Subcommand that renders clips and scenes.
 
+#include "cli/Batch.h"
 #include "cli/Command.h"
 #include "cli/Counted.h"
 #include "cli/InputFiles.h"
@@ -166,6 +167,7 @@ private:
     OverwriteOptions overwriting;
     bool explain = false;
     bool measured = false;
+    Batch batch;
 };
 } // namespace
 
@@ -258,6 +260,7 @@ CLI::App* RenderCommand::declare(CLI::App& app)
     command->add_flag("--dry-run", dryRun, "Only say what would be done with each file; write nothing");
     addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
+    batch.declare(*command);
     command->footer("Examples:\n  pacini render door.pacb -o door.wav\n"
                     "  pacini render door.pacb -o door.wav --profile l5-wristband --encoding pcm24\n"
                     "  pacini render step.json -o step3.wav --variation 0.3 --seed 3\n"
@@ -292,9 +295,9 @@ InputFiles RenderCommand::findClips() const
 std::string RenderCommand::record() const
 {
     std::string text = "Pacini " PACINI_VERSION;
-    const std::vector<std::string> without = {"inputs",   "output", "profile", "clips",        "explain",
-                                              "measured", "jobs",   "force",   "no-overwrite", "overwrite",
-                                              "json",     "quiet",  "dry-run", "strict"};
+    const std::vector<std::string> without = {"inputs",  "output", "profile",      "clips",     "explain", "measured",
+                                              "jobs",    "force",  "no-overwrite", "overwrite", "json",    "quiet",
+                                              "dry-run", "strict", "shard",        "manifest",  "retry"};
     for (const CLI::Option* option : command->get_options())
         if (const auto name = option->get_single_name();
             option->count() > 0 && std::find(without.begin(), without.end(), name) == without.end())
@@ -373,6 +376,8 @@ Exit RenderCommand::run(Console& console)
         console.keepStdoutFree();
     auto tasks =
         makeTasks<RenderResult>(found, {output, ".wav", felt ? ".felt.wav" : ".haptic.wav"}, overwriting, !dryRun);
+    if (const auto started = batch.start(tasks, dryRun); !started)
+        return console.fail("", started.error());
     BatchEnd end;
     const auto nameOf = [&](std::size_t i)
     {
@@ -389,6 +394,7 @@ Exit RenderCommand::run(Console& console)
                      if (task.result)
                          console.warnings(task.input.string(), task.result->warnings);
                      tellError(console, task, end);
+                     batch.add(task, [&](const RenderTask& done) { return toJson(done, settings, explain); });
                      if (!task.result)
                          return;
                      if (!task.result->upToDate && !dryRun)
@@ -417,7 +423,7 @@ Exit RenderCommand::run(Console& console)
             console.print(
                 fmt::format("{}:\n{}", printable(task.input.string()), planText(*task.result, settings.compile)));
     console.note(summary(tasks, settings.felt));
-    return anyFailed(tasks) ? Exit::failed : Exit::ok;
+    return batch.finish(console) && !anyFailed(tasks) ? Exit::ok : Exit::failed;
 }
 
 std::unique_ptr<Command> renderCommand()

@@ -31,6 +31,7 @@ struct Task
 {
     std::filesystem::path input;
     std::filesystem::path output;
+    std::string key; ///< what a manifest calls the input: its path below the folder that was named, with /
     std::optional<ResultType> result;
     std::optional<Error> error;
     Replaceable replaceable = Replaceable::own;
@@ -111,7 +112,7 @@ template <typename ResultType>
 {
     std::vector<Task<ResultType>> tasks;
     for (const InputFailure& failure : found.failures)
-        tasks.push_back({failure.path, {}, {}, failure.error, {}, {}});
+        tasks.push_back({failure.path, {}, failure.path.generic_string(), {}, failure.error, {}, {}});
     std::error_code ignored;
     std::map<std::filesystem::path, std::filesystem::path> inputs; // by where they really are
     for (const InputFile& file : found.files)
@@ -119,7 +120,7 @@ template <typename ResultType>
     std::map<std::filesystem::path, std::filesystem::path> taken;
     for (const InputFile& file : found.files)
     {
-        Task<ResultType> task{file.path, {}, {}, {}, {}, {}};
+        Task<ResultType> task{file.path, {}, file.relative.generic_string(), {}, {}, {}, {}};
         const auto fail = [&task](std::string message)
         {
             task.error = Error{ErrorCode::invalidArgument, "", std::move(message)};

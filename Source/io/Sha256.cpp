@@ -1,12 +1,17 @@
 #include "io/Sha256.h"
 
+#include "io/InputFile.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 
 namespace pacini
 {
@@ -92,26 +97,67 @@ void compress(Words& hash, const char* block, const std::array<std::uint32_t, 64
 }
 } // namespace
 
-std::string sha256(std::string_view bytes)
+Sha256::Sha256() : hash(constants().start) {}
+
+void Sha256::add(std::string_view bytes)
 {
     constexpr std::size_t block = 64;
     const Constants& c = constants();
-    Words hash = c.start;
-    std::size_t done = 0;
-    for (; done + block <= bytes.size(); done += block)
-        compress(hash, bytes.data() + done, c.round);
-    // One bit, zeros, and the length in bits as the last eight bytes.
-    std::string rest(bytes.substr(done));
-    rest += static_cast<char>(0x80);
-    rest.resize(rest.size() + 8 <= block ? block : 2 * block, '\0');
-    for (std::size_t b = 0; b < 8; ++b)
-        rest[rest.size() - 1 - b] = static_cast<char>((std::uint64_t{bytes.size()} * 8) >> (8 * b) & 0xFFu);
-    for (done = 0; done < rest.size(); done += block)
-        compress(hash, rest.data() + done, c.round);
-    std::string text;
+    size += bytes.size();
+    if (!rest.empty())
+    {
+        const std::size_t missing = std::min(block - rest.size(), bytes.size());
+        rest += bytes.substr(0, missing);
+        bytes.remove_prefix(missing);
+        if (rest.size() < block)
+            return;
+        compress(hash, rest.data(), c.round);
+        rest.clear();
+    }
+    for (; bytes.size() >= block; bytes.remove_prefix(block))
+        compress(hash, bytes.data(), c.round);
+    rest = bytes;
+}
+
+std::string Sha256::text()
+{
+    // One bit, zeros until eight bytes of a block are left, and the length in bits as those.
+    const std::uint64_t bits = size * 8;
+    std::string end(1, static_cast<char>(0x80));
+    end.resize(1 + (119 - rest.size()) % 64, '\0');
+    for (int shift = 56; shift >= 0; shift -= 8)
+        end += static_cast<char>(bits >> shift & 0xFFu);
+    add(end);
+    std::string digits;
     for (const std::uint32_t word : hash)
-        text += fmt::format("{:08x}", word);
-    return text;
+        digits += fmt::format("{:08x}", word);
+    return digits;
+}
+
+std::string sha256(std::string_view bytes)
+{
+    Sha256 whole;
+    whole.add(bytes);
+    return whole.text();
+}
+
+Result<FileHash> hashOfFile(const std::filesystem::path& path)
+{
+    const auto file = openForReading(path);
+    if (!file)
+        return file.error();
+    Sha256 whole;
+    FileHash found;
+    std::string part(std::size_t(1) << 16, '\0');
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), file->get()))
+    {
+        whole.add(std::string_view(part).substr(0, got));
+        found.bytes += got;
+    }
+    if (std::ferror(file->get()) != 0)
+        return fileError(errno);
+    found.sha256 = whole.text();
+    return found;
 }
 
 } // namespace pacini

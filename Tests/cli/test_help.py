@@ -7,9 +7,9 @@ import unittest
 
 from command import COMMAND, CommandTest, sine, wav
 
-COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "compare", "measure",
-            "measure sweep", "measure analyse", "measure fit", "measure verify", "measure simulate", "plot", "bench",
-            "help", "completions", "man"]
+COMMANDS = ["encode", "render", "info", "convert", "lint", "profiles", "devices", "play", "compare", "manifest",
+            "manifest merge", "manifest check", "manifest retry", "measure", "measure sweep", "measure analyse",
+            "measure fit", "measure verify", "measure simulate", "plot", "bench", "help", "completions", "man"]
 
 
 class Help(CommandTest):

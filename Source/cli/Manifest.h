@@ -1,6 +1,7 @@
 #pragma once
 
-// Manifest of a conversion: which inputs became which outputs, so that a later run converts only what has changed.
+// Manifest of a run over many files: which inputs became which outputs, and which failed, so that a later run does only
+// what is left.
 
 #include "io/FileHandle.h"
 #include "io/formats/ClipFormat.h"
@@ -21,7 +22,10 @@ namespace pacini::cli
 /// What a manifest is called unless the user names it.
 inline constexpr const char* manifestName = "pacini.manifest.json";
 
-/// One output of a conversion.
+/// Whether a file in a folder is called like a manifest, which no command takes for an input.
+[[nodiscard]] bool isManifestName(const std::filesystem::path& path);
+
+/// One output of a run.
 struct ManifestOutput
 {
     std::string file; ///< relative to the manifest, with /
@@ -33,25 +37,39 @@ struct ManifestOutput
 /// One input and what it became.
 struct ManifestEntry
 {
-    std::string inputSha256;
-    std::string settings; ///< all that the outputs depend on besides the input
+    std::string inputSha256; ///< empty where a run does not go by it
+    std::string settings;    ///< all that the outputs depend on besides the input; empty likewise
     std::vector<ManifestOutput> outputs;
     double duration = 0.0; ///< s of the clip
     std::vector<std::string> warnings;
     std::vector<FormatLoss> losses; ///< one per kind: the first place, the largest error, and how many as the message
     std::string error;              ///< empty where all went well
+    nlohmann::json report;          ///< what the command says of it with --json; null for nothing
     bool operator==(const ManifestEntry&) const = default;
 };
 
-/// By the input's path below the folder that was named, with /.
-using ConvertManifest = std::map<std::string, ManifestEntry>;
+/// What was done to many files.
+struct Manifest
+{
+    std::string command;                          ///< such as "encode"; empty for a conversion
+    std::vector<std::string> arguments;           ///< of the command, for another run over the same files
+    std::map<std::string, ManifestEntry> entries; ///< by the input's path below the folder that was named, with /
+
+    /// The entry of an input; null when there is none.
+    [[nodiscard]] const ManifestEntry* find(const std::string& input) const;
+
+    bool operator==(const Manifest&) const = default;
+};
 
 /// The manifest in a file, as far as it goes: a run that was killed left one without an end. None when the file is
 /// there and no manifest, empty when it is not there.
-[[nodiscard]] std::optional<ConvertManifest> readManifest(const std::filesystem::path& path);
+[[nodiscard]] std::optional<Manifest> readManifest(const std::filesystem::path& path);
+
+/// What a manifest calls an output: its path from the manifest's folder, with /.
+[[nodiscard]] std::string pathFromManifest(const std::filesystem::path& manifest, const std::filesystem::path& output);
 
 /// Its text, a line for each entry: the same for the same entries, whoever made them and when.
-[[nodiscard]] std::string manifestText(const ConvertManifest& manifest);
+[[nodiscard]] std::string manifestText(const Manifest& manifest);
 
 /// A manifest that grows by a line with each file that is done, so that a run that is killed is taken up where it was.
 /// From any thread.
@@ -59,7 +77,7 @@ class GrowingManifest
 {
 public:
     /// Starts `newFile` with the entries of runs before; an empty path keeps no record. Errors: as in AtomicFile.
-    [[nodiscard]] Result<void> start(const std::filesystem::path& newFile, const ConvertManifest& before);
+    [[nodiscard]] Result<void> start(const std::filesystem::path& newFile, const Manifest& before);
 
     /// Sets an entry, and adds its line to the file.
     void add(const std::string& input, const ManifestEntry& entry);
@@ -70,7 +88,7 @@ public:
 private:
     std::mutex mutex;
     std::filesystem::path path;
-    ConvertManifest entries;
+    Manifest manifest;
     FileHandle file;
 };
 

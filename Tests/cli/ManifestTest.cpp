@@ -1,8 +1,9 @@
-#include "cli/ConvertManifest.h"
+#include "cli/Manifest.h"
 
 #include "support/Catch.h"
 #include "support/TempFolder.h"
 
+#include <initializer_list>
 #include <string>
 
 using namespace pacini;
@@ -22,7 +23,18 @@ ManifestEntry entryFor(const std::string& name)
     entry.duration = 1.5;
     entry.warnings = {"one", "two\nlines"};
     entry.losses = {{LossKind::text, 0.5, 0.25, 0.125, "said"}};
+    entry.report = {{"seconds", 0.25}, {"breakpoints", 40}};
     return entry;
+}
+
+Manifest manifestOf(std::initializer_list<const char*> names)
+{
+    Manifest manifest;
+    manifest.command = "encode";
+    manifest.arguments = {"sounds/", "--output=clips/"};
+    for (const char* name : names)
+        manifest.entries[name] = entryFor(name);
+    return manifest;
 }
 } // namespace
 
@@ -32,14 +44,14 @@ TEST_CASE("A manifest grows by whole lines and is read as far as it goes", "[cli
     const auto path = folder / "manifest.json";
     {
         GrowingManifest growing;
-        REQUIRE(growing.start(path, {{"old", entryFor("old")}}).ok());
+        REQUIRE(growing.start(path, manifestOf({"old"})).ok());
         growing.add("b", entryFor("b"));
         growing.add("a", entryFor("a"));
     } // as if killed: never finished
     const std::string torn = bytesOf(path);
     const auto whole = readManifest(path);
     REQUIRE(whole.has_value());
-    CHECK(*whole == ConvertManifest{{"old", entryFor("old")}, {"a", entryFor("a")}, {"b", entryFor("b")}});
+    CHECK(*whole == manifestOf({"old", "a", "b"}));
 
     // Cut anywhere, all but the last line is kept.
     for (std::size_t size = torn.rfind("{\"input\":\"a\""); size < torn.size() - 2; size += 7)
@@ -47,8 +59,8 @@ TEST_CASE("A manifest grows by whole lines and is read as far as it goes", "[cli
         put(path, torn.substr(0, size));
         const auto part = readManifest(path);
         REQUIRE(part.has_value());
-        CHECK(part->size() == 2);
-        CHECK(part->at("b") == entryFor("b"));
+        CHECK(part->entries.size() == 2);
+        CHECK(part->entries.at("b") == entryFor("b"));
     }
 }
 
@@ -57,11 +69,11 @@ TEST_CASE("A finished manifest is one JSON document in the order of its names", 
     const TempFolder folder;
     const auto path = folder / "manifest.json";
     GrowingManifest growing;
-    REQUIRE(growing.start(path, {}).ok());
+    REQUIRE(growing.start(path, manifestOf({})).ok());
     for (const char* name : {"c", "a", "b"})
         growing.add(name, entryFor(name));
     REQUIRE(growing.finish().ok());
-    const ConvertManifest all{{"a", entryFor("a")}, {"b", entryFor("b")}, {"c", entryFor("c")}};
+    const Manifest all = manifestOf({"a", "b", "c"});
     CHECK(bytesOf(path) == manifestText(all));
     CHECK(nlohmann::json::parse(bytesOf(path))["files"].size() == 3);
     CHECK(readManifest(path) == all);
@@ -71,7 +83,7 @@ TEST_CASE("A finished manifest is one JSON document in the order of its names", 
 TEST_CASE("What is no manifest is told from none", "[cli]")
 {
     const TempFolder folder;
-    CHECK(readManifest(folder / "missing") == ConvertManifest());
+    CHECK(readManifest(folder / "missing") == Manifest());
     for (const char* text : {"", "notes", "[]", "{}", "{\"format\": \"pacini.clip\", \"version\": 1, \"files\": []}"})
     {
         put(folder / "file", text);

@@ -1,4 +1,4 @@
-#include "cli/ConvertManifest.h"
+#include "cli/Manifest.h"
 
 #include "io/AtomicFile.h"
 #include "io/InputFile.h"
@@ -22,6 +22,11 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t largestManifest = std::size_t(256) << 20;
 constexpr const char* formatName = "pacini.conversion";
 
+std::string onOneLine(const Json& json)
+{
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 LossKind kindNamed(const std::string& name)
 {
     for (int kind = 0; kind < static_cast<int>(LossKind::text); ++kind)
@@ -33,8 +38,8 @@ LossKind kindNamed(const std::string& name)
 ManifestEntry entryOf(const nlohmann::json& json)
 {
     ManifestEntry entry;
-    entry.inputSha256 = json.at("sha256").get<std::string>();
-    entry.settings = json.at("settings").get<std::string>();
+    entry.inputSha256 = json.value("sha256", "");
+    entry.settings = json.value("settings", "");
     entry.duration = json.at("duration").get<double>();
     entry.error = json.value("error", "");
     for (const auto& output : json.at("outputs"))
@@ -42,6 +47,8 @@ ManifestEntry entryOf(const nlohmann::json& json)
                                  output.at("sha256").get<std::string>()});
     for (const auto& warning : json.at("warnings"))
         entry.warnings.push_back(warning.get<std::string>());
+    if (const auto report = json.find("report"); report != json.end())
+        entry.report = *report;
     for (const auto& loss : json.at("losses"))
         entry.losses.push_back({kindNamed(loss.at("kind").get<std::string>()), loss.at("time").get<double>(),
                                 loss.at("duration").get<double>(), loss.at("error").get<double>(),
@@ -49,9 +56,27 @@ ManifestEntry entryOf(const nlohmann::json& json)
     return entry;
 }
 
-std::string firstLine()
+/// All before the entries.
+std::string firstLine(const Manifest& manifest)
 {
-    return fmt::format("{{\"format\": \"{}\", \"version\": 1, \"files\": [", formatName);
+    std::string text = fmt::format("{{\"format\": \"{}\", \"version\": 1, ", formatName);
+    if (!manifest.command.empty())
+        text += fmt::format("\"command\": {}, \"arguments\": {}, ", onOneLine(manifest.command),
+                            onOneLine(manifest.arguments));
+    return text + "\"files\": [";
+}
+
+/// The manifest that `tree` holds; nothing when it is none. Throws what JSON throws.
+std::optional<Manifest> manifestIn(const nlohmann::json& tree)
+{
+    if (!tree.is_object() || tree.value("format", "") != formatName || tree.value("version", 0) != 1)
+        return std::nullopt;
+    Manifest manifest;
+    manifest.command = tree.value("command", "");
+    manifest.arguments = tree.value("arguments", std::vector<std::string>());
+    for (const auto& file : tree.at("files"))
+        manifest.entries[file.at("input").get<std::string>()] = entryOf(file);
+    return manifest;
 }
 
 /// An entry on one line.
@@ -62,62 +87,75 @@ std::string entryText(const std::string& input, const ManifestEntry& entry)
         outputs.push_back({{"file", output.file}, {"bytes", output.bytes}, {"sha256", output.sha256}});
     for (const FormatLoss& loss : entry.losses)
         losses.push_back(cli::toJson(loss));
-    Json json{{"input", input},     {"sha256", entry.inputSha256}, {"settings", entry.settings},
-              {"outputs", outputs}, {"duration", entry.duration},  {"warnings", entry.warnings},
-              {"losses", losses}};
+    Json json{{"input", input}};
+    if (!entry.inputSha256.empty())
+        json.update({{"sha256", entry.inputSha256}, {"settings", entry.settings}});
+    json.update({{"outputs", outputs}, {"duration", entry.duration}, {"warnings", entry.warnings}, {"losses", losses}});
+    if (!entry.report.is_null())
+        json["report"] = entry.report;
     if (!entry.error.empty())
         json["error"] = entry.error;
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return onOneLine(json);
 }
 } // namespace
 
-std::optional<ConvertManifest> readManifest(const std::filesystem::path& path)
+bool isManifestName(const std::filesystem::path& path)
 {
-    ConvertManifest manifest;
+    const std::string name = path.filename().string();
+    return path.extension() == ".json" && name.find(".manifest.") != std::string::npos;
+}
+
+const ManifestEntry* Manifest::find(const std::string& input) const
+{
+    const auto entry = entries.find(input);
+    return entry == entries.end() ? nullptr : &entry->second;
+}
+
+std::optional<Manifest> readManifest(const std::filesystem::path& path)
+{
     if (std::error_code ignored; !std::filesystem::exists(path, ignored))
-        return manifest;
+        return Manifest();
     const auto text = readWholeFile(path, largestManifest);
     if (!text)
         return std::nullopt;
-    const auto add = [&manifest](const nlohmann::json& file)
-    {
-        manifest[file.at("input").get<std::string>()] = entryOf(file);
-    };
     try
     {
         if (const auto tree = readJsonTree(*text, largestManifest); tree)
-        {
-            if (tree->at("format") != formatName || tree->at("version") != 1)
-                return std::nullopt;
-            for (const auto& file : tree->at("files"))
-                add(file);
-            return manifest;
-        }
+            return manifestIn(*tree);
         // One that was not completed: the lines that are whole.
         std::istringstream lines(*text);
         std::string line;
-        if (!std::getline(lines, line) || line != firstLine())
-            return std::nullopt;
-        while (std::getline(lines, line))
+        std::getline(lines, line);
+        const auto start = readJsonTree(line + "]}", largestManifest);
+        auto manifest = start ? manifestIn(*start) : std::nullopt;
+        while (manifest && std::getline(lines, line))
         {
             if (line.ends_with(','))
                 line.pop_back();
             if (const auto file = readJsonTree(line, largestManifest); file)
-                add(*file);
+                manifest->entries[file->at("input").get<std::string>()] = entryOf(*file);
         }
+        return manifest;
     }
     catch (const nlohmann::json::exception&)
     {
         return std::nullopt;
     }
-    return manifest;
 }
 
-std::string manifestText(const ConvertManifest& manifest)
+std::string pathFromManifest(const std::filesystem::path& manifest, const std::filesystem::path& output)
 {
-    std::string text = firstLine();
+    std::error_code unknown;
+    const auto folder = std::filesystem::absolute(manifest, unknown).parent_path();
+    const auto path = std::filesystem::proximate(output, folder, unknown);
+    return (unknown ? output : path).generic_string();
+}
+
+std::string manifestText(const Manifest& manifest)
+{
+    std::string text = firstLine(manifest);
     const char* separator = "\n";
-    for (const auto& [input, entry] : manifest)
+    for (const auto& [input, entry] : manifest.entries)
     {
         text += separator + entryText(input, entry);
         separator = ",\n";
@@ -125,14 +163,14 @@ std::string manifestText(const ConvertManifest& manifest)
     return text + "\n]}\n";
 }
 
-Result<void> GrowingManifest::start(const std::filesystem::path& newFile, const ConvertManifest& before)
+Result<void> GrowingManifest::start(const std::filesystem::path& newFile, const Manifest& before)
 {
     path = newFile;
-    entries = before;
+    manifest = before;
     if (path.empty())
         return {};
-    std::string text = firstLine() + "\n";
-    for (const auto& [input, entry] : before)
+    std::string text = firstLine(before) + "\n";
+    for (const auto& [input, entry] : before.entries)
         text += entryText(input, entry) + ",\n";
     if (const auto written = writeFileAtomically(path, text); !written)
         return written.error();
@@ -143,7 +181,7 @@ Result<void> GrowingManifest::start(const std::filesystem::path& newFile, const 
 void GrowingManifest::add(const std::string& input, const ManifestEntry& entry)
 {
     const std::lock_guard lock(mutex);
-    entries.insert_or_assign(input, entry);
+    manifest.entries.insert_or_assign(input, entry);
     if (!file)
         return;
     // What cannot be added now is missed only after a kill: finish() writes all of it.
@@ -157,7 +195,7 @@ Result<void> GrowingManifest::finish()
     file.reset();
     if (path.empty())
         return {};
-    if (const auto written = writeFileAtomically(path, manifestText(entries)); !written)
+    if (const auto written = writeFileAtomically(path, manifestText(manifest)); !written)
         return written.error();
     return {};
 }

@@ -1,0 +1,178 @@
+#include "cli/Batch.h"
+
+#include "cli/Options.h"
+#include "cli/Shard.h"
+#include "io/AtomicFile.h"
+#include "io/Sha256.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <system_error>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+std::uint64_t sizeOf(const fs::path& input)
+{
+    std::error_code unknown;
+    const auto size = fs::file_size(input, unknown);
+    return unknown ? 0 : static_cast<std::uint64_t>(size);
+}
+} // namespace
+
+CLI::Option* addShard(CLI::App& command, std::string& text)
+{
+    const CLI::Validator partOfWhole(
+        [](std::string& given)
+        {
+            const auto shard = parseShard(given);
+            return shard ? std::string() : shard.error().message;
+        },
+        "1/N to N/N");
+    return addOption(command, "--shard", text,
+                     "Only part I of N, of about the same size each: the same on every machine that sees the same "
+                     "files",
+                     partOfWhole, "I/N");
+}
+
+Result<std::vector<bool>> inputsOfShard(const std::vector<fs::path>& inputs, const std::string& text)
+{
+    if (text.empty())
+        return std::vector<bool>(inputs.size(), true);
+    const auto shard = parseShard(text);
+    if (!shard)
+        return shard.error();
+    std::vector<std::uint64_t> sizes;
+    for (const fs::path& input : inputs)
+        sizes.push_back(sizeOf(input));
+    return filesOfShard(sizes, *shard);
+}
+
+fs::path manifestOfShard(const fs::path& manifest, const std::string& text)
+{
+    const auto shard = parseShard(text);
+    if (!shard || manifest.empty())
+        return manifest;
+    fs::path path = manifest;
+    path.replace_filename(
+        fmt::format("{}.{}-of-{}{}", path.stem().string(), shard->number, shard->count, path.extension().string()));
+    return path;
+}
+
+void Batch::declare(CLI::App& commandToRun)
+{
+    command = &commandToRun;
+    addShard(*command, shardText);
+    auto* named = addOption(*command, "--manifest", manifestFile,
+                            "File that records hash, error and time of each file, a line each; with --shard 2/8 "
+                            "NAME.2-of-8.json. Best called NAME.manifest.json",
+                            "FILE");
+    command->add_flag("--retry", retry, "Only the files that failed before, as the manifest says")->needs(named);
+}
+
+Result<std::vector<bool>> Batch::start(const std::vector<BatchFile>& files, bool dryRun)
+{
+    std::vector<fs::path> inputs;
+    for (const BatchFile& one : files)
+        inputs.push_back(one.input);
+    const auto inShard = inputsOfShard(inputs, shardText);
+    if (!inShard)
+        return inShard.error();
+    std::vector<bool> chosen = *inShard;
+    const fs::path manifest = manifestOfShard(manifestFile, shardText);
+    if (manifest.empty())
+        return chosen;
+    auto there = readManifest(manifest);
+    if (!there)
+        return Error{ErrorCode::invalidData, manifest.string(),
+                     "exists and is no manifest; name another with --manifest"};
+    if (!there->command.empty() && there->command != command->get_name())
+        return Error{ErrorCode::invalidData, manifest.string(),
+                     fmt::format("is a manifest of pacini {}; name another with --manifest", there->command)};
+    before = std::move(*there);
+    if (retry)
+        for (std::size_t i = 0; i < files.size(); ++i)
+            if (const ManifestEntry* entry = before.find(files[i].key); entry == nullptr || entry->error.empty())
+                chosen[i] = false;
+    if (dryRun)
+        return chosen;
+    std::error_code ignored; // what comes of it, start() says
+    if (manifest.has_parent_path())
+        fs::create_directories(manifest.parent_path(), ignored);
+    before.command = command->get_name();
+    if (!retry || before.arguments.empty())
+        before.arguments = lastingArguments(*command);
+    if (const auto started = growing.start(manifest, before); !started)
+        return Error{started.error().code, manifest.string(), started.error().message};
+    file = manifest;
+    return chosen;
+}
+
+ManifestEntry Batch::entryOf(const BatchOutcome& outcome) const
+{
+    ManifestEntry entry;
+    for (const fs::path& output : outcome.outputs)
+    {
+        if (isStream(output))
+            continue;
+        if (const auto hash = hashOfFile(output); hash)
+            entry.outputs.push_back(
+                {pathFromManifest(file, output), static_cast<std::size_t>(hash->bytes), hash->sha256});
+    }
+    entry.duration = outcome.duration;
+    entry.error = outcome.error;
+    entry.report = outcome.report;
+    return entry;
+}
+
+void Batch::add(const std::string& key, const BatchOutcome& outcome)
+{
+    if (file.empty())
+        return;
+    ManifestEntry entry = entryOf(outcome);
+    const ManifestEntry* earlier = before.find(key);
+    // How long it took stays known where nothing was done again.
+    if (outcome.upToDate && earlier != nullptr && earlier->error.empty() && earlier->outputs == entry.outputs)
+        return;
+    growing.add(key, entry);
+}
+
+bool Batch::finish(Console& console)
+{
+    if (const auto finished = growing.finish(); !finished)
+    {
+        console.error(file.string(), finished.error());
+        return false;
+    }
+    return true;
+}
+
+std::vector<std::string> lastingArguments(const CLI::App& command)
+{
+    const std::vector<std::string> passing = {"shard", "manifest", "retry", "jobs",    "force",
+                                              "quiet", "json",     "help",  "dry-run", "no-overwrite"};
+    std::vector<std::string> options, inputs;
+    for (const CLI::Option* option : command.get_options())
+    {
+        const std::string name = option->get_single_name();
+        if (option->count() == 0 || std::find(passing.begin(), passing.end(), name) != passing.end())
+            continue;
+        if (option->get_positional())
+            inputs.insert(inputs.end(), option->results().begin(), option->results().end());
+        else if (option->get_items_expected_max() == 0)
+            options.push_back("--" + name);
+        else
+            for (const std::string& value : option->results())
+                options.push_back(fmt::format("--{}={}", name, value));
+    }
+    inputs.insert(inputs.end(), options.begin(), options.end());
+    return inputs;
+}
+
+} // namespace pacini::cli

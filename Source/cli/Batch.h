@@ -1,0 +1,120 @@
+#pragma once
+
+// Batch of files as one of several runs: its shard, and the manifest of what was done.
+
+#include "cli/Manifest.h"
+#include "cli/Task.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+/// One file of a batch.
+struct BatchFile
+{
+    std::filesystem::path input;
+    std::string key; ///< what the manifest calls it
+};
+
+/// What a run did to one file.
+struct BatchOutcome
+{
+    std::vector<std::filesystem::path> outputs;
+    double duration = 0.0; ///< s
+    nlohmann::json report; ///< what the command says of it with --json
+    std::string error;     ///< empty where all went well
+    bool upToDate = false;
+};
+
+/// Adds --shard to a command.
+CLI::Option* addShard(CLI::App& command, std::string& text);
+
+/// Which of the inputs are in the shard that `text` names; all of them where it is empty. Errors: invalidArgument.
+[[nodiscard]] Result<std::vector<bool>> inputsOfShard(const std::vector<std::filesystem::path>& inputs,
+                                                      const std::string& text);
+
+/// The manifest of the shard that `text` names, beside those of the others: run.manifest.2-of-8.json. `manifest` itself
+/// where `text` is empty or no shard.
+[[nodiscard]] std::filesystem::path manifestOfShard(const std::filesystem::path& manifest, const std::string& text);
+
+/// The tasks that were chosen.
+template <typename TaskType>
+void keepChosen(std::vector<TaskType>& tasks, const std::vector<bool>& chosen)
+{
+    std::vector<TaskType> kept;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+        if (chosen[i])
+            kept.push_back(std::move(tasks[i]));
+    tasks = std::move(kept);
+}
+
+/// --shard, --manifest and --retry, declared once per command, and what they ask for.
+class Batch
+{
+public:
+    void declare(CLI::App& command);
+
+    /// Which of the files this run works on; starts the manifest unless nothing is to be written. Errors:
+    /// invalidArgument for the options, invalidData for a manifest that is none, io.
+    [[nodiscard]] Result<std::vector<bool>> start(const std::vector<BatchFile>& files, bool dryRun);
+
+    /// The same for tasks: those of other runs are removed.
+    template <typename ResultType>
+    [[nodiscard]] Result<void> start(std::vector<Task<ResultType>>& tasks, bool dryRun)
+    {
+        std::vector<BatchFile> files;
+        for (const auto& task : tasks)
+            files.push_back({task.input, task.key});
+        const auto chosen = start(files, dryRun);
+        if (!chosen)
+            return chosen.error();
+        keepChosen(tasks, *chosen);
+        return {};
+    }
+
+    /// Adds what was done to a file. From any thread.
+    void add(const std::string& key, const BatchOutcome& outcome);
+
+    /// The same for a task, of which `toJson(task)` is the report; those that were skipped have no entry.
+    template <typename ResultType, typename ToJson>
+    void add(const Task<ResultType>& task, ToJson&& toJson)
+    {
+        if (file.empty())
+            return;
+        if (task.error)
+            add(task.key, {{}, 0.0, {}, task.error->text(), false});
+        else if (task.result)
+            add(task.key,
+                {{task.output}, task.result->duration, nlohmann::json(toJson(task)), {}, task.result->upToDate});
+    }
+
+    /// Completes the manifest; a failure is said on the console.
+    [[nodiscard]] bool finish(Console& console);
+
+private:
+    [[nodiscard]] ManifestEntry entryOf(const BatchOutcome& outcome) const;
+
+    CLI::App* command = nullptr;
+    std::string shardText;
+    std::string manifestFile;
+    bool retry = false;
+    std::filesystem::path file; ///< of the manifest as it is written; empty for none
+    Manifest before;
+    GrowingManifest growing;
+};
+
+/// What was given to `command` and decides what comes out: not how many files at a time, which shard or how much is
+/// said.
+[[nodiscard]] std::vector<std::string> lastingArguments(const CLI::App& command);
+
+} // namespace pacini::cli

@@ -1,0 +1,257 @@
+// Command group for the manifests of runs over many files.
+
+#include "cli/Command.h"
+#include "cli/Counted.h"
+#include "cli/Manifest.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "io/AtomicFile.h"
+#include "io/Sha256.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// A manifest that must be there; the console has said why it is not.
+std::optional<Manifest> openManifest(Console& console, const std::string& path)
+{
+    std::error_code ignored;
+    auto manifest = fs::exists(path, ignored) ? readManifest(path) : std::nullopt;
+    if (!manifest)
+        console.error(path, {ErrorCode::invalidData, "",
+                             fs::exists(path, ignored) ? "is no manifest; those are written by encode, render, convert "
+                                                         "and compare with --manifest"
+                                                       : "does not exist"});
+    return manifest;
+}
+
+/// What is wrong with an output, "" for nothing.
+std::string faultOf(const ManifestOutput& output, const fs::path& folder)
+{
+    std::error_code unknown;
+    const fs::path path = folder / output.file;
+    if (!fs::exists(path, unknown))
+        return output.file + " is missing";
+    const auto hash = hashOfFile(path);
+    if (!hash)
+        return output.file + ": " + hash.error().message;
+    return hash->bytes == output.bytes && hash->sha256 == output.sha256 ? "" : output.file + " was changed";
+}
+
+/// `manifest merge`: those of several shards become one.
+class MergeSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand("merge", "Make one manifest of those of several runs or shards");
+        addOption(*command, "inputs", inputs, "Manifests; of a file that several name, the last that went well counts",
+                  "MANIFEST")
+            ->required();
+        addOption(*command, "-o,--output", output, "File to write", "OUT")->required();
+        overwriting.declare(*command);
+        command->footer("Example:\n  pacini manifest merge run.manifest.*-of-8.json -o run.manifest.json");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        Manifest merged;
+        for (const std::string& input : inputs)
+        {
+            const auto one = openManifest(console, input);
+            if (!one)
+                return Exit::failed;
+            if (input != inputs.front() && one->command != merged.command)
+                return console.fail(input, {ErrorCode::invalidData, "",
+                                            fmt::format("is of pacini {}, but {} of pacini {}", nameOf(*one),
+                                                        inputs.front(), nameOf(merged))});
+            if (input == inputs.front())
+            {
+                merged.command = one->command;
+                merged.arguments = one->arguments;
+            }
+            else if (one->arguments != merged.arguments)
+                console.warning(input, "was made with other options than " + inputs.front());
+            add(merged, *one, input);
+        }
+        if (overwriting.keepsAll() && isOccupied(output))
+        {
+            console.note(fmt::format("{} exists and was left", printable(output)));
+            return Exit::ok;
+        }
+        // The user named it; only what is no manifest at all is worth a word.
+        if (!overwriting.replacesAll() && !readManifest(output))
+            return console.fail("", notReplaced(output, "exists and is no manifest"));
+        const auto written = writeFileAtomically(output, manifestText(merged));
+        if (!written)
+            return console.fail(output, written.error());
+        std::size_t failed = 0;
+        for (const auto& [name, entry] : merged.entries)
+            failed += entry.error.empty() ? 0u : 1u;
+        console.addToReport({{"output", output}, {"files", merged.entries.size()}, {"failed", failed}});
+        console.wrote(output, fmt::format("{}, {} failed", counted(merged.entries.size(), "file", "files"), failed));
+        return Exit::ok;
+    }
+
+private:
+    static std::string nameOf(const Manifest& manifest)
+    {
+        return manifest.command.empty() ? "convert" : manifest.command;
+    }
+
+    void add(Manifest& merged, const Manifest& one, const std::string& path) const
+    {
+        for (const auto& [name, entry] : one.entries)
+        {
+            const ManifestEntry* before = merged.find(name);
+            if (before != nullptr && before->error.empty() && !entry.error.empty())
+                continue;
+            ManifestEntry moved = entry;
+            for (ManifestOutput& file : moved.outputs)
+                file.file = pathFromManifest(output, fs::path(path).parent_path() / file.file);
+            merged.entries.insert_or_assign(name, std::move(moved));
+        }
+    }
+
+    std::vector<std::string> inputs;
+    std::string output;
+    OverwriteOptions overwriting;
+};
+
+/// `manifest check`: is everything still as the manifest says?
+class CheckSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand("check", "Say which files failed, are missing or were changed since");
+        addOption(*command, "inputs", inputs, "Manifests; the outputs are where they were from there", "MANIFEST")
+            ->required();
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        std::size_t files = 0, failed = 0, faulty = 0;
+        for (const std::string& input : inputs)
+        {
+            const auto manifest = openManifest(console, input);
+            if (!manifest)
+                return Exit::failed;
+            for (const auto& [name, entry] : manifest->entries)
+            {
+                ++files;
+                if (!entry.error.empty())
+                {
+                    ++failed;
+                    console.error(name, {ErrorCode::invalidData, "", entry.error});
+                    continue;
+                }
+                std::string fault;
+                for (const ManifestOutput& one : entry.outputs)
+                    if (fault.empty())
+                        fault = faultOf(one, fs::path(input).parent_path());
+                if (fault.empty())
+                    continue;
+                ++faulty;
+                console.error(name, {ErrorCode::invalidData, "", fault});
+            }
+        }
+        console.addToReport({{"files", files}, {"failed", failed}, {"missingOrChanged", faulty}});
+        console.note(fmt::format("{}: {} as recorded, {} failed, {} missing or changed",
+                                 counted(files, "file", "files"), files - failed - faulty, failed, faulty));
+        return failed + faulty > 0 ? Exit::failed : Exit::ok;
+    }
+
+private:
+    std::vector<std::string> inputs;
+};
+
+/// `manifest retry`: what can be retried is run in its stead, see retriedCommand().
+class RetrySubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand(
+            "retry", "Run the command again that the manifest is of, for the files that failed; from the same folder");
+        addOption(*command, "input", input, "Manifest of encode, render or compare, before all options", "MANIFEST")
+            ->required();
+        command->footer("Options after the manifest are those of the command, such as -j 2.");
+        command->allow_extras();
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        const auto manifest = openManifest(console, input);
+        if (!manifest)
+            return Exit::failed;
+        return console.fail(input, {ErrorCode::invalidData, "",
+                                    "is of a conversion; convert again: what failed is tried anew, the rest is up to "
+                                    "date"});
+    }
+
+private:
+    std::string input;
+};
+
+/// `pacini manifest`: the records of runs over many files.
+class ManifestCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand("manifest", "Merge, check and retry runs over many files");
+        command->require_subcommand(1);
+        steps.push_back(std::make_unique<MergeSubcommand>());
+        steps.push_back(std::make_unique<CheckSubcommand>());
+        steps.push_back(std::make_unique<RetrySubcommand>());
+        for (const auto& step : steps)
+            declared.push_back(step->declare(*command));
+        command->footer(
+            "A set of sounds on eight machines that see the same folders:\n"
+            "  pacini encode sounds/ -o clips/ --format packed --shard 3/8 --manifest clips/run.manifest.json\n"
+            "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
+            "  pacini manifest check clips/run.manifest.json\n"
+            "  pacini manifest retry clips/run.manifest.json\n"
+            "A run that was stopped goes on when it is started again, with any number of shards.");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (declared[i]->parsed())
+                return steps[i]->run(console);
+        return Exit::usage;
+    }
+
+private:
+    std::vector<std::unique_ptr<Command>> steps;
+    std::vector<CLI::App*> declared;
+};
+} // namespace
+
+std::unique_ptr<Command> manifestCommand()
+{
+    return std::make_unique<ManifestCommand>();
+}
+
+} // namespace pacini::cli
