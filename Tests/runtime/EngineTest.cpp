@@ -51,6 +51,7 @@ Clip rustling(double seconds)
 {
     Clip clip = knocking(seconds);
     clip.bands.push_back({250.0, 280.0, 310.0, 1, {{0.0, 0.2}}, {}});
+    clip.transients = {{0.3 * seconds, 1.0, 0.5}, {0.7 * seconds, 1.0, 0.9}};
     clip.noise = {{60.0, 150.0, {{0.0, 0.1}}}, {200.0, 400.0, {{0.0, 0.15}, {seconds, 0.05}}}};
     return clip;
 }

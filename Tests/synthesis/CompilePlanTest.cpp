@@ -173,11 +173,11 @@ TEST_CASE("A play is unheard when it starts at the end or later, or all its gain
 {
     ScenePlay play;
     play.start = 1.0;
-    CHECK(detail::whyUnheard(play, levelTimeline({{{0.0, 1.0}}}), 1.5).empty());
-    CHECK(detail::whyUnheard(play, levelTimeline({{{0.0, 1.0}}}), 1.0) == "starts after the end of the scene");
-    CHECK(detail::whyUnheard(play, levelTimeline({{{0.0, 0.0}}, {{0.0, 0.0}, {1.0, 0.0}}}), 1.5) == "is muted");
-    CHECK(detail::whyUnheard(play, levelTimeline({{{0.0, 0.0}}, {{0.0, 0.0}, {1.0, 1e-9}}}), 1.5).empty());
-    CHECK(detail::whyUnheard(play, levelTimeline({{{0.0, 1.0}}, {{0.0, 0.0}}}), 1.5).empty());
+    CHECK(detail::whyUnheard({}, play, levelTimeline({{{0.0, 1.0}}}), 1.5).empty());
+    CHECK(detail::whyUnheard({}, play, levelTimeline({{{0.0, 1.0}}}), 1.0) == "starts after the end of the scene");
+    CHECK(detail::whyUnheard({}, play, levelTimeline({{{0.0, 0.0}}, {{0.0, 0.0}, {1.0, 0.0}}}), 1.5) == "is muted");
+    CHECK(detail::whyUnheard({}, play, levelTimeline({{{0.0, 0.0}}, {{0.0, 0.0}, {1.0, 1e-9}}}), 1.5).empty());
+    CHECK(detail::whyUnheard({}, play, levelTimeline({{{0.0, 1.0}}, {{0.0, 0.0}}}), 1.5).empty());
 }
 
 TEST_CASE("A loop is passed through as often as it is told or as fits, at the fastest speed of the play", "[scene]")
