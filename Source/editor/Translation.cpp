@@ -237,8 +237,12 @@ juce::String translateMessage(const juce::String& english)
     juce::StringArray list = juce::StringArray::fromTokens(english, ",", {}); // "travel, heat"
     list.trim();
     for (auto& one : list)
+    {
+        if (table.texts.count(one) == 0)
+            return english;
         one = tr(one);
-    return list.size() > 1 ? list.joinIntoString(", ") : english;
+    }
+    return list.joinIntoString(", ");
 }
 
 void translateTexts(juce::Component& root)

@@ -113,8 +113,7 @@ void LossList::addOmitted(const std::vector<Transient>& events, const std::vecto
 
 void LossList::addCrowding(const std::vector<Transient>& events, double gap)
 {
-    LossTrack track(LossKind::crowding,
-                    fmt::format("events less than {} ms apart overlap", decimal(1000.0 * gap, 1)));
+    LossTrack track(LossKind::crowding, fmt::format("events less than {} ms apart overlap", decimal(1000.0 * gap, 1)));
     for (std::size_t i = 1; i < events.size(); ++i)
         track.add(events[i].time, events[i].time - events[i - 1].time < gap ? events[i].amplitude : 0.0);
     append(track);

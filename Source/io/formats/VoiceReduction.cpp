@@ -36,8 +36,10 @@ double largestValue(const Curve& curve)
 /// weak to be there.
 void addVoiceLosses(LossList& losses, const Clip& clip, const SingleVoice& voice)
 {
-    LossTrack bands(LossKind::bands, fmt::format("{} bands are merged into one voice; bands more than 1/3 octave away play at its frequency",
-                                                 clip.bands.size()));
+    LossTrack bands(
+        LossKind::bands,
+        fmt::format("{} bands are merged into one voice; bands more than 1/3 octave away play at its frequency",
+                    clip.bands.size()));
     for (const Breakpoint& point : voice.displaced)
         bands.add(point.time, point.value > leastAmplitude ? point.value : 0.0);
     losses.append(bands);
@@ -56,9 +58,8 @@ void compare(const Curve& dense, const Curve& curve, Visit visit)
 /// Frequencies in Hz become 0 to 1.
 Curve normalised(const SingleVoice& voice, const NormalisedRange& range, LossList& losses)
 {
-    LossTrack track(
-        LossKind::frequency,
-        fmt::format("frequencies are limited to {:.0f} to {:.0f} Hz", range.low, range.high));
+    LossTrack track(LossKind::frequency,
+                    fmt::format("frequencies are limited to {:.0f} to {:.0f} Hz", range.low, range.high));
     Curve curve = voice.frequency;
     CurveReader amplitude(voice.amplitude);
     for (Breakpoint& point : curve)
@@ -157,9 +158,8 @@ std::vector<Transient> transientsOf(const std::vector<Transient>& events, const 
             shown.push_back(events[i]);
             beyond.push_back(beside[i].amplitude);
         }
-    losses.addOmitted(
-        events, shown,
-        fmt::format("dropped: a stronger event is less than {:g} ms away", 1000.0 * player.separation));
+    losses.addOmitted(events, shown,
+                      fmt::format("dropped: a stronger event is less than {:g} ms away", 1000.0 * player.separation));
     return emphasisOfEach(shown, beyond, amplitude, player);
 }
 

@@ -205,7 +205,7 @@ TEST_CASE("The first format that is written to an extension is that of its files
     {
         CHECK(names.insert(format.name).second);
         CHECK(clipFormatNamed(format.name) == &format);
-        CHECK(format.isSamples == (format.keeps.starts_with("Samples of the drive signal for")));
+        CHECK(format.isSamples == (format.keeps.starts_with("Drive signal samples for")));
         CHECK(format.companion == (format.name == "ahap" ? "-transients" : ""));
         CHECK((format.isRead() || format.isWritten()));
     }
