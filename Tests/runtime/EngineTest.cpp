@@ -791,7 +791,7 @@ TEST_CASE("A clip plays as rendered, sample for sample, where an engine is made 
             compile.sampleRate = fs;
             const auto plan = compilePlan(scene, profile ? &*profile : nullptr, compile);
             REQUIRE(plan.ok());
-            CHECK_FALSE(plan->leftOut.empty());
+            CHECK((plan->leftOut.empty() == (profile && profile->technology == Technology::erm)));
             ScenePlayerParams playing;
             playing.sampleRate = fs;
             ScenePlayer player(*plan, playing);
