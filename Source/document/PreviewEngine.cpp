@@ -29,6 +29,7 @@ std::optional<ProtectionParams> boundsBehind(const Profile& profile)
 constexpr double fadeSeconds = 0.010;
 constexpr double rampSeconds = 0.005; // of starting, stopping and switching
 constexpr double silence = 1e-9;      // of full drive
+constexpr double pastSeconds = 2.0;   // that another engine has played before it is heard
 } // namespace
 
 // What [worker] and [audio] tell each other.
@@ -224,13 +225,30 @@ Result<void> PreviewEngine::playOnOther(const Wanted& now, const Begin& begin, s
     auto built = makeStage(now.row);
     if (!built)
         return built.error();
-    built->since = since;
     made.row = now.row;
     made.engine = built->engine;
     made.stage = built->number;
     const double ramp = !since && begin.place > 0.0 ? rampSeconds : 0.0;
-    if (auto begun = startPlay(now, begin, Seconds(ramp), {}); !begun)
+    // Filters and protection of an actuator that plays have a past.
+    const double before = since ? std::min(pastSeconds, begin.way.playedAt(begin.place) / begin.controls.speed) : 0.0;
+    const auto past = static_cast<std::int64_t>(std::floor(before * fs));
+    Begin earlier = begin;
+    earlier.place -= static_cast<double>(past) * begin.controls.speed / fs;
+    if (auto begun = startPlay(now, earlier, Seconds(ramp), {}); !begun)
         return begun;
+    made.place = begin.place;
+    std::vector<float> unheard(built->outputs * blockFrames);
+    for (std::int64_t left = past; left > 0;)
+    {
+        const auto n = static_cast<std::size_t>(std::min<std::int64_t>(left, blockFrames));
+        std::vector<std::span<float>> nowhere;
+        for (std::size_t c = 0; c < built->outputs; ++c)
+            nowhere.push_back(std::span(unheard).subspan(c * blockFrames, n));
+        built->engine->render(nowhere);
+        left -= static_cast<std::int64_t>(n);
+    }
+    if (since)
+        built->since = *since - past;
     stages.send(std::move(built).value());
     tell(now);
     return {};
@@ -288,6 +306,7 @@ Result<void> PreviewEngine::startPlay(const Wanted& now, const Begin& begin, Sec
     made.played = made.clip;
     made.way = begin.way;
     made.place = begin.place;
+    made.from = settings.from;
     made.start = now.start;
     made.controls = begin.controls;
     made.transposition = begin.controls.transposition;
@@ -299,7 +318,7 @@ void PreviewEngine::tell(const Wanted& now)
 {
     made.source = now.source;
     alive.store(true, std::memory_order_relaxed);
-    plays.send({made.start, made.stage, made.play, made.way, made.way.playedAt(made.place), made.source});
+    plays.send({made.start, made.stage, made.play, made.way, made.from, made.source});
 }
 
 Result<PreviewEngine::Stage> PreviewEngine::makeStage(const PreviewRow& row) const

@@ -120,7 +120,8 @@ private:
         std::shared_ptr<Engine> engine;
         PlayId play;
         PlaybackWay way;
-        double place = 0.0; ///< of the clip, where the play began
+        double place = 0.0; ///< of the clip, where the play is heard first
+        double from = 0.0;  ///< s of what is played, where the play began
         std::shared_ptr<const Clip> heard;
         Audition audition;
         std::shared_ptr<const LoadedClip> clip;   ///< of `heard`
