@@ -16,7 +16,8 @@ void ClipPlayer::prepare(double sampleRate)
     engine = std::make_unique<PreviewEngine>(rate);
     worker = std::make_unique<PreviewWorker>(*engine);
     engine->set(playback);
-    engine->setProfile(profile, strength);
+    engine->setRow(row);
+    engine->setControls(controls);
     resample();
 }
 
@@ -27,11 +28,17 @@ void ClipPlayer::set(Playback wanted)
     worker->wake();
 }
 
-void ClipPlayer::setProfile(std::shared_ptr<const Profile> wanted, double wantedStrength)
+void ClipPlayer::setRow(PreviewRow wanted)
 {
-    profile = std::move(wanted);
-    strength = wantedStrength;
-    engine->setProfile(profile, strength);
+    row = std::move(wanted);
+    engine->setRow(row);
+    worker->wake();
+}
+
+void ClipPlayer::setControls(const PlayControls& wanted)
+{
+    controls = wanted;
+    engine->setControls(controls);
     worker->wake();
 }
 
@@ -67,6 +74,12 @@ void ClipPlayer::stopResampling()
     noLongerWanted = true;
     resampling.join();
     noLongerWanted = false;
+}
+
+void ClipPlayer::stop()
+{
+    engine->stop();
+    worker->wake();
 }
 
 void ClipPlayer::play(double time)

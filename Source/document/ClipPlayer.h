@@ -25,22 +25,24 @@ public:
     void prepare(double sampleRate);
 
     /// See PreviewEngine::process(). [audio]
-    void process(std::span<float> haptic, std::span<const std::span<float>> soundOut) noexcept
+    void process(std::span<const std::span<float>> haptic, std::span<const std::span<float>> soundOut) noexcept
     {
         engine->process(haptic, soundOut);
     }
 
     void set(Playback playback);
-    /// See PreviewEngine::setProfile().
-    void setProfile(std::shared_ptr<const Profile> profile, double strength = standardStrength);
+    /// See PreviewEngine::setRow() and setControls().
+    void setRow(PreviewRow row);
+    void setControls(const PlayControls& controls);
     /// The sound beside the clip; null: none. It is heard when it has been resampled, on a thread of its own.
     void setSound(std::shared_ptr<const AudioData> sound);
 
     void play(double time);
-    void stop() { engine->stop(); }
+    void stop();
     [[nodiscard]] bool isPlaying() const noexcept { return engine->isPlaying(); }
-    [[nodiscard]] double position() const noexcept { return engine->position(); }     ///< s of the clip
-    [[nodiscard]] PreviewEngine::Meters takeMeters() { return engine->takeMeters(); } ///< since the last call
+    [[nodiscard]] double position() const noexcept { return engine->position(); } ///< s of the clip
+    /// Of an output, since the last call.
+    [[nodiscard]] PreviewEngine::Meters takeMeters(std::size_t output = 0) { return engine->takeMeters(output); }
     [[nodiscard]] std::optional<Error> lastError() const { return worker->lastError(); }
 
 private:
@@ -49,8 +51,8 @@ private:
 
     double rate = 0.0;
     Playback playback;
-    std::shared_ptr<const Profile> profile;
-    double strength = standardStrength;
+    PreviewRow row;
+    PlayControls controls;
     std::shared_ptr<const AudioData> sound;
     std::unique_ptr<PreviewEngine> engine;
     std::unique_ptr<PreviewWorker> worker; // ends before the engine

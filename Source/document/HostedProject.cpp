@@ -30,7 +30,7 @@ bool HostedProject::process(std::span<float> haptic, std::span<const std::span<f
         return false;
     else
         --restBlocks;
-    player->process(haptic, sound);
+    player->process(std::span(&haptic, 1), sound);
     return true;
 }
 

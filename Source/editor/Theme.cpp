@@ -107,7 +107,7 @@ void Look::setDark(bool dark)
     setColour(juce::PopupMenu::highlightedBackgroundColourId, p.accent);
     setColour(juce::PopupMenu::highlightedTextColourId, p.card);
     setColour(juce::TextButton::textColourOffId, p.text);
-    setColour(juce::TextButton::textColourOnId, p.text);
+    setColour(juce::TextButton::textColourOnId, p.card);
     setColour(juce::ToggleButton::textColourId, p.text);
     setColour(juce::TooltipWindow::backgroundColourId, p.well);
     setColour(juce::TooltipWindow::textColourId, p.text);
@@ -208,11 +208,18 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
 {
     const Palette& p = palette();
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
-    g.setColour(down ? p.line : p.well);
+    const bool on = button.getToggleState();
+    g.setColour(on ? p.text : down ? p.line : p.well);
     g.fillRoundedRectangle(area, 4.0f);
     g.setColour(highlighted ? p.dim : p.line);
     g.drawRoundedRectangle(area, 4.0f, 1.0f);
-    drawFocusRing(g, button, button.getLocalBounds().toFloat());
+    if (on)
+    {
+        // By light and dark and by shape, whatever colours are told apart.
+        g.setColour(p.card);
+        g.fillRoundedRectangle(area.reduced(grid, 0.0f).removeFromBottom(5.0f).removeFromTop(2.5f), 1.0f);
+    }
+    drawFocusRing(g, button, on ? area.reduced(1.5f) : button.getLocalBounds().toFloat());
 }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box)

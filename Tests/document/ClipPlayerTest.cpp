@@ -84,7 +84,7 @@ TEST_CASE("A clip and its sound are heard at every rate of the device, without a
         player.play(1.0);
         const auto process = [&](auto haptic, auto sound)
         {
-            player.process(haptic, sound);
+            player.process(std::span(&haptic, 1), sound);
         };
         const Heard heard = listen(process, both);
         CHECK(heard.haptic > 0.3f);
@@ -100,14 +100,17 @@ TEST_CASE("Actuator and strength stay when the device changes its rate")
     const auto loudest = [&](double strength)
     {
         ClipPlayer player;
-        player.setProfile(std::make_shared<const Profile>(test::shippedProfile("lra-235-narrow")), strength);
+        PreviewRow row;
+        row.profiles = {std::make_shared<const Profile>(test::shippedProfile("lra-235-narrow"))};
+        row.strength = strength;
+        player.setRow(row);
         player.set(playbackOf(clip));
         player.prepare(16000.0);
         player.play(0.0);
         int blocks = 0; // that sound
         const auto process = [&](auto haptic, auto sound)
         {
-            player.process(haptic, sound);
+            player.process(std::span(&haptic, 1), sound);
             blocks += haptic[0] != 0.0f ? 1 : 0;
         };
         return listen(process, [&](const Heard&) { return blocks > 40; }).haptic;
@@ -125,7 +128,7 @@ TEST_CASE("Another sound, or none, takes the place of one that is still being re
     player.play(1.0);
     const auto process = [&](auto haptic, auto sound)
     {
-        player.process(haptic, sound);
+        player.process(std::span(&haptic, 1), sound);
     };
     CHECK(listen(process, both).sound == Approx(0.25f).margin(0.01));
     const std::atomic<bool> stopped{true};

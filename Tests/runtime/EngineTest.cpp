@@ -937,3 +937,90 @@ TEST_CASE("A loop fades out over its joints", "[runtime]")
     renderBlocks(*engine, 8000 * 2);
     CHECK(engine->status(id).state == PlayState::ended);
 }
+
+TEST_CASE("A clip plays as rendered, sample for sample, where an engine is made so", "[runtime]")
+{
+    Clip clip = knocking(0.6);
+    clip.bands.push_back({300.0, 310.0, 320.0, 1, {{0.0, 0.1}, {0.6, 0.3}}, {}});
+    clip.bands.push_back({350.0, 360.0, 370.0, 2, {{0.0, 1e-5}}, {}}); // too weak to matter
+    for (const auto& profile : {std::optional<Profile>(), std::optional(lra()), std::optional(erm())})
+        for (const int actuators : {1, 2})
+        {
+            CAPTURE(profile.has_value(), actuators);
+            Scene scene;
+            scene.actuators = actuators;
+            scene.clips = {clip};
+            scene.plays.emplace_back();
+            CompileParams compile;
+            compile.sampleRate = fs;
+            const auto plan = compilePlan(scene, profile ? &*profile : nullptr, compile);
+            REQUIRE(plan.ok());
+            CHECK((plan->leftOut.empty() == (profile && profile->technology == Technology::erm)));
+            ScenePlayerParams playing;
+            playing.sampleRate = fs;
+            ScenePlayer player(*plan, playing);
+            const Channels wanted = test::renderChannels(player, static_cast<std::size_t>(actuators), 512);
+            EngineParams params = paramsOf(static_cast<std::size_t>(actuators), profile);
+            params.asRendered = true;
+            params.longestDelay = Seconds(0.0);
+            const auto engine = engineOf(params);
+            const auto loadedClip = LoadedClip::asItIs(clip);
+            REQUIRE(loadedClip.ok());
+            started(*engine, *loadedClip);
+            const Channels heard = renderBlocks(*engine, wanted[0].size());
+            CHECK(largest(wanted[0]) > 0.05);
+            if (actuators == 1)
+                CHECK((heard == wanted));
+            for (std::size_t c = 0; c < heard.size(); ++c)
+                for (std::size_t i = 0; i < heard[c].size(); ++i)
+                    REQUIRE(heard[c][i] == Approx(static_cast<double>(wanted[c][i])).margin(1e-6));
+        }
+    EngineParams params = paramsOf(1);
+    params.asRendered = true;
+    params.budget.voices = 2;
+    CHECK(Engine::make(params).error().where == "budget");
+}
+
+TEST_CASE("A clip that is replaced in time goes on as if it had always played", "[runtime]")
+{
+    const Clip before = humming(30.0);
+    Clip after = before;
+    after.transients = {{29.0, 0.8, 0.5}};
+    for (const double loop : {0.0, 0.7})
+    {
+        CAPTURE(loop);
+        PlaySettings settings;
+        settings.loop = loop;
+        const auto plain = engineOf(paramsOf(1));
+        started(*plain, *LoadedClip::asItIs(before), settings);
+        const Channels wanted = renderBlocks(*plain, 16000);
+        const auto engine = engineOf(paramsOf(1));
+        const PlayId id = started(*engine, *LoadedClip::asItIs(before), settings);
+        Channels heard = renderBlocks(*engine, 4000);
+        const auto latency = static_cast<std::int64_t>(engine->latencyFrames());
+        const InTime here{engine->framesRendered() + latency, 100};
+        const double place = engine->status(id).position;
+        const Channels meanwhile = renderBlocks(*engine, 1000); // while it is built
+        REQUIRE(engine->replace(id, *LoadedClip::asItIs(after), place, here).ok());
+        const Channels more = renderBlocks(*engine, 11000);
+        heard[0].insert(heard[0].end(), meanwhile[0].begin(), meanwhile[0].end());
+        heard[0].insert(heard[0].end(), more[0].begin(), more[0].end());
+        for (std::size_t i = 0; i < wanted[0].size(); ++i)
+            REQUIRE(heard[0][i] == Approx(static_cast<double>(wanted[0][i])).margin(1e-5));
+    }
+}
+
+TEST_CASE("A row may be panned by delays that are zero", "[runtime]")
+{
+    EngineParams params = paramsOf(2);
+    params.panLaw = PanLaw::delay;
+    params.panDelay = Seconds(0.0);
+    params.longestDelay = Seconds(0.0);
+    const auto engine = engineOf(params);
+    PlaySettings settings;
+    settings.controls.pan = 1.0;
+    started(*engine, loaded(humming(1.0)), settings);
+    const Channels heard = renderBlocks(*engine, 2000);
+    CHECK(largest(heard[0]) == Approx(0.3 / std::sqrt(2.0)).margin(0.01));
+    CHECK(heard[0] == heard[1]);
+}

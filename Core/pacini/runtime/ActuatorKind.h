@@ -25,6 +25,9 @@ struct ActuatorKind
     CompileParams compile;
     RenderPlan plan; ///< without plays: what fits them
     std::optional<ActuatorFit> fit;
+    std::optional<Profile> wanted;       ///< the profile before it was fitted
+    bool asRendered = false;             ///< see EngineParams
+    bool filtersVoices = false;          ///< plays come filtered
     std::unique_ptr<ScenePlayer> player; ///< of the engine's scene, or of an empty one
 
     [[nodiscard]] const Profile* profile() const noexcept { return plan.profile ? &*plan.profile : nullptr; }
@@ -101,6 +104,11 @@ inline Scene emptyScene(const EngineParams& params)
         kind.plan = detail::planFor(std::move(plan).value(), kind.actuators);
         if (profile != nullptr && profile->technology != Technology::pcm)
             kind.fit = fitActuator(*profile, {params.adaptation.maxBoost, params.adaptation.strength});
+        if (profile != nullptr)
+            kind.wanted = *profile;
+        kind.asRendered = params.asRendered;
+        kind.filtersVoices = params.asRendered && scene == nullptr && profile != nullptr && !kind.plan.motor &&
+                             kind.actuators.size() == 1;
         RenderPlan played = kind.plan;
         if (scene != nullptr)
         {
@@ -114,6 +122,7 @@ inline Scene emptyScene(const EngineParams& params)
         playing.protect = params.protect;
         playing.liveDelay = params.longestDelay;
         playing.takeLatencyOut = false;
+        playing.filtered = kind.filtersVoices;
         kind.player = std::make_unique<ScenePlayer>(std::move(played), playing);
     }
     return kinds;

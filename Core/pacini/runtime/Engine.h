@@ -51,6 +51,14 @@ struct PlayStatus
     double position = 0.0; ///< s of the clip
 };
 
+/// A frame of the output at which something is known to be in some place, and how many frames after those that have
+/// been rendered it may be exchanged at the soonest: as many as a block has, or it comes too late.
+struct InTime
+{
+    std::int64_t at = 0; ///< as it is mixed: latencyFrames() ahead of the output
+    std::size_t ahead = 0;
+};
+
 /// What an engine did, for reports.
 struct EngineMeters
 {
@@ -110,45 +118,15 @@ public:
     [[nodiscard]] Result<PlayId> play(const std::shared_ptr<const LoadedClip>& clip, const PlaySettings& settings = {},
                                       std::int64_t frame = 0)
     {
-        collect();
-        if (free.empty())
-            return Error{ErrorCode::tooLarge, "plays", "as many play as the engine was made for"};
-        if (auto room = checkRoom(); !room)
-            return room.error();
-        PlaySettings limited = settings;
-        for (const auto& [control, value] : values(settings.controls))
-            if (auto valid = checkValue(control, value); !valid)
-                return valid.error();
-        auto content = maker.make(clip, limited);
-        if (!content)
-            return content.error();
-        auto play = std::make_unique<LivePlay>();
-        const std::uint32_t slot = free.back();
-        Slot& entry = slots[slot];
-        play->slot = slot;
-        play->generation = nextGeneration(entry.generation.load(std::memory_order_relaxed));
-        play->group = settings.group;
-        play->priority = settings.priority;
-        play->order = sent;
-        play->controls = settings.controls;
-        play->content = std::move(content).value();
-        play->measureContent();
-        play->fadeIn = framesOfGlide(settings.fadeIn, fs);
-        free.pop_back();
-        entry.clip = clip;
-        entry.settings = settings;
-        entry.position.store(settings.from, std::memory_order_relaxed);
-        entry.state.store(PlayState::waiting, std::memory_order_relaxed);
-        entry.generation.store(play->generation, std::memory_order_release);
-        entry.used = true;
-        const PlayId id{slot, play->generation};
-        LiveCommand command;
-        command.kind = LiveCommand::Kind::start;
-        command.slot = slot;
-        command.generation = id.generation;
-        command.play = play.release();
-        push(command, frame);
-        return id;
+        return startPlay(clip, settings, frame, {});
+    }
+
+    /// The same where `settings.from` is the place at frame `time.at`, which may have passed: it begins at the place
+    /// that is due when it is ready.
+    [[nodiscard]] Result<PlayId> play(const std::shared_ptr<const LoadedClip>& clip, const PlaySettings& settings,
+                                      InTime time)
+    {
+        return startPlay(clip, settings, time.at, time);
     }
 
     /// Sets a control of a play from frame `frame` on, in a glide (pitch, speed and priority step). Errors:
@@ -228,6 +206,21 @@ public:
         return {};
     }
 
+    /// The same, sample by sample in time: the play is at second `position` of its clip at frame `time.at`, which may
+    /// have passed, and goes on where it would be when the other clip is ready.
+    Result<void> replace(PlayId play, const std::shared_ptr<const LoadedClip>& clip, double position, InTime time)
+    {
+        if (auto there = check(play); !there)
+            return there;
+        Slot& slot = slots[play.slot];
+        if (slot.settings.loop > clip->duration())
+            slot.settings.loop = clip->duration();
+        if (auto done = exchange(play, clip, std::min(position, clip->duration()), time.at, time); !done)
+            return done;
+        slot.clip = clip;
+        return {};
+    }
+
     /// Replaces a clip in all that plays of it.
     Result<void> replaceAll(const LoadedClip* old, const std::shared_ptr<const LoadedClip>& clip)
     {
@@ -256,6 +249,8 @@ public:
     {
         if (!(wanted.nanosecondsPerFrame >= 0.0 && wanted.nanosecondsPerFrame <= 1e9))
             return Error{ErrorCode::invalidArgument, "budget", "must be 0 to 1e9 ns for a frame"};
+        if (kinds.front().asRendered && (wanted.nanosecondsPerFrame > 0.0 || wanted.voices > 0))
+            return Error{ErrorCode::invalidArgument, "budget", "must be none where plays are as rendered"};
         LiveCommand command;
         command.kind = LiveCommand::Kind::setBudget;
         command.value = wanted.nanosecondsPerFrame;
@@ -497,8 +492,69 @@ private:
         }
     }
 
+    Result<PlayId> startPlay(const std::shared_ptr<const LoadedClip>& clip, const PlaySettings& settings,
+                             std::int64_t frame, const std::optional<InTime>& time)
+    {
+        collect();
+        if (free.empty())
+            return Error{ErrorCode::tooLarge, "plays", "as many play as the engine was made for"};
+        if (auto room = checkRoom(); !room)
+            return room.error();
+        for (const auto& [control, value] : values(settings.controls))
+            if (auto valid = checkValue(control, value); !valid)
+                return valid.error();
+        auto content = maker.make(clip, settings);
+        if (!content)
+            return content.error();
+        auto play = std::make_unique<LivePlay>();
+        const std::uint32_t slot = free.back();
+        Slot& entry = slots[slot];
+        play->slot = slot;
+        play->generation = nextGeneration(entry.generation.load(std::memory_order_relaxed));
+        play->group = settings.group;
+        play->priority = settings.priority;
+        play->order = sent;
+        play->controls = settings.controls;
+        play->content = std::move(content).value();
+        play->measureContent();
+        play->fadeIn = framesOfGlide(settings.fadeIn, fs);
+        if (time)
+            frame = advance(*play->content, *time);
+        free.pop_back();
+        entry.clip = clip;
+        entry.settings = settings;
+        entry.position.store(settings.from, std::memory_order_relaxed);
+        entry.state.store(PlayState::waiting, std::memory_order_relaxed);
+        entry.generation.store(play->generation, std::memory_order_release);
+        entry.used = true;
+        const PlayId id{slot, play->generation};
+        LiveCommand command;
+        command.kind = LiveCommand::Kind::start;
+        command.slot = slot;
+        command.generation = id.generation;
+        command.play = play.release();
+        push(command, frame);
+        return id;
+    }
+
+    /// Brings what was made for frame `time.at` to the frame at which it can begin, and returns that.
+    [[nodiscard]] std::int64_t advance(PlayContent& content, const InTime& time)
+    {
+        std::int64_t at = time.at;
+        // That takes time too, a small part of what is played.
+        for (int i = 0; i < 8; ++i)
+        {
+            const std::int64_t soonest = framesRendered() + static_cast<std::int64_t>(latency + time.ahead);
+            if (soonest <= at)
+                break;
+            maker.advance(content, soonest - at);
+            at = soonest;
+        }
+        return at;
+    }
+
     Result<void> exchange(PlayId play, const std::shared_ptr<const LoadedClip>& clip, double position,
-                          std::int64_t frame)
+                          std::int64_t frame, std::optional<InTime> time = {})
     {
         if (auto room = checkRoom(); !room)
             return room;
@@ -507,6 +563,8 @@ private:
         auto content = maker.make(clip, settings);
         if (!content)
             return content.error();
+        if (time)
+            frame = advance(**content, *time);
         LiveCommand command;
         command.kind = LiveCommand::Kind::replace;
         command.slot = play.slot;

@@ -47,6 +47,11 @@ struct EngineParams
     std::size_t maxPlays = 256;     ///< at a time, 1 to 10000
     std::size_t maxCommands = 4096; ///< that wait, 16 to 1000000
     EngineBudget budget;
+    /// Plans each play as `pacini render` plans a scene of that play alone: bands that are too weak to matter are left
+    /// out, and where an actuator is the only one with its profile a play's own interpolator does the filtering of its
+    /// output. The samples are those of `pacini render` then, and one play costs less, many cost more. Without a
+    /// budget, and without levels of roles.
+    bool asRendered = false;
     DecoderChoice decoder;
     AdaptationParams adaptation;
 };
@@ -77,6 +82,8 @@ struct EngineParams
         return wrong("maxCommands", "must be 16 to 1000000");
     if (!within(params.budget.nanosecondsPerFrame, 0.0, 1e9))
         return wrong("budget.nanosecondsPerFrame", "must be 0 to 1e9");
+    if (params.asRendered && (params.budget.nanosecondsPerFrame > 0.0 || params.budget.voices > 0))
+        return wrong("budget", "must be none where plays are as rendered");
     for (std::size_t i = 0; i < params.actuators.size(); ++i)
     {
         const EngineActuator& actuator = params.actuators[i];

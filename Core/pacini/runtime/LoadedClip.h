@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip that is ready to be played: kept packed, unpacked when it plays.
+// A clip that is ready to be played: kept packed, unpacked when it plays, or as it is.
 
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/PackedClip.h>
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,12 +42,22 @@ public:
         return std::shared_ptr<const LoadedClip>(new LoadedClip(clip, std::move(bytes)));
     }
 
-    [[nodiscard]] Result<Clip> unpack() const { return unpackClip(packed); }
+    /// Keeps a clip as it is, without the rounding of packing: for one that is edited. Errors: those of validate().
+    [[nodiscard]] static Result<std::shared_ptr<const LoadedClip>> asItIs(Clip clip)
+    {
+        if (auto valid = validate(clip); !valid)
+            return valid.error();
+        std::shared_ptr<LoadedClip> made(new LoadedClip(clip, {}));
+        made->whole = std::move(clip);
+        return std::shared_ptr<const LoadedClip>(std::move(made));
+    }
+
+    [[nodiscard]] Result<Clip> unpack() const { return whole ? Result<Clip>(*whole) : unpackClip(packed); }
 
     [[nodiscard]] const std::string& name() const noexcept { return title; }
     [[nodiscard]] double duration() const noexcept { return length; } ///< s
     [[nodiscard]] std::size_t events() const noexcept { return transients; }
-    [[nodiscard]] std::size_t bytes() const noexcept { return packed.size(); }
+    [[nodiscard]] std::size_t bytes() const noexcept { return packed.size(); } ///< packed; 0 as it is
 
     /// Mean of the drive's square, 1 = full drive, shared by tones and noise; events are not counted.
     [[nodiscard]] const PerRole<double>& power() const noexcept { return meanPower; }
@@ -95,6 +106,7 @@ private:
     std::size_t transients;
     PerRole<double> meanPower;
     std::vector<std::byte> packed;
+    std::optional<Clip> whole; ///< in the place of the packed one
 };
 
 } // namespace pacini

@@ -114,6 +114,14 @@ public:
         other.fadeOut(frames);
     }
 
+    /// Plays the next `frames` unheard, before it begins. [worker]
+    void advance(std::int64_t frames, MixBuffers& buffers) noexcept
+    {
+        for (Voice& v : passes[0])
+            v.voice.skip(frames, buffers);
+        params.played += frames;
+    }
+
     template <typename Use>
     void forVoices(Use&& use) noexcept
     {

@@ -85,12 +85,15 @@ public:
             }
         if (from > params.offset)
         {
-            params.played = static_cast<std::int64_t>((from - params.offset) / settings.controls.speed * fs);
+            params.played = std::llround((from - params.offset) / settings.controls.speed * fs);
             for (PlayContent::Voice& v : passes[0])
                 v.voice.skip(params.played, *buffers);
         }
         return std::make_unique<PlayContent>(std::move(passes), params);
     }
+
+    /// Plays the next frames of what has not begun unheard.
+    void advance(PlayContent& content, std::int64_t frames) { content.advance(frames, *buffers); }
 
     /// Forgets what was made of a clip, for one that is replaced or unloaded.
     void forget(const LoadedClip* clip)
@@ -111,11 +114,18 @@ private:
     static constexpr std::size_t rememberedPoints = 1'000'000; // 16 bytes each
     static constexpr double mostPoints = 2'000'000.0;          // of one play
 
+    /// A clip for one kind of actuator.
+    struct FittedClip
+    {
+        Clip clip;
+        std::optional<DecoderParams> decoder; ///< where it is planned as rendered
+        std::optional<BiquadCascadeCoefficients> filter;
+    };
+
     struct Fitted
     {
         const LoadedClip* source = nullptr;
-        std::vector<Clip> clips; ///< for each kind
-        double energy = 0.0;
+        std::vector<FittedClip> clips; ///< for each kind
         std::size_t points = 0;
     };
 
@@ -163,9 +173,11 @@ private:
         fitted->source = clip.get();
         for (const ActuatorKind& kind : kinds)
         {
-            fitted->clips.push_back(kind.fit ? adaptClip(*unpacked, *kind.profile(), kind.compile.adaptation).clip
-                                             : *unpacked);
-            fitted->points += breakpointCount(fitted->clips.back()) + fitted->clips.back().transients.size();
+            auto made = fitTo(kind, *unpacked);
+            if (!made)
+                return made.error();
+            fitted->points += breakpointCount(made->clip) + made->clip.transients.size();
+            fitted->clips.push_back(std::move(made).value());
         }
         points += fitted->points;
         known.push_front(std::move(fitted));
@@ -177,9 +189,36 @@ private:
         return known.front().get();
     }
 
-    Result<PlayContent::Voice> makeVoice(const Clip& fitted, const ActuatorKind& kind, const PlaySettings& settings,
-                                         double stretch, double offset) const
+    static Result<FittedClip> fitTo(const ActuatorKind& kind, const Clip& clip)
     {
+        if (!kind.asRendered)
+            return FittedClip{kind.fit ? adaptClip(clip, *kind.profile(), kind.compile.adaptation).clip : clip, {}, {}};
+        Scene scene;
+        scene.clips = {clip};
+        scene.plays.emplace_back();
+        auto plan = compilePlan(scene, kind.wanted ? &*kind.wanted : nullptr, kind.compile);
+        if (!plan)
+            return plan.error();
+        FittedClip fitted;
+        fitted.clip.duration = clip.duration;
+        if (!plan->plays.empty()) // else it is silent
+        {
+            fitted.clip = std::move(plan->plays.front().clip);
+            fitted.decoder = plan->plays.front().decoder;
+        }
+        if (kind.filtersVoices)
+        {
+            fitted.filter = designOutputFilter({plan->profile->equalizer, plan->flattening}, kind.compile.sampleRate);
+            if (fitted.filter->sections.empty())
+                fitted.filter.reset();
+        }
+        return fitted;
+    }
+
+    Result<PlayContent::Voice> makeVoice(const FittedClip& forKind, const ActuatorKind& kind,
+                                         const PlaySettings& settings, double stretch, double offset) const
+    {
+        const Clip& fitted = forKind.clip;
         Clip clip;
         if (settings.loop > 0.0)
         {
@@ -205,11 +244,23 @@ private:
         play.stretch = 1.0 / settings.controls.speed;
         play.variation.seed = settings.variation.seed;
         DecoderParams decoder = detail::planDecoder(kind.plan, clip, play, kind.compile, kind.fit);
+        if (forKind.decoder)
+        {
+            // Without what was left out it would be another one.
+            DecoderParams planned = *forKind.decoder;
+            planned.transposition = decoder.transposition;
+            planned.stretch = decoder.stretch;
+            planned.variation = decoder.variation;
+            planned.gaps = decoder.gaps;
+            decoder = planned;
+        }
         decoder.headroom = settings.headroom;
-        decoder.apart = true;
+        decoder.apart = !forKind.filter;
         PlayContent::Voice made{{0, std::move(clip), 0.0, decoder, steadyTimeline(kind.actuators.size())},
                                 PlayVoice({}, kind.actuators.size(), fs)};
-        made.voice.prepare(made.planned, {nullptr, 0, &kind.plan.row, liveDelay, designs.get()});
+        made.voice.prepare(made.planned,
+                           {forKind.filter ? &*forKind.filter : nullptr, std::numeric_limits<std::int64_t>::max(),
+                            &kind.plan.row, liveDelay, designs.get()});
         made.planned.clip = {};
         return made;
     }

@@ -83,7 +83,7 @@ public:
 
     [[nodiscard]] double position() const noexcept { return pan.goal(); }
 
-    [[nodiscard]] bool hasDelays() const noexcept { return row.law != PanLaw::constantPower; }
+    [[nodiscard]] bool hasDelays() const noexcept { return row.law != PanLaw::constantPower && row.longestDelay > 0.0; }
 
     /// s
     [[nodiscard]] double longestDelay() const noexcept { return hasDelays() ? row.longestDelay : 0.0; }

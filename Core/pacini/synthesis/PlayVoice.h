@@ -134,7 +134,8 @@ public:
         DecoderParams params = play.decoder;
         params.sampleRate = fs;
         decoder = std::make_unique<Decoder>(play.clip, params, play.timeline.changes, voice.designs);
-        if (voice.filter != nullptr)
+        filtered = voice.filter != nullptr;
+        if (filtered)
             decoder->filterBy(*voice.filter, voice.until - start);
         if (voice.row != nullptr)
             sends.emplace(*voice.row);
@@ -166,7 +167,7 @@ public:
         faders[static_cast<std::size_t>(fader)].glideTo(wanted, frames);
     }
 
-    /// The same for the level of a role: 0 or more. [audio]
+    /// The same for the level of a role: 0 or more. Without effect where a filter is behind the decoder. [audio]
     void setRole(Role role, RoleFader fader, double wanted, std::size_t frames) noexcept
     {
         roles[role][static_cast<std::size_t>(fader)].glideTo(wanted, frames);
@@ -371,7 +372,7 @@ private:
     void addTo(const PlannedPlay& play, std::span<const std::span<float>> out, std::size_t at, std::int64_t now,
                std::span<float> block, MixBuffers& buffers) noexcept
     {
-        if (mixesRoles)
+        if (mixesRoles && !filtered)
             decoder->process(block, roleGains(play, now, block.size(), buffers));
         else
             decoder->process(block);
@@ -492,6 +493,7 @@ private:
     PerRole<std::size_t> roleNext; // points of the scene's levels that are reached next
     bool mixesRoles = false;       // some level was or will be another than 1
     Glide lateness{0.0};
+    bool filtered = false; // behind the decoder, which then has no levels of roles
     bool over = false;
 };
 

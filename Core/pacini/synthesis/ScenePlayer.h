@@ -38,6 +38,7 @@ struct ScenePlayerParams
     Seconds lookAhead{0.001};   ///< of that, 0 to 1 ms; taken out of the output
     Seconds liveDelay{0.0};     ///< the longest of setDelay(); memory for it costs a little time
     bool takeLatencyOut = true; ///< false: what is mixed comes out latencyFrames() later
+    bool filtered = false; ///< what plays beside the scene has passed the output filter, and the scene has no plays
 };
 
 /// What plays beside a scene: nothing.
@@ -81,7 +82,7 @@ public:
             liveFilter->setParams({plan.profile->equalizer, plan.flattening});
             besides.resize(blockFrames);
         }
-        const bool filtered = voiceFilter.has_value();
+        const bool filtered = voiceFilter.has_value() || params.filtered;
         if (plan.profile || params.protect)
             for (std::size_t a = 0; a < plan.actuators; ++a)
                 outputs.emplace_back(plan, ProcessSpec{fs, blockFrames}, params.protect, params.lookAhead, filtered);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/DevicesSheet.h"
 
+#include "editor/Controls.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -24,8 +25,17 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
       controllerOutput(wantedControllers),
       selector(wanted.devices(), 0, 256, 0, 256, false, false, false, false)
 {
-    prepare(sound, "Sound output", "Output channels for the sound", rig.soundTrim(), 6.0);
-    prepare(haptic, "Haptic output", "Output channel connected to the actuator's amplifier", rig.hapticTrim(), 0.0);
+    prepareSound();
+    hapticLabel.setText("Haptic output", juce::dontSendNotification);
+    hapticLabel.setFont(editor::usualFont());
+    hapticLabel.setAccessible(false);
+    hapticButton.setButtonText("Haptic outputs...");
+    editor::prepareButton(hapticButton, "Outputs that clips play on: actuator, gain, delay and position of each",
+                          [this]
+                          {
+                              if (onHapticOutputs)
+                                  onHapticOutputs();
+                          });
     controllerLabel.setText("Controller", juce::dontSendNotification);
     controllerLabel.setFont(editor::usualFont());
     controllerLabel.setAccessible(false);
@@ -36,8 +46,8 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
     {
         chooseController();
     };
-    for (juce::Component* part :
-         std::initializer_list<juce::Component*>{&controllerLabel, &controllerChoice, &controllerNote})
+    for (juce::Component* part : std::initializer_list<juce::Component*>{&hapticLabel, &hapticButton, &controllerLabel,
+                                                                         &controllerChoice, &controllerNote})
         addAndMakeVisible(part);
     addAndMakeVisible(selector);
     rig.devices().addChangeListener(this);
@@ -45,17 +55,17 @@ DevicesSheet::DevicesSheet(PreviewDevices& wanted, ControllerOutput& wantedContr
     fill();
 }
 
-void DevicesSheet::prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
-                           double maxLevel)
+void DevicesSheet::prepareSound()
 {
-    output.label.setText(name, juce::dontSendNotification);
-    output.label.setFont(editor::usualFont());
-    output.label.setAccessible(false);
-    output.channel.setTitle(name);
-    output.channel.setTooltip(help);
-    output.channel.onChange = [this]
+    const juce::String name = "Sound output";
+    soundLabel.setText(name, juce::dontSendNotification);
+    soundLabel.setFont(editor::usualFont());
+    soundLabel.setAccessible(false);
+    soundChannel.setTitle(name);
+    soundChannel.setTooltip("Output channels for the sound");
+    soundChannel.onChange = [this]
     {
-        rig.setOutputs({sound.channel.getSelectedId() - none - 1, haptic.channel.getSelectedId() - none - 1});
+        rig.setSoundOutput(soundChannel.getSelectedId() - none - 1);
     };
     const auto slider = [](juce::Slider& one, const juce::String& title, const juce::String& tip,
                            const juce::String& unit, juce::Range<double> range, double step)
@@ -69,21 +79,21 @@ void DevicesSheet::prepare(Output& output, const juce::String& name, const juce:
         one.setDoubleClickReturnValue(true, 0.0);
         one.setWantsKeyboardFocus(true);
     };
-    slider(output.level, editor::tr("{0}: level", {editor::tr(name)}), "Level in dB", " dB", {-60.0, maxLevel}, 0.5);
-    slider(output.delay, editor::tr("{0}: delay", {editor::tr(name)}), "Delay in ms, to align sound and haptics", " ms",
+    slider(soundLevel, editor::tr("{0}: level", {editor::tr(name)}), "Level in dB", " dB", {-60.0, 6.0}, 0.5);
+    slider(soundDelay, editor::tr("{0}: delay", {editor::tr(name)}), "Delay in ms, to align sound and haptics", " ms",
            {0.0, 1000.0 * editor::OutputTrim::longestDelay}, 1.0);
-    output.level.setValue(juce::Decibels::gainToDecibels(trim.levelNow(), -60.0), juce::dontSendNotification);
-    output.delay.setValue(1000.0 * trim.delayNow(), juce::dontSendNotification);
-    output.level.onValueChange = [&output, &trim]
+    soundLevel.setValue(juce::Decibels::gainToDecibels(rig.soundTrim().levelNow(), -60.0), juce::dontSendNotification);
+    soundDelay.setValue(1000.0 * rig.soundTrim().delayNow(), juce::dontSendNotification);
+    soundLevel.onValueChange = [this]
     {
-        trim.setLevel(juce::Decibels::decibelsToGain(output.level.getValue(), -60.0));
+        rig.soundTrim().setLevel(juce::Decibels::decibelsToGain(soundLevel.getValue(), -60.0));
     };
-    output.delay.onValueChange = [&output, &trim]
+    soundDelay.onValueChange = [this]
     {
-        trim.setDelay(0.001 * output.delay.getValue());
+        rig.soundTrim().setDelay(0.001 * soundDelay.getValue());
     };
     for (juce::Component* part :
-         std::initializer_list<juce::Component*>{&output.label, &output.channel, &output.level, &output.delay})
+         std::initializer_list<juce::Component*>{&soundLabel, &soundChannel, &soundLevel, &soundDelay})
         addAndMakeVisible(part);
 }
 
@@ -95,21 +105,11 @@ DevicesSheet::~DevicesSheet()
 void DevicesSheet::fill()
 {
     const auto names = rig.outputNames();
-    const PreviewOutputs now = rig.outputs();
-    sound.channel.clear(juce::dontSendNotification);
-    haptic.channel.clear(juce::dontSendNotification);
-    sound.channel.addItem(editor::tr("None"), none);
-    haptic.channel.addItem(editor::tr("None"), none);
-    for (int c = 0; c < names.size(); ++c)
-    {
-        if (c % 2 == 0)
-            sound.channel.addItem(editor::tr("Outputs {0}+{1}", {juce::String(c + 1), juce::String(c + 2)}),
-                                  none + 1 + c);
-        haptic.channel.addItem(juce::String(c + 1) + "  " + names[c], none + 1 + c);
-    }
-    sound.channel.setSelectedId(none + 1 + now.sound, juce::dontSendNotification);
-    haptic.channel.setSelectedId(none + 1 + std::min(now.haptic, std::max(-1, names.size() - 1)),
-                                 juce::dontSendNotification);
+    soundChannel.clear(juce::dontSendNotification);
+    soundChannel.addItem(editor::tr("None"), none);
+    for (int c = 0; c < names.size(); c += 2)
+        soundChannel.addItem(editor::tr("Outputs {0}+{1}", {juce::String(c + 1), juce::String(c + 2)}), none + 1 + c);
+    soundChannel.setSelectedId(none + 1 + rig.soundOutput(), juce::dontSendNotification);
 }
 
 /// Controllers come and go while the sheet is open.
@@ -164,17 +164,18 @@ void DevicesSheet::say(const juce::String& text)
 
 void DevicesSheet::layOut(juce::Rectangle<int> area)
 {
-    for (Output* output : {&sound, &haptic})
-    {
-        auto row = area.removeFromTop(4 * grid);
-        output->label.setBounds(row.removeFromLeft(11 * grid));
-        const int third = row.getWidth() / 3;
-        output->channel.setBounds(row.removeFromLeft(third).reduced(0, 2));
-        output->level.setBounds(row.removeFromLeft(third).withTrimmedLeft(grid));
-        output->delay.setBounds(row.withTrimmedLeft(grid));
-        area.removeFromTop(grid);
-    }
     auto row = area.removeFromTop(4 * grid);
+    soundLabel.setBounds(row.removeFromLeft(11 * grid));
+    const int third = row.getWidth() / 3;
+    soundChannel.setBounds(row.removeFromLeft(third).reduced(0, 2));
+    soundLevel.setBounds(row.removeFromLeft(third).withTrimmedLeft(grid));
+    soundDelay.setBounds(row.withTrimmedLeft(grid));
+    area.removeFromTop(grid);
+    row = area.removeFromTop(4 * grid);
+    hapticLabel.setBounds(row.removeFromLeft(11 * grid));
+    hapticButton.setBounds(row.removeFromLeft(third).reduced(0, 2));
+    area.removeFromTop(grid);
+    row = area.removeFromTop(4 * grid);
     controllerLabel.setBounds(row.removeFromLeft(11 * grid));
     controllerChoice.setBounds(row.removeFromLeft(row.getWidth() / 3).reduced(0, 2));
     controllerNote.setBounds(row.withTrimmedLeft(grid));

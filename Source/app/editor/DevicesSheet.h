@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Dialog for the sound device, the channels of sound and drive signal, and the game controller.
+// Dialog for the sound device, the channels of the sound, and the game controller.
 
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"
@@ -18,6 +18,8 @@ public:
     DevicesSheet(PreviewDevices& wanted, ControllerOutput& controllers);
     ~DevicesSheet() override;
 
+    std::function<void()> onHapticOutputs; ///< their sheet is wanted
+
 private:
     void layOut(juce::Rectangle<int> area) override;
     void changeListenerCallback(juce::ChangeBroadcaster*) override { fill(); }
@@ -29,17 +31,12 @@ private:
 
     PreviewDevices& rig;
     ControllerOutput& controllerOutput;
-    /// One output: where it goes, how loud and how late.
-    struct Output
-    {
-        juce::Label label;
-        juce::ComboBox channel;
-        juce::Slider level, delay;
-    };
-    void prepare(Output& output, const juce::String& name, const juce::String& help, editor::OutputTrim& trim,
-                 double maxLevel);
+    void prepareSound();
 
-    Output sound, haptic;
+    juce::Label soundLabel, hapticLabel;
+    juce::ComboBox soundChannel;
+    juce::Slider soundLevel, soundDelay;
+    juce::TextButton hapticButton;
     juce::Label controllerLabel, controllerNote;
     juce::ComboBox controllerChoice;
     std::vector<devices::Controller> controllers; ///< of the choice, from its second item on

@@ -102,12 +102,12 @@ public:
         if (!fresh)
             addOwnProfiles(profiles, ownProfiles);
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
-        rig = std::make_unique<PreviewDevices>(session->player);
+        rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
         std::unique_ptr<juce::XmlElement> devices;
         if (settings)
         {
             devices = settings->devices();
-            settings->apply(*rig);
+            settings->apply(*rig, session->outputs);
         }
         if (const auto error = rig->open(devices.get(), editor::toText(deviceType)); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);

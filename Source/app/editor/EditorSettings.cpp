@@ -10,6 +10,12 @@ namespace
 {
 using editor::SoundView;
 
+/// The first has no number: so it was kept when there was only one.
+juce::String hapticKey(std::size_t output, const char* what)
+{
+    return juce::String("haptic") + (output == 0 ? juce::String() : juce::String(static_cast<int>(output) + 1)) + what;
+}
+
 /// Calls `visit(name, value)` for all that a user can choose about the view.
 template <typename Visit>
 void forAll(editor::ViewOptions& view, SnapTargets& snap, Visit&& visit)
@@ -29,14 +35,27 @@ EditorSettings::EditorSettings(const juce::File& folder)
 {
 }
 
-void EditorSettings::apply(PreviewDevices& rig) const
+void EditorSettings::apply(PreviewDevices& rig, editor::HapticOutputs& outputs) const
 {
-    for (auto [name, trim] : {std::pair("sound", &rig.soundTrim()), std::pair("haptic", &rig.hapticTrim())})
+    rig.soundTrim().setLevel(file.getDoubleValue("soundLevel", 1.0));
+    rig.soundTrim().setDelay(file.getDoubleValue("soundDelay", 0.0));
+    rig.setSoundOutput(file.getIntValue("soundOutput", 0));
+    std::vector<editor::HapticOutput> list(static_cast<std::size_t>(
+        juce::jlimit(1, static_cast<int>(outputs.most), file.getIntValue("hapticOutputs", 1))));
+    for (std::size_t i = 0; i < list.size(); ++i)
     {
-        trim->setLevel(file.getDoubleValue(juce::String(name) + "Level", 1.0));
-        trim->setDelay(file.getDoubleValue(juce::String(name) + "Delay", 0.0));
+        editor::HapticOutput& output = list[i];
+        output.channel = file.getIntValue(hapticKey(i, "Output"), 2 + static_cast<int>(i));
+        output.actuator = file.getValue(hapticKey(i, "Actuator")).toStdString();
+        output.gain = juce::Decibels::gainToDecibels(file.getDoubleValue(hapticKey(i, "Level"), 1.0),
+                                                     editor::HapticOutputs::leastGain);
+        output.delay = file.getDoubleValue(hapticKey(i, "Delay"), 0.0);
+        output.place = file.getDoubleValue(hapticKey(i, "Place"), RowPlaces::placeOf(i, list.size()));
     }
-    rig.setOutputs({file.getIntValue("soundOutput", 0), file.getIntValue("hapticOutput", 2)});
+    outputs.setOutputs(std::move(list));
+    const int law = file.getIntValue("hapticPan", -1);
+    outputs.setPan(law >= 0 && law <= static_cast<int>(PanLaw::both) ? std::optional(static_cast<PanLaw>(law))
+                                                                     : std::nullopt);
 }
 
 void EditorSettings::apply(editor::EditorView& view) const
@@ -70,13 +89,22 @@ void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const j
     file.setValue("soundView", static_cast<int>(options.sound));
     file.setValue("follow", static_cast<int>(options.follow));
     file.setValue("window", windowState);
-    file.setValue("soundOutput", rig.outputs().sound);
-    file.setValue("hapticOutput", rig.outputs().haptic);
-    for (auto [name, trim] : {std::pair("sound", &rig.soundTrim()), std::pair("haptic", &rig.hapticTrim())})
+    file.setValue("soundOutput", rig.soundOutput());
+    file.setValue("soundLevel", rig.soundTrim().levelNow());
+    file.setValue("soundDelay", rig.soundTrim().delayNow());
+    const editor::HapticOutputs& outputs = view.session().outputs;
+    file.setValue("hapticOutputs", static_cast<int>(outputs.outputs().size()));
+    for (std::size_t i = 0; i < outputs.outputs().size(); ++i)
     {
-        file.setValue(juce::String(name) + "Level", trim->levelNow());
-        file.setValue(juce::String(name) + "Delay", trim->delayNow());
+        const editor::HapticOutput& output = outputs.outputs()[i];
+        file.setValue(hapticKey(i, "Output"), output.channel);
+        file.setValue(hapticKey(i, "Actuator"), juce::String(output.actuator));
+        file.setValue(hapticKey(i, "Level"),
+                      juce::Decibels::decibelsToGain(output.gain, editor::HapticOutputs::leastGain));
+        file.setValue(hapticKey(i, "Delay"), output.delay);
+        file.setValue(hapticKey(i, "Place"), output.place);
     }
+    file.setValue("hapticPan", outputs.pan() ? static_cast<int>(*outputs.pan()) : -1);
     if (const auto devices = rig.devices().createStateXml())
         file.setValue("devices", devices.get());
     file.saveIfNeeded();

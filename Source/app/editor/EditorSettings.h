@@ -26,7 +26,7 @@ public:
     [[nodiscard]] juce::String language() const { return file.getValue("language", "en"); }
     void keepLanguage(const juce::String& code) { file.setValue("language", code); }
     [[nodiscard]] juce::String window() const { return file.getValue("window"); }
-    void apply(PreviewDevices& rig) const;
+    void apply(PreviewDevices& rig, editor::HapticOutputs& outputs) const;
     void apply(editor::EditorView& view) const;
 
     void keep(PreviewDevices& rig, editor::EditorView& view, const juce::String& windowState);

@@ -34,6 +34,10 @@ editor::HostServices EditorWindow::completed(editor::HostServices around)
     {
         showDevices();
     };
+    around.outputNames = [this]
+    {
+        return rig.outputNames();
+    };
     around.measureRig = std::make_shared<MeasureDevice>(rig.devices());
     return around;
 }
@@ -50,7 +54,12 @@ void EditorWindow::closeButtonPressed()
 
 void EditorWindow::showDevices()
 {
-    content.showSheet(std::make_unique<DevicesSheet>(rig, controllers));
+    auto sheet = std::make_unique<DevicesSheet>(rig, controllers);
+    sheet->onHapticOutputs = [this]
+    {
+        content.doCommand(editor::hapticOutputs);
+    };
+    content.showSheet(std::move(sheet));
 }
 
 } // namespace pacini::app

@@ -12,7 +12,26 @@
 namespace pacini::app
 {
 
-PreviewDevices::PreviewDevices(ClipPlayer& wanted) : player(wanted) {}
+PreviewDevices::PreviewDevices(ClipPlayer& wanted, const editor::HapticOutputs& hapticOutputs)
+    : player(wanted), haptic(hapticOutputs)
+{
+    subscriptions.on({&haptic.changed}, [this] { follow(); });
+    follow();
+}
+
+void PreviewDevices::follow()
+{
+    const auto& outputs = haptic.outputs();
+    for (std::size_t i = 0; i < mostHaptic; ++i)
+    {
+        const bool there = i < outputs.size();
+        hapticChannels[i].store(there ? outputs[i].channel : -1, std::memory_order_relaxed);
+        if (!there)
+            continue;
+        hapticLevels[i].setLevel(juce::Decibels::decibelsToGain(outputs[i].gain, editor::HapticOutputs::leastGain));
+        hapticLevels[i].setDelay(outputs[i].delay);
+    }
+}
 
 PreviewDevices::~PreviewDevices()
 {
@@ -34,12 +53,6 @@ juce::StringArray PreviewDevices::outputNames() const
     return device != nullptr ? device->getOutputChannelNames() : juce::StringArray();
 }
 
-void PreviewDevices::setOutputs(PreviewOutputs wanted) noexcept
-{
-    soundOutput.store(wanted.sound, std::memory_order_relaxed);
-    hapticOutput.store(wanted.haptic, std::memory_order_relaxed);
-}
-
 void PreviewDevices::audioDeviceAboutToStart(juce::AudioIODevice* device)
 {
     rate.store(device->getCurrentSampleRate());
@@ -58,7 +71,8 @@ void PreviewDevices::handleAsyncUpdate()
         return; // silence rather than another pitch
     player.prepare(now);
     soundLevel.prepare(now);
-    hapticLevel.prepare(now);
+    for (editor::OutputTrim& level : hapticLevels)
+        level.prepare(now);
     running.store(true);
 }
 
@@ -71,9 +85,17 @@ void PreviewDevices::audioDeviceIOCallbackWithContext(const float* const*, int, 
     inside.store(true);
     if (running.load())
     {
-        const PreviewOutputs now = outputs();
-        // Sound and touch share the last channel rather than that one is lost.
-        const int haptic = now.haptic < 0 ? -1 : std::min(now.haptic, outs - 1);
+        const int firstSound = soundOutput();
+        std::array<int, mostHaptic> to{};
+        for (std::size_t i = 0; i < mostHaptic; ++i)
+        {
+            // Sound and touch share the last channel rather than that one is lost; two drives never share one, since
+            // each is within the limits of its actuator and their sum need not be.
+            to[i] = std::min(hapticChannels[i].load(std::memory_order_relaxed), outs - 1);
+            if (std::find(to.begin(), to.begin() + static_cast<std::ptrdiff_t>(i), to[i]) !=
+                to.begin() + static_cast<std::ptrdiff_t>(i))
+                to[i] = -1;
+        }
         for (int done = 0; done < frames; done += pieceFrames)
         {
             const int n = std::min(pieceFrames, frames - done);
@@ -81,21 +103,26 @@ void PreviewDevices::audioDeviceIOCallbackWithContext(const float* const*, int, 
             {
                 return std::span<float>(buffer.getWritePointer(c), static_cast<std::size_t>(n));
             };
-            const std::array<std::span<float>, 2> sound{channel(1), channel(2)};
-            const std::array<std::span<float>, 1> touch{channel(0)};
-            player.process(touch[0], sound);
+            const std::array<std::span<float>, 2> sound{channel(0), channel(1)};
+            std::array<std::span<float>, mostHaptic> touch;
+            for (std::size_t i = 0; i < mostHaptic; ++i)
+                touch[i] = channel(2 + static_cast<int>(i));
+            player.process(touch, sound);
             soundLevel.process(sound);
-            hapticLevel.process(touch);
-            const auto add = [&](int from, int to)
+            for (std::size_t i = 0; i < mostHaptic; ++i)
+                if (to[i] >= 0)
+                    hapticLevels[i].process(std::span(touch).subspan(i, 1));
+            const auto add = [&](int from, int output)
             {
-                if (to >= 0 && to < outs && out[to] != nullptr)
-                    juce::FloatVectorOperations::add(out[to] + done, buffer.getReadPointer(from), n);
+                if (output >= 0 && output < outs && out[output] != nullptr)
+                    juce::FloatVectorOperations::add(out[output] + done, buffer.getReadPointer(from), n);
             };
-            add(0, haptic);
-            if (now.sound >= 0)
+            for (std::size_t i = 0; i < mostHaptic; ++i)
+                add(2 + static_cast<int>(i), to[i]);
+            if (firstSound >= 0)
             {
-                add(1, now.sound);
-                add(2, now.sound + 1);
+                add(0, firstSound);
+                add(1, firstSound + 1);
             }
         }
     }

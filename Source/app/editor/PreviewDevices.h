@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sound device of the editor: sound and drive signal on channels of their own.
+// Sound device of the editor: sound and drive signals on channels of their own.
 
 #include "document/ClipPlayer.h"
+#include "editor/clip/session/HapticOutputs.h"
 #include "editor/clip/session/OutputTrim.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
@@ -14,18 +15,10 @@
 namespace pacini::app
 {
 
-/// Output channels, numbered from 0; -1 is none.
-struct PreviewOutputs
-{
-    int sound = 0;  ///< the first of two
-    int haptic = 2; ///< on devices with fewer channels the last one
-    bool operator==(const PreviewOutputs&) const = default;
-};
-
 class PreviewDevices final : private juce::AudioIODeviceCallback, private juce::AsyncUpdater
 {
 public:
-    explicit PreviewDevices(ClipPlayer& wanted);
+    PreviewDevices(ClipPlayer& wanted, const editor::HapticOutputs& hapticOutputs);
     ~PreviewDevices() override;
 
     /// Opens a device; an error text, empty when all is well. [message]
@@ -33,14 +26,11 @@ public:
     [[nodiscard]] juce::AudioDeviceManager& devices() noexcept { return manager; }
     [[nodiscard]] juce::StringArray outputNames() const;
 
-    [[nodiscard]] PreviewOutputs outputs() const noexcept
-    {
-        return {soundOutput.load(std::memory_order_relaxed), hapticOutput.load(std::memory_order_relaxed)};
-    }
-    void setOutputs(PreviewOutputs wanted) noexcept;
+    /// The first of two channels where the sound is heard, from 0; -1: none.
+    [[nodiscard]] int soundOutput() const noexcept { return soundChannel.load(std::memory_order_relaxed); }
+    void setSoundOutput(int first) noexcept { soundChannel.store(first, std::memory_order_relaxed); }
 
     [[nodiscard]] editor::OutputTrim& soundTrim() noexcept { return soundLevel; }
-    [[nodiscard]] editor::OutputTrim& hapticTrim() noexcept { return hapticLevel; }
 
 private:
     static constexpr int pieceFrames = 1024;
@@ -51,15 +41,22 @@ private:
     void audioDeviceIOCallbackWithContext(const float* const* in, int ins, float* const* out, int outs, int frames,
                                           const juce::AudioIODeviceCallbackContext& context) override;
     void handleAsyncUpdate() override;
+    void follow();
+
+    static constexpr std::size_t mostHaptic = editor::HapticOutputs::most;
 
     ClipPlayer& player;
+    const editor::HapticOutputs& haptic;
     juce::AudioDeviceManager manager;
-    std::atomic<int> soundOutput{0}, hapticOutput{2};
-    editor::OutputTrim soundLevel, hapticLevel;
+    std::atomic<int> soundChannel{0};
+    std::array<std::atomic<int>, mostHaptic> hapticChannels{}; ///< of each output; -1: none
+    editor::OutputTrim soundLevel;
+    std::array<editor::OutputTrim, mostHaptic> hapticLevels;
     std::atomic<double> rate{48000.0};
     std::atomic<bool> running{false}; ///< the player knows the device's rate
     std::atomic<bool> inside{false};  ///< the callback uses the player
-    juce::AudioBuffer<float> buffer{3, pieceFrames};
+    juce::AudioBuffer<float> buffer{2 + static_cast<int>(mostHaptic), pieceFrames};
+    editor::Subscriptions subscriptions;
 };
 
 } // namespace pacini::app

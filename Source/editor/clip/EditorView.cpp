@@ -40,7 +40,7 @@ EditorView::EditorView(Session& shared, HostServices around)
       toolbar(shared.model, shared.actuators, shared.transport),
       clipPart(shared),
       side(*this),
-      meters(shared.actuators, shared.transport, shared.player),
+      meters(shared.actuators, shared.outputs, shared.transport, shared.player),
       empty(shared.model, host.demoSounds),
       workBar(shared.model, shared.sounds)
 {
@@ -82,6 +82,7 @@ EditorView::EditorView(Session& shared, HostServices around)
     translateTexts(body);
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
                      [this] { arrange(); });
+    subscriptions.on({&open.outputs.changed}, [this] { resized(); });
     subscriptions.on({&open.model.projectChanged, &open.model.versionChanged, &open.clipSelection.changed,
                       &open.clipSelection.rangeChanged, &open.transport.changed, &open.transport.loopChanged,
                       &open.sounds.workChanged},
@@ -151,7 +152,7 @@ void EditorView::resized()
     toolbar.setBounds(area.removeFromTop(toolbarHeight));
     empty.setBounds(area);
     auto beside = area.removeFromRight(sideWidth);
-    meters.setBounds(beside.removeFromBottom(MeterPanel::height));
+    meters.setBounds(beside.removeFromBottom(meters.wantedHeight()));
     side.setBounds(beside);
     clipPart.setBounds(area);
     workBar.setBounds(area.withTrimmedBottom(7 * grid)

@@ -3,6 +3,7 @@
 
 // Row of haptic channels: gain, delay and panning of each, between its drive and its output.
 
+#include "document/RowPlaces.h"
 #include "plugin/engine/Panorama.h"
 #include "plugin/engine/ParameterValues.h"
 
@@ -59,22 +60,17 @@ public:
         law = static_cast<PanLaw>(values.index(ParameterId::panLaw));
         wanted = values[ParameterId::position];
         const bool asSet = values.index(ParameterId::places) == 1;
-        const double last = static_cast<double>(std::max<std::size_t>(count, 2) - 1);
+        std::array<double, maxHapticChannels> spots{};
         for (std::size_t c = 0; c < count; ++c)
         {
             Aim& each = aims[c];
             const double dB = values[channelParameter(c, ChannelSetting::gain)];
             each.gain = dB <= rowOf(channelParameter(c, ChannelSetting::gain)).low ? 0.0 : std::pow(10.0, dB / 20.0);
             each.delay = 0.001 * values[channelParameter(c, ChannelSetting::delay)] * fs;
-            each.place = asSet ? values[channelParameter(c, ChannelSetting::place)] : static_cast<double>(c) / last;
+            each.place = asSet ? values[channelParameter(c, ChannelSetting::place)] : RowPlaces::placeOf(c, count);
+            spots[c] = each.place;
         }
-        for (std::size_t c = 0; c < count; ++c)
-        {
-            aims[c].rank = 0;
-            for (std::size_t other = 0; other < count; ++other)
-                aims[c].rank += aims[other].place < aims[c].place || (aims[other].place == aims[c].place && other < c);
-            ranked[aims[c].rank] = aims[c].place;
-        }
+        row = RowPlaces(std::span(spots).first(count));
     }
 
     /// Whether a channel has faded out, as it was asked to. [audio]
@@ -114,7 +110,6 @@ private:
         double gain = 1.0;
         double delay = 0.0; // frames
         double place = 0.0;
-        std::size_t rank = 0; // among the places
         bool muted = false;
     };
 
@@ -131,23 +126,12 @@ private:
         return from + std::clamp(to - from, -most, most);
     }
 
-    /// `position` on the scale of the row: whole numbers at its places, nothing beyond the outer ones.
-    [[nodiscard]] double onRow(double at) const noexcept
-    {
-        std::size_t below = 0;
-        while (below + 1 < count && ranked[below + 1] <= at)
-            ++below;
-        const double way = below + 1 < count ? ranked[below + 1] - ranked[below] : 0.0;
-        const double part = way > 0.0 ? std::clamp((at - ranked[below]) / way, 0.0, 1.0) : 0.0;
-        return static_cast<double>(below) + part;
-    }
-
     void beginChord() noexcept
     {
         const double most = begun ? static_cast<double>(chord) / (0.010 * fs) : 1.0;
         position = towards(position, pan == PanChoice::panorama ? panorama.position() : wanted, most);
         const bool moves = pan != PanChoice::off && count > 1;
-        const double place = moves ? onRow(position) / static_cast<double>(count - 1) : 0.0;
+        const double place = moves ? row.onRow(position) : 0.0;
         for (std::size_t c = 0; c < count; ++c)
         {
             const Aim& aim = aims[c];
@@ -159,7 +143,7 @@ private:
             double delay = aim.delay;
             if (moves)
             {
-                level *= panGain(law, place, aim.rank, count);
+                level *= panGain(law, place, row.rank(c), count);
                 if (law != PanLaw::constantPower)
                     delay += longestPanDelay * fs * std::abs(position - aim.place);
             }
@@ -203,7 +187,7 @@ private:
     double fs = 48000.0;
     std::vector<DelayTap> taps;
     std::array<Aim, maxHapticChannels> aims{};
-    std::array<double, maxHapticChannels> ranked{};
+    RowPlaces row;
     std::array<Send, maxHapticChannels> sends{};
     Panorama panorama;
     PanChoice pan = PanChoice::off;

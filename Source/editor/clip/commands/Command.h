@@ -95,6 +95,7 @@ enum Command : int
     largerInterface,
     smallerInterface,
     soundDevices,
+    hapticOutputs,
     preferences,
 
     measureActuator,

@@ -2,6 +2,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
+#include "editor/clip/sheets/OutputsSheet.h"
 #include "editor/clip/sheets/PreferencesSheet.h"
 
 namespace pacini::editor
@@ -149,6 +150,13 @@ Menu viewMenu(EditorView& view)
         menu.add(soundDevices, "Audio devices...", "Chooses the audio device and its outputs",
                  [&view] { view.hostServices().showDevices(); });
     }
+    if (view.hostServices().outputNames)
+        menu.add(hapticOutputs, "Haptic outputs...", "The outputs that clips play on: actuator, gain, delay and place",
+                 [&view, &session]
+                 {
+                     view.showSheet(std::make_unique<OutputsSheet>(session.outputs, session.actuators,
+                                                                   view.hostServices().outputNames()));
+                 });
     return menu;
 }
 

@@ -3,7 +3,9 @@
 
 #include "editor/Controls.h"
 #include "editor/Theme.h"
+#include "editor/Translation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,14 +17,15 @@ namespace
 constexpr int rate = 30;            // Hz
 constexpr int fallCalls = 5 * rate; // until all bars are down
 constexpr double leastShown = 0.05; // dB
+constexpr int meterHeight = 30;
 } // namespace
 
-MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, ClipPlayer& played)
+MeterPanel::MeterPanel(const Actuators& profiles, const HapticOutputs& hapticOutputs, const Transport& playing,
+                       ClipPlayer& played)
     : actuators(profiles),
+      outputs(hapticOutputs),
       transport(playing),
       player(played),
-      output("Output", "Peak of the drive signal in dB; 0 dB is full drive",
-             {.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}),
       reduction("Gain reduction", "Gain reduction by the actuator's protection, dB",
                 {.low = 0.0f, .high = 24.0f, .from = 0.0f, .warnAbove = 6.0f}),
       felt("Above touch threshold", "Drive level above the touch threshold of the chosen actuator, dB",
@@ -30,10 +33,35 @@ MeterPanel::MeterPanel(const Actuators& profiles, const Transport& playing, Clip
 {
     setTitle("Meters");
     setOpaque(true);
-    addAll(*this, {&output, &reduction, &felt});
+    addAll(*this, {&reduction, &felt});
+    makeLevels();
     felt.show(-std::numeric_limits<double>::infinity());
     subscriptions.on({&transport.changed, &actuators.changed}, [this] { follow(); });
+    subscriptions.on({&outputs.changed}, [this] { makeLevels(); });
     follow();
+}
+
+int MeterPanel::wantedHeight() const noexcept
+{
+    return (static_cast<int>(levels.size()) + 2) * meterHeight + 12;
+}
+
+void MeterPanel::makeLevels()
+{
+    const std::size_t wanted = outputs.outputs().size();
+    if (levels.size() == wanted)
+        return;
+    levels.clear();
+    for (std::size_t i = 0; i < wanted; ++i)
+    {
+        const juce::String name =
+            wanted == 1 ? tr("Output") : tr("Output") + " " + juce::String(static_cast<int>(i) + 1);
+        levels.push_back(
+            std::make_unique<LevelMeter>(name, tr("Peak of the drive signal in dB; 0 dB is full drive"),
+                                         LevelMeter::Scale{.low = -60.0f, .high = 0.0f, .warnAbove = -0.1f}));
+        addAndMakeVisible(*levels.back());
+    }
+    resized();
 }
 
 void MeterPanel::follow()
@@ -49,11 +77,20 @@ void MeterPanel::follow()
 
 void MeterPanel::timerCallback()
 {
-    const auto reading = player.takeMeters();
-    const double level = 20.0 * std::log10(reading.peak);
+    double most = 0.0, taken = 0.0;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+        const auto reading = player.takeMeters(i);
+        // What is behind the protection is turned down by the gain of its output.
+        const double gain = outputs.outputs()[i].gain;
+        levels[i]->show(gain <= HapticOutputs::leastGain ? -std::numeric_limits<double>::infinity()
+                                                         : 20.0 * std::log10(reading.peak) + gain);
+        most = std::max(most, reading.peak);
+        taken = std::max(taken, reading.gainReduction);
+    }
+    const double level = 20.0 * std::log10(most);
     const auto profile = actuators.profile();
-    output.show(level);
-    reduction.show(reading.gainReduction > leastShown ? reading.gainReduction : -1.0);
+    reduction.show(taken > leastShown ? taken : -1.0);
     felt.show(profile ? level + profile->range.dynamicRange : -std::numeric_limits<double>::infinity());
     quiet = transport.isPlaying() ? 0 : quiet + 1;
     if (quiet > fallCalls)
@@ -70,8 +107,9 @@ void MeterPanel::paint(juce::Graphics& g)
 void MeterPanel::resized()
 {
     auto area = getLocalBounds().reduced(12, 6);
-    const int row = area.getHeight() / 3;
-    output.setBounds(area.removeFromTop(row));
+    const int row = area.getHeight() / (static_cast<int>(levels.size()) + 2);
+    for (const auto& level : levels)
+        level->setBounds(area.removeFromTop(row));
     reduction.setBounds(area.removeFromTop(row));
     felt.setBounds(area.removeFromTop(row));
 }

@@ -8,28 +8,36 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <memory>
+#include <vector>
+
 namespace pacini::editor
 {
 
-/// Output level, gain reduction and level above the threshold of touch, which is known of a chosen actuator only.
+/// Level of each output, gain reduction and level above the threshold of touch, which is known of a chosen actuator
+/// only.
 class MeterPanel final : public juce::Component, private juce::Timer
 {
 public:
-    static constexpr int height = 3 * 30 + 12;
+    MeterPanel(const Actuators& profiles, const HapticOutputs& hapticOutputs, const Transport& playing,
+               ClipPlayer& played);
 
-    MeterPanel(const Actuators& profiles, const Transport& playing, ClipPlayer& played);
+    [[nodiscard]] int wantedHeight() const noexcept;
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     void follow();
+    void makeLevels();
     void timerCallback() override;
 
     const Actuators& actuators;
+    const HapticOutputs& outputs;
     const Transport& transport;
     ClipPlayer& player;
-    LevelMeter output, reduction, felt;
+    std::vector<std::unique_ptr<LevelMeter>> levels; ///< of each output
+    LevelMeter reduction, felt;
     int quiet = 0; ///< calls of the timer since something played
     Subscriptions subscriptions;
 };

@@ -5,6 +5,7 @@
 #include "editor/clip/EditorView.h"
 #include "editor/clip/panels/AnalysisPanel.h"
 #include "editor/clip/panels/Inspector.h"
+#include "editor/clip/panels/PlayPanel.h"
 #include "editor/clip/panels/ProjectPanel.h"
 
 namespace pacini::editor
@@ -47,6 +48,7 @@ SidePanel::SidePanel(EditorView& view) : TabbedComponent(juce::TabbedButtonBar::
     addPage("Edit", std::make_unique<Inspector>(view));
     addPage("Analysis", std::make_unique<AnalysisPanel>(view));
     addPage("Project", std::make_unique<ProjectPanel>(view));
+    addPage("Play", std::make_unique<PlayPanel>(view.session().transport, view.session().outputs));
 }
 
 void SidePanel::addPage(const juce::String& name, std::unique_ptr<juce::Component> content)

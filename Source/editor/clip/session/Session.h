@@ -24,10 +24,11 @@ struct Session
     EditorModel model;
     ProjectSounds sounds{model};
     Actuators actuators;
+    HapticOutputs outputs;
     ClipSelection clipSelection{model};
     ViewState viewState{model};
     ClipPlayer player; ///< runs in the callback of a device
-    Transport transport{model, sounds, actuators, clipSelection, player};
+    Transport transport{model, sounds, actuators, outputs, clipSelection, player};
 
 private:
     Subscriptions subscriptions;

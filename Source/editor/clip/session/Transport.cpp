@@ -8,14 +8,20 @@ namespace pacini::editor
 {
 
 Transport::Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
-                     const ClipSelection& selected, ClipPlayer& played)
-    : model(project), sounds(projectSounds), actuators(profiles), selection(selected), player(played)
+                     const HapticOutputs& hapticOutputs, const ClipSelection& selected, ClipPlayer& played)
+    : model(project),
+      sounds(projectSounds),
+      actuators(profiles),
+      outputs(hapticOutputs),
+      selection(selected),
+      player(played)
 {
     subscriptions.on({&model.shownChanged}, [this] { reset(); });
     subscriptions.on({&model.contentChanged, &model.versionChanged, &selection.rangeChanged}, [this] { send(); });
     subscriptions.on({&model.contentChanged, &sounds.changed},
                      [this] { player.setSound(audioOf(sounds.soundOfClip())); });
-    subscriptions.on({&actuators.changed}, [this] { player.setProfile(actuators.profile(), actuators.strength()); });
+    subscriptions.on({&actuators.changed, &actuators.listChanged, &outputs.changed},
+                     [this] { player.setRow(outputs.row(actuators)); });
 }
 
 /// For another clip.
@@ -62,6 +68,13 @@ void Transport::setAudition(Audition wanted)
     auditionNow = std::move(wanted);
     send();
     changed.emit();
+}
+
+void Transport::setControls(const PlayControls& wanted)
+{
+    live = wanted;
+    player.setControls(live);
+    controlsChanged.emit();
 }
 
 void Transport::play()

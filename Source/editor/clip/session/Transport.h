@@ -6,6 +6,7 @@
 #include "document/ClipPlayer.h"
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/ClipSelection.h"
+#include "editor/clip/session/HapticOutputs.h"
 #include "editor/clip/session/ProjectSounds.h"
 
 namespace pacini::editor
@@ -23,10 +24,11 @@ class Transport
 {
 public:
     Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
-              const ClipSelection& selected, ClipPlayer& player);
+              const HapticOutputs& hapticOutputs, const ClipSelection& selected, ClipPlayer& player);
 
     Signal changed;     ///< what is heard, playing or not, the playhead when it jumps
     Signal loopChanged; ///< whether the time range is looped
+    Signal controlsChanged;
 
     [[nodiscard]] bool isLooping() const noexcept { return looping; }
     void setLooping(bool wanted);
@@ -34,6 +36,10 @@ public:
     void setHeard(Heard wanted);
     [[nodiscard]] const Audition& audition() const noexcept { return auditionNow; }
     void setAudition(Audition wanted);
+
+    /// What is changed while it plays, of all that plays; the project knows nothing of it.
+    [[nodiscard]] const PlayControls& controls() const noexcept { return live; }
+    void setControls(const PlayControls& wanted);
 
     void play();
     void stop();
@@ -51,11 +57,13 @@ private:
     const EditorModel& model;
     const ProjectSounds& sounds;
     const Actuators& actuators;
+    const HapticOutputs& outputs;
     const ClipSelection& selection;
     ClipPlayer& player;
     bool looping = false;
     Heard hear = Heard::haptic;
     Audition auditionNow;
+    PlayControls live;
     double startTime = 0.0;
     Subscriptions subscriptions;
 };

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/panels/PlayPanel.h"
+
+#include "editor/Controls.h"
+#include "editor/Theme.h"
+
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int playRowHeight = 3 * grid;
+constexpr int playPreferredHeight = 52 * grid;
+constexpr int playLabelWidth = 9 * grid;
+constexpr double leastDecibels = -40.0, mostDecibels = 12.0;
+constexpr int noPan = 1; // menus know no item 0; the laws follow
+} // namespace
+
+PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
+    : transport(playing), outputs(hapticOutputs), resetButton("Reset")
+{
+    setTitle("Play");
+    prepare(gain, "Gain", "Gain of the touch in dB; the actuator's limits are kept", {leastDecibels, mostDecibels}, 0.5,
+            0.0, " dB");
+    prepare(intensity, "Intensity", "How much of the touch is played", {0.0, 100.0}, 1.0, 100.0, " %");
+    prepare(pitch, "Pitch", "Semitones by which all pitches are moved", {-24.0, 24.0}, 0.5, 0.0, " st");
+    prepare(speed, "Speed", "How fast the clip plays; pitches of the touch stay, those of the sound follow",
+            {0.25, 4.0}, 0.01, 1.0, {});
+    speed.slider.setSkewFactorFromMidPoint(1.0);
+    prepare(position, "Position", "Where the touch is over the places of the haptic outputs", {0.0, 100.0}, 1.0, 50.0,
+            " %");
+    panLabel.setText("Pan", juce::dontSendNotification);
+    panLabel.setFont(smallFont());
+    panLabel.setBorderSize({});
+    panLabel.setAccessible(false);
+    pan.setTitle("Pan");
+    pan.setTooltip("How the position counts: every output plays all, or levels, delays or both follow it");
+    pan.addItem("Off", noPan);
+    pan.addItem("Levels", noPan + 1 + static_cast<int>(PanLaw::constantPower));
+    pan.addItem("Delays", noPan + 1 + static_cast<int>(PanLaw::delay));
+    pan.addItem("Both", noPan + 1 + static_cast<int>(PanLaw::both));
+    pan.onChange = [this]
+    {
+        const int chosen = pan.getSelectedId() - noPan - 1;
+        outputs.setPan(chosen < 0 ? std::nullopt : std::optional(static_cast<PanLaw>(chosen)));
+    };
+    resetButton.setTitle("Reset live controls");
+    prepareButton(resetButton, "All live controls back to where the clip plays as it is",
+                  [this] { transport.setControls({}); });
+    note.setFont(smallFont());
+    note.setBorderSize({});
+    note.setJustificationType(juce::Justification::topLeft);
+    note.setText("Heard at once; the clip stays as it is.", juce::dontSendNotification);
+    note.setTitle("Live");
+    addAll(*this, {&resetButton, &note, &panLabel, &pan, &position.label, &position.slider});
+    setSize(200, playPreferredHeight);
+    subscriptions.on({&transport.controlsChanged, &outputs.changed}, [this] { show(); });
+    show();
+}
+
+void PlayPanel::prepare(Row& row, const juce::String& name, const juce::String& help, juce::Range<double> range,
+                        double step, double rest, const juce::String& unit)
+{
+    row.label.setText(name, juce::dontSendNotification);
+    row.label.setFont(smallFont());
+    row.label.setBorderSize({});
+    row.label.setAccessible(false);
+    juce::Slider& slider = row.slider;
+    slider.setSliderStyle(juce::Slider::LinearHorizontal);
+    slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 8 * grid, playRowHeight);
+    slider.setTitle(name);
+    slider.setTooltip(help);
+    slider.setRange(range, step);
+    slider.setTextValueSuffix(unit);
+    slider.setDoubleClickReturnValue(true, rest);
+    slider.setWantsKeyboardFocus(true);
+    slider.onValueChange = [this]
+    {
+        set();
+    };
+    addAndMakeVisible(row.label);
+    addAndMakeVisible(slider);
+}
+
+void PlayPanel::set()
+{
+    PlayControls wanted = transport.controls();
+    const double decibels = gain.slider.getValue();
+    wanted.gain = decibels <= leastDecibels ? 0.0 : std::pow(10.0, decibels / 20.0);
+    wanted.intensity = 0.01 * intensity.slider.getValue();
+    wanted.transposition = pitch.slider.getValue();
+    wanted.speed = speed.slider.getValue();
+    wanted.pan = 0.01 * position.slider.getValue();
+    transport.setControls(wanted);
+}
+
+void PlayPanel::show()
+{
+    const PlayControls& now = transport.controls();
+    const auto put = [](juce::Slider& slider, double value)
+    {
+        slider.setValue(value, juce::dontSendNotification);
+    };
+    put(gain.slider, now.gain > 0.0 ? 20.0 * std::log10(now.gain) : leastDecibels);
+    put(intensity.slider, 100.0 * now.intensity);
+    put(pitch.slider, now.transposition);
+    put(speed.slider, now.speed);
+    put(position.slider, 100.0 * now.pan);
+    pan.setSelectedId(outputs.pan() ? noPan + 1 + static_cast<int>(*outputs.pan()) : noPan, juce::dontSendNotification);
+    const bool several = outputs.outputs().size() > 1;
+    pan.setEnabled(several);
+    panLabel.setEnabled(several);
+    position.slider.setEnabled(several && outputs.pan());
+    position.label.setEnabled(position.slider.isEnabled());
+}
+
+void PlayPanel::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.background);
+    drawCard(g, liveCard, "Live", p);
+    drawCard(g, rowCard, "Over several outputs", p);
+}
+
+void PlayPanel::resized()
+{
+    auto area = getLocalBounds().reduced(grid);
+    liveCard = area.removeFromTop(29 * grid);
+    area.removeFromTop(grid);
+    rowCard = area.removeFromTop(13 * grid);
+    auto inside = insideOfCard(liveCard);
+    const auto put = [](juce::Rectangle<int>& from, juce::Component& label, juce::Component& control)
+    {
+        auto line = from.removeFromTop(playRowHeight);
+        from.removeFromTop(grid);
+        label.setBounds(line.removeFromLeft(playLabelWidth));
+        control.setBounds(line);
+    };
+    for (Row* row : {&gain, &intensity, &pitch, &speed})
+        put(inside, row->label, row->slider);
+    auto line = inside.removeFromTop(playRowHeight + 4);
+    resetButton.setBounds(line.removeFromLeft(9 * grid));
+    inside.removeFromTop(grid);
+    note.setBounds(inside);
+    inside = insideOfCard(rowCard);
+    put(inside, panLabel, pan);
+    put(inside, position.label, position.slider);
+}
+
+} // namespace pacini::editor

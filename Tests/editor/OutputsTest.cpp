@@ -1,0 +1,148 @@
+// Haptic outputs and live controls in the editor.
+
+#include "editor/Bench.h"
+#include "editor/Meters.h"
+#include "editor/clip/sheets/OutputsSheet.h"
+
+using namespace pacini;
+using test::EditorBench;
+using test::find;
+using test::get;
+
+TEST_CASE("One output plays the clip on the actuator of the project, as long as nobody wants more")
+{
+    EditorBench bench({test::shipped("lra-175"), test::shipped("erm-coin")});
+    bench.session.actuators.setProfile("lra-175");
+    const auto& outputs = bench.session.outputs;
+    REQUIRE(outputs.outputs().size() == 1);
+    CHECK(outputs.outputs()[0] == editor::HapticOutput{});
+    const PreviewRow row = outputs.row(bench.session.actuators);
+    CHECK(row.profiles.at(0) == bench.session.actuators.profile());
+    CHECK_FALSE(row.pan);
+    CHECK(find<editor::LevelMeter>(bench.view, "Output") != nullptr);
+    CHECK(find<editor::LevelMeter>(bench.view, "Output 2") == nullptr);
+}
+
+TEST_CASE("Outputs are added side by side, keep within their bounds, and have a meter each")
+{
+    EditorBench bench({test::shipped("lra-175"), test::shipped("erm-coin")});
+    bench.openDemo("drums_tabla_pattern");
+    auto& outputs = bench.session.outputs;
+    outputs.add();
+    outputs.add();
+    REQUIRE(outputs.outputs().size() == 3);
+    CHECK(outputs.outputs()[1].channel == 3);
+    CHECK(outputs.outputs()[1].place == 0.5);
+    CHECK(outputs.outputs()[2].place == 1.0);
+    auto list = outputs.outputs();
+    list[1].actuator = "erm-coin";
+    list[1].gain = 20.0;
+    list[1].delay = 9.0;
+    list[2].actuator = editor::HapticOutputs::plainDrive;
+    list[0].place = 0.25;
+    outputs.setOutputs(list);
+    CHECK(outputs.outputs()[1].gain == 0.0);
+    CHECK(outputs.outputs()[1].delay == editor::HapticOutputs::longestDelay);
+    const PreviewRow row = outputs.row(bench.session.actuators);
+    CHECK(row.profiles.at(1)->technology == Technology::erm);
+    CHECK(row.profiles.at(2) == nullptr);
+    CHECK(row.places == std::vector<double>{0.25, 0.5, 1.0});
+    for (int i = 1; i <= 3; ++i)
+        CHECK(get<editor::LevelMeter>(bench.view, "Output " + juce::String(i)).getHeight() > 15);
+    outputs.add();
+    CHECK(outputs.outputs()[0].place == 0.25); // set by hand: it stays
+    for (int i = 0; i < 10; ++i)
+        outputs.add();
+    CHECK(outputs.outputs().size() == 8);
+    for (int i = 0; i < 10; ++i)
+        outputs.removeLast();
+    CHECK(outputs.outputs().size() == 1);
+}
+
+TEST_CASE("The sheet of haptic outputs sets channel, actuator, gain, delay and place of each")
+{
+    EditorBench bench({test::shipped("lra-175"), test::shipped("erm-coin")});
+    auto& outputs = bench.session.outputs;
+    bench.view.showSheet(std::make_unique<editor::OutputsSheet>(outputs, bench.session.actuators,
+                                                                juce::StringArray{"a", "b", "c", "d"}));
+    auto& sheet = *bench.view.sheet();
+    get<juce::TextButton>(sheet, "Add output").onClick();
+    REQUIRE(outputs.outputs().size() == 2);
+    auto& channel = get<juce::ComboBox>(sheet, "Channel of output 2");
+    CHECK(channel.getText() == "4  d");
+    channel.setSelectedItemIndex(2, juce::sendNotificationSync);
+    CHECK(outputs.outputs()[1].channel == 1);
+    get<juce::ComboBox>(sheet, "Actuator of output 2").setSelectedItemIndex(3, juce::sendNotificationSync);
+    CHECK(outputs.outputs()[1].actuator == "erm-coin");
+    get<juce::ComboBox>(sheet, "Actuator of output 2").setSelectedItemIndex(0, juce::sendNotificationSync);
+    CHECK(outputs.outputs()[1].actuator.empty());
+    get<juce::Slider>(sheet, "Gain of output 2").setValue(-6.0, juce::sendNotificationSync);
+    get<juce::Slider>(sheet, "Delay of output 2").setValue(12.0, juce::sendNotificationSync);
+    CHECK_FALSE(get<juce::Slider>(sheet, "Place of output 2").isEnabled()); // nothing is panned
+    outputs.setPan(PanLaw::constantPower);
+    CHECK(get<juce::Slider>(sheet, "Place of output 2").isEnabled());
+    get<juce::Slider>(sheet, "Place of output 2").setValue(40.0, juce::sendNotificationSync);
+    CHECK(outputs.outputs()[1].gain == -6.0);
+    CHECK(outputs.outputs()[1].delay == Approx(0.012));
+    CHECK(outputs.outputs()[1].place == Approx(0.4));
+    // Keys reach all of it, from left to right.
+    for (const char* title : {"Channel of output", "Actuator of output", "Gain of output", "Delay of output"})
+        for (int i = 1; i <= 2; ++i)
+            CHECK(get<juce::Component>(sheet, juce::String(title) + " " + juce::String(i)).getWantsKeyboardFocus());
+    get<juce::TextButton>(sheet, "Remove last").onClick();
+    CHECK(outputs.outputs().size() == 1);
+}
+
+TEST_CASE("Live controls go to the player, stay out of the clip and are reset together")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    const Clip before = bench.clip();
+    auto& transport = bench.session.transport;
+    auto* page = bench.view.sidePanel().getTabContentComponent(3);
+    REQUIRE(page != nullptr);
+    get<juce::Slider>(*page, "Gain").setValue(-6.0, juce::sendNotificationSync);
+    get<juce::Slider>(*page, "Speed").setValue(2.0, juce::sendNotificationSync);
+    get<juce::Slider>(*page, "Pitch").setValue(3.0, juce::sendNotificationSync);
+    get<juce::Slider>(*page, "Intensity").setValue(40.0, juce::sendNotificationSync);
+    CHECK(transport.controls().gain == Approx(0.501187));
+    CHECK(transport.controls().speed == Approx(2.0));
+    CHECK(transport.controls().transposition == 3.0);
+    CHECK(transport.controls().intensity == Approx(0.4));
+    CHECK(bench.clip() == before);
+    CHECK_FALSE(get<juce::Slider>(*page, "Position").isEnabled());
+    bench.session.outputs.add();
+    get<juce::ComboBox>(*page, "Pan").setSelectedItemIndex(1, juce::sendNotificationSync);
+    CHECK(bench.session.outputs.pan() == PanLaw::constantPower);
+    CHECK(get<juce::Slider>(*page, "Position").isEnabled());
+    get<juce::Slider>(*page, "Position").setValue(100.0, juce::sendNotificationSync);
+    CHECK(transport.controls().pan == 1.0);
+    get<juce::TextButton>(*page, "Reset live controls").onClick();
+    CHECK(transport.controls().gain == 1.0);
+    CHECK(transport.controls().pan == 0.5);
+    CHECK(get<juce::Slider>(*page, "Gain").getValue() == 0.0);
+}
+
+TEST_CASE("A button that is on looks so without its colours, on dark and on light ground")
+{
+    EditorBench bench;
+    juce::TextButton button("Clips");
+    button.setSize(80, 26);
+    for (const bool dark : {true, false})
+    {
+        CAPTURE(dark);
+        editor::Look look;
+        look.setDark(dark);
+        button.setLookAndFeel(&look);
+        const auto brightness = [&](bool on)
+        {
+            button.setToggleState(on, juce::dontSendNotification);
+            const auto picture = button.createComponentSnapshot(button.getLocalBounds(), true, 1.0f);
+            return picture.getPixelAt(10, 13).getPerceivedBrightness();
+        };
+        CHECK(std::abs(brightness(true) - brightness(false)) > 0.4f);
+        const auto& palette = look.palette();
+        CHECK(std::abs(palette.text.getPerceivedBrightness() - palette.card.getPerceivedBrightness()) > 0.5f);
+        button.setLookAndFeel(nullptr);
+    }
+}
