@@ -47,7 +47,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     CHECK(after.envelope[i].value == Approx(expected.envelope[i].value).epsilon(1e-5));
     expected.envelope[i] = after.envelope[i];
     CHECK(after == expected);
-    CHECK(bench.session.model.document().undoName() == "Move points");
+    CHECK(bench.session.model.document().undoName() == "Move point");
 
     TempFolder folder;
     ExportChoice choice;
@@ -61,7 +61,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     // The whole drag is one step.
     bench.session.model.undo();
     CHECK(bench.clip() == before);
-    CHECK(bench.session.model.document().undoName() != "Move points");
+    CHECK(bench.session.model.document().undoName() != "Move point");
     bench.session.model.redo();
     CHECK(bench.clip() == expected);
 }

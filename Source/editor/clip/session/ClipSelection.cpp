@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/ClipSelection.h"
 
+#include "editor/clip/session/StepText.h"
+
 #include <utility>
 
 namespace pacini::editor
@@ -68,10 +70,10 @@ EditScope ClipSelection::scope() const
     return clip ? scopeOf(selectionNow, *clip, rangeNow) : EditScope{};
 }
 
-bool ClipSelection::setEdited(const char* name, EditedClip wanted, Gesture gesture)
+bool ClipSelection::setEdited(std::string name, EditedClip wanted, Gesture gesture)
 {
     edited = std::move(wanted.selection);
-    const bool done = model.setClip(name, std::move(wanted.clip), gesture);
+    const bool done = model.setClip(std::move(name), std::move(wanted.clip), gesture);
     edited.reset();
     return done;
 }
@@ -79,7 +81,7 @@ bool ClipSelection::setEdited(const char* name, EditedClip wanted, Gesture gestu
 void ClipSelection::deleteSelection()
 {
     if (const auto clip = model.clip(); clip && !isEmpty(selectionNow))
-        setEdited("Delete points", {deleteSelected(*clip, selectionNow), {}});
+        setEdited(stepName(SelectionStep::remove, selectionNow), {deleteSelected(*clip, selectionNow), {}});
 }
 
 void ClipSelection::copy()

@@ -8,6 +8,7 @@
 #include "editor/clip/session/EditorModel.h"
 
 #include <optional>
+#include <string>
 
 namespace pacini::editor
 {
@@ -29,7 +30,7 @@ public:
     [[nodiscard]] EditScope scope() const;
 
     /// An edited clip with where its selection went. False: told by the project's onError, and nothing has changed.
-    bool setEdited(const char* name, EditedClip edited, Gesture gesture = 0);
+    bool setEdited(std::string name, EditedClip edited, Gesture gesture = 0);
     void deleteSelection();
     void copy();
     void cut();

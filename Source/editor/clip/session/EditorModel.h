@@ -11,6 +11,7 @@
 
 #include <juce_core/juce_core.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -102,10 +103,12 @@ public:
 
     [[nodiscard]] Gesture beginGesture() noexcept { return open->beginGesture(); }
     [[nodiscard]] std::shared_ptr<const Clip> gestureStart(Gesture gesture) const;
-    bool edit(const char* name, EditOperation operation, Gesture gesture = 0);
-    bool setClip(const char* name, Clip edited, Gesture gesture = 0);
+    bool edit(std::string name, EditOperation operation, Gesture gesture = 0);
+    bool setClip(std::string name, Clip edited, Gesture gesture = 0);
     void undo();
     void redo();
+    /// To any state of document().steps().
+    void goTo(std::size_t state);
     /// Any other step of the document: what clips are called, their order, groups, notes.
     bool change(const std::function<Result<void>(Document&)>& step);
     /// A step that adds a clip, which is not shown for it: its id.
@@ -121,7 +124,6 @@ public:
 private:
     bool take(Result<void> result);
     void take(Document document);
-    void step(bool (Document::*through)());
     bool follow(int before);
     void documentChanged();
     [[nodiscard]] bool mayEdit(Gesture gesture) const;
