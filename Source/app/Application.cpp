@@ -3,6 +3,7 @@
 // The plugin as a program of its own.
 
 #include "app/AudioDevices.h"
+#include "app/Display.h"
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
 
@@ -26,6 +27,11 @@ public:
         if (const auto code = readCommandLine(choices, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);
+            return quit();
+        }
+        if (!hasDisplay("Pacini"))
+        {
+            setApplicationReturnValue(1);
             return quit();
         }
         if (!choices.fresh)

@@ -3,6 +3,7 @@
 // The clip editor as a program of its own.
 
 #include "app/CommandLine.h"
+#include "app/Display.h"
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewDevices.h"
@@ -83,6 +84,11 @@ public:
         if (const auto code = readCommandLine(options, PACINI_VERSION, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);
+            return quit();
+        }
+        if (!hasDisplay("PaciniEditor"))
+        {
+            setApplicationReturnValue(1);
             return quit();
         }
         std::vector<std::filesystem::path> files;
