@@ -68,7 +68,7 @@ void ResponseStep::refresh()
                                                  numberText(1e3 * response->findings.times->fallTime, 0) + " ms"});
         list.push_back({"Distortion", "at most " + numberText(response->findings.distortion, 1) + " %"});
         if (const auto& drift = measured.driftPpm)
-            list.push_back({"Clocks", (*drift > 0.0 ? "+" : "") + numberText(*drift, 1) + " ppm"});
+            list.push_back({"Clocks", signedText(*drift, 1) + " ppm"});
         list.push_back({"Latency", numberText(1e3 * measured.latency, 1) + " ms"});
         facts.show(std::move(list));
         for (const std::string& note : response->notes)
