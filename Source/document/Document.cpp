@@ -427,6 +427,32 @@ Result<void> Document::setClip(int id, std::string name, Clip edited, Gesture ge
     return change(id, std::move(name), std::move(edits), std::move(edited), gesture);
 }
 
+Result<void> Document::setClip(int id, std::string name, EditOperation first, Clip edited)
+{
+    const auto start = clip(id);
+    if (!start)
+        return noSuchClip(id);
+    if (auto wrong = checkOperation(first))
+        return *wrong;
+    if (auto valid = validate(edited); !valid)
+        return valid.error();
+    const auto between = applyEdit(*start->clip, first);
+    if (!between)
+        return between.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(first), *start->clip));
+    for (EditOperation& operation : editsBetween(*between, edited))
+        edits.push_back(anchored(std::move(operation), *between));
+    return change(id, std::move(name), std::move(edits), std::move(edited), 0);
+}
+
+Result<void> Document::restoreClip(ClipItem item, std::string name)
+{
+    if (content.findSource(item.source) == nullptr)
+        item.source = 0;
+    return replaceItem(std::move(item), std::move(name));
+}
+
 Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
                                  std::optional<AudioReference> sound)
 {

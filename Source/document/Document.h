@@ -75,6 +75,9 @@ public:
     /// Within a gesture, `edited` is made of gestureStart().
     Result<void> setClip(int id, std::string name, Clip edited, Gesture gesture = 0);
 
+    /// The same of a clip that `first` was applied to before: both are one step.
+    Result<void> setClip(int id, std::string name, EditOperation first, Clip edited);
+
     /// The clip that edits of a gesture start from: the current one when the gesture has none yet.
     [[nodiscard]] std::shared_ptr<const Clip> gestureStart(int id, Gesture gesture) const;
 
@@ -94,6 +97,10 @@ public:
 
     /// Removes edits by their indices (ascending) and applies the others anew.
     Result<void> removeEdits(int id, std::string name, const std::vector<std::size_t>& edits);
+
+    /// Puts a clip back as it was once, with its analysis and edits; its id says which. Where its sound is not in the
+    /// project any more, it has none.
+    Result<void> restoreClip(ClipItem item, std::string name);
 
     Result<int> duplicateClip(int id, std::string name);
     Result<void> removeClip(int id, std::string name);

@@ -145,6 +145,28 @@ TEST_CASE("Strength in the toolbar drives the actuator as the command does, and 
     }
 }
 
+TEST_CASE("The export starts from the format, rate and folder of the last one")
+{
+    StrengthBench bench;
+    const TempFolder folder;
+    {
+        OpenSheet sheet(bench);
+        sheet.choose("wav");
+        get<juce::ComboBox>(sheet.sheet, "Sample rate").setSelectedId(8000, juce::sendNotificationSync);
+        (void)sheet.written(bench, folder / "drive.wav");
+    }
+    OpenSheet again(bench);
+    CHECK(exportFormats()[static_cast<std::size_t>(again.format.getSelectedId() - 1)].name == "wav");
+    CHECK(get<juce::ComboBox>(again.sheet, "Sample rate").getSelectedId() == 8000);
+    CHECK(get<juce::TextEditor>(again.sheet, "File or folder to write")
+              .getText()
+              .startsWith(juce::String(folder.path().string())));
+    again.choose("ahap");
+    bench.view.showSheet(nullptr); // nothing was written
+    OpenSheet third(bench);
+    CHECK(exportFormats()[static_cast<std::size_t>(third.format.getSelectedId() - 1)].name == "wav");
+}
+
 TEST_CASE("What the actuator plays is shown with the strength, the old until the new is there")
 {
     StrengthBench bench;

@@ -70,14 +70,8 @@ Menu clipMenu(EditorView& view)
         [&session] { return session.model.isComparing(); }, {juce::KeyPress('c')},
         [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
-        takeVersionA, "Take version A", "The clip becomes version A",
-        [&session]
-        {
-            const auto kept = session.model.keptVersion();
-            session.model.setComparing(false);
-            session.clipSelection.setEdited("Take version A", {*kept, {}});
-        },
-        [&session] { return session.model.keptVersion() != nullptr; });
+        takeVersionA, "Take version A", "The clip becomes version A, with the settings of its analysis",
+        [&session] { session.model.takeVersion(); }, [&session] { return session.model.keptVersion() != nullptr; });
     menu.addLine();
     menu.add(duplicateClip, "Duplicate", "Adds a copy of the clip to the project",
              [&session] { session.model.duplicate(); }, anyClip, {ctrl('d')});

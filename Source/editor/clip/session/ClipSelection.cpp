@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/session/ClipSelection.h"
 
+#include "editor/Translation.h"
 #include "editor/clip/session/StepText.h"
 
 #include <utility>
@@ -78,6 +79,14 @@ bool ClipSelection::setEdited(std::string name, EditedClip wanted, Gesture gestu
     return done;
 }
 
+bool ClipSelection::setEdited(std::string name, EditOperation first, EditedClip wanted)
+{
+    edited = std::move(wanted.selection);
+    const bool done = model.setClip(std::move(name), std::move(first), std::move(wanted.clip));
+    edited.reset();
+    return done;
+}
+
 void ClipSelection::deleteSelection()
 {
     if (const auto clip = model.clip(); clip && !isEmpty(selectionNow))
@@ -115,7 +124,13 @@ void ClipSelection::paste(double time, const std::optional<Lane>& into)
     if (rangeNow)
         pasted->selection = {}; // what follows is for the time range
     const auto leftOut = static_cast<int>(pasted->leftOut);
-    if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && model.onError)
+    const double longer = pasted->clip.duration - clip->duration;
+    EditedClip result{std::move(pasted->clip), std::move(pasted->selection)};
+    const bool done = pasted->extension ? setEdited("Paste", *pasted->extension, std::move(result))
+                                        : setEdited("Paste", std::move(result));
+    if (done && pasted->extension && model.onNotice)
+        model.onNotice(tr("Pasted beyond the end: the clip is # s longer").replace("#", juce::String(longer, 2)));
+    if (done && leftOut > 0 && model.onError)
         model.onError("Pasted with gaps",
                       "This clip has no band near " + juce::String(leftOut) + " of the lanes that were copied.");
 }

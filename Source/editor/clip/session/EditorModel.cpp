@@ -207,7 +207,7 @@ void EditorModel::keepVersion()
     const auto shown = item();
     if (!shown || preview)
         return;
-    versions[active] = clip();
+    versions[active] = shown;
     setComparing(false);
     versionChanged.emit();
 }
@@ -215,7 +215,20 @@ void EditorModel::keepVersion()
 std::shared_ptr<const Clip> EditorModel::keptVersion() const
 {
     const auto found = versions.find(active);
-    return found != versions.end() ? found->second : nullptr;
+    return found != versions.end() ? found->second->clip : nullptr;
+}
+
+std::shared_ptr<const ClipItem> EditorModel::shownItem() const
+{
+    return comparing && keptVersion() ? versions.at(active) : item();
+}
+
+void EditorModel::takeVersion()
+{
+    if (!keptVersion())
+        return;
+    setComparing(false);
+    change([this](Document& document) { return document.restoreClip(*versions.at(active), "Take version A"); });
 }
 
 void EditorModel::setComparing(bool wanted)
@@ -279,6 +292,13 @@ int clipAfterStep(const Project& before, const Project& after, int active)
     return after.clips[std::min(place, after.clips.size() - 1)]->id;
 }
 } // namespace
+
+bool EditorModel::setClip(std::string name, EditOperation first, Clip edited)
+{
+    return mayEdit(0) &&
+           change([&](Document& document)
+                  { return document.setClip(active, std::move(name), std::move(first), std::move(edited)); });
+}
 
 void EditorModel::undo()
 {

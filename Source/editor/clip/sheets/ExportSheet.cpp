@@ -41,8 +41,8 @@ juce::String lossText(const FormatLoss& loss)
 }
 } // namespace
 
-ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
-    : Sheet("Export", 680, 520), model(project), actuators(profiles), browseButton("Browse" + toText("…"))
+ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
+    : Sheet("Export", 680, 520), model(project), actuators(profiles), memory(last), browseButton("Browse" + toText("…"))
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -60,7 +60,11 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     format.setTooltip("The format of the files");
     for (const ClipFormat& one : exportFormats())
         format.addItem(toText(one.title) + "  " + toText(one.extension), format.getNumItems() + 1);
-    format.setSelectedId(1, juce::dontSendNotification);
+    const auto& formats = exportFormats();
+    const auto known = std::find_if(formats.begin(), formats.end(),
+                                    [this](const ClipFormat& one) { return one.name == memory.format; });
+    format.setSelectedId(known == formats.end() ? 1 : 1 + static_cast<int>(known - formats.begin()),
+                         juce::dontSendNotification);
     format.onChange = [this]
     {
         chooseUsualEvents();
@@ -72,6 +76,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     for (const int hertz : {48000, 8000, 2000})
         rate.addItem(juce::String(hertz) + " Hz", hertz);
     rate.setSelectedId(sourceRate, juce::dontSendNotification);
+    if (rate.indexOfItemId(memory.sampleRate) >= 0)
+        rate.setSelectedId(memory.sampleRate, juce::dontSendNotification);
     rate.onChange = [this]
     {
         showLosses();
@@ -116,8 +122,11 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
     const auto& path = model.document().path();
-    const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
-                                           : juce::File(toText(path.parent_path().string()));
+    std::error_code gone;
+    const juce::File folder = !memory.folder.empty() && std::filesystem::is_directory(memory.folder, gone)
+                                  ? juce::File(pathText(memory.folder))
+                              : path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                                             : juce::File(pathText(path.parent_path()));
     target.setText(folder.getFullPathName(), false);
     chooseUsualEvents();
     formatChanged();
@@ -232,6 +241,8 @@ void ExportSheet::run()
         if (!place.hasFileExtension(toText(chosenFormat().extension)))
             wanted.file += chosenFormat().extension;
     }
+    memory = {std::string(chosenFormat().name), rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(),
+              wanted.folder};
     setAnswerEnabled(false);
     ++asked;
     losses.setText(toText("Writing…"), false);
