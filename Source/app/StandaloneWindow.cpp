@@ -40,6 +40,8 @@ public:
         bar.setLookAndFeel(nullptr);
     }
 
+    bool keyPressed(const juce::KeyPress& key) override { return plugin.keyPressed(key); }
+
     void resized() override
     {
         auto area = getLocalBounds();

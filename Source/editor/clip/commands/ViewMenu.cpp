@@ -137,9 +137,10 @@ Menu viewMenu(EditorView& view)
         lightLook, "Light colours", "Dark text on light ground", [&view] { view.setDark(!view.isDark()); },
         [&view] { return !view.isDark(); });
     menu.add(largerInterface, "Larger interface", "Everything larger, to twice the size",
-             [&view] { view.setScale(view.scale() + scaleStep); }, {}, {ctrlShift('+')});
+             [&view] { view.setScale(view.scale() + scaleStep); }, {},
+             {ctrlShift('+'), ctrlShift('='), ctrlShift('*')});
     menu.add(smallerInterface, "Smaller interface", "Everything smaller, to three quarters",
-             [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-')});
+             [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-'), ctrlShift('_')});
     menu.addLine();
     menu.add(preferences, "Preferences...", "How the editor looks and behaves",
              [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});
