@@ -128,7 +128,7 @@ TEST_CASE("The list of steps goes to any of them, and stays open")
     REQUIRE(bench.view.doCommand(editor::showHistory));
     REQUIRE(bench.view.sheet() != nullptr);
     auto& list = get<juce::ListBox>(*bench.view.sheet(), "Steps");
-    auto* rows = list.getListBoxModel();
+    auto* rows = list.getModel();
     CHECK(rows->getNumRows() == 6);
     CHECK(rows->getNameForRow(0) == "As opened");
     CHECK(rows->getNameForRow(5) == "Gain");
