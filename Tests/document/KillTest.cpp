@@ -1,6 +1,7 @@
 // A scripted session is killed at random moments: what had been done a second before is there again.
 
 #include "document/Autosave.h"
+#include "io/formats/json/ClipJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
 #include "support/TempFolder.h"
@@ -40,7 +41,7 @@ public:
         const int id = clips.empty() ? 0 : clips[random.next() % clips.size()]->id;
         const auto choice = clips.empty() ? 0 : random.next() % 16;
         if (choice == 0 && clips.size() < 6)
-            (void)document.addClip(test::randomFullClip(random.next() % 1000, 60));
+            (void)document.addClip(fileClip(random.next() % 1000));
         else if (choice == 1 && clips.size() < 6)
             open();
         else if (choice == 2)
@@ -70,13 +71,19 @@ public:
     }
 
 private:
+    /// As it comes out of a file: texts are UTF-8.
+    static Clip fileClip(std::uint64_t seed)
+    {
+        return readClipJson(writeClipJson(test::randomFullClip(seed, 60))).value();
+    }
+
     void open()
     {
         const auto number = random.next() % 1000;
         AudioReference sound;
-        sound.hash = "hash" + std::to_string(number);
+        sound.hash = std::to_string(1'000'000'000'000'000 + number); // 16 digits
         sound.embedded = std::make_shared<const std::string>("RIFF" + std::to_string(number));
-        (void)document.addSound(sound, {}, test::randomFullClip(number, 60));
+        (void)document.addSound(sound, {}, fileClip(number));
     }
 
     Random random;
