@@ -3,6 +3,7 @@
 // The plugin as a program of its own.
 
 #include "app/AudioDevices.h"
+#include "app/Display.h"
 #include "app/Settings.h"
 #include "app/StandaloneWindow.h"
 #include "editor/Translation.h"
@@ -27,6 +28,11 @@ public:
         if (const auto code = readCommandLine(choices, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);
+            return quit();
+        }
+        if (!hasDisplay("Pacini"))
+        {
+            setApplicationReturnValue(1);
             return quit();
         }
         if (!choices.fresh)

@@ -32,7 +32,6 @@ RoutingBar::RoutingBar(AudioDevices& wanted)
     : rig(wanted), devicesButton(juce::String::fromUTF8("Devices…")), fileButton(juce::String::fromUTF8("File…"))
 {
     devicesButton.setTitle("Audio devices");
-    devicesButton.setTooltip("Chooses the audio device, sample rate and block size");
     devicesButton.onClick = [this]
     {
         if (onDevices)
@@ -136,6 +135,17 @@ void RoutingBar::fillMenus()
     heard.setSelectedId(now.mainOutput + 1 < outs.size() ? now.mainOutput + 2 : none, juce::dontSendNotification);
 
     fillHapticMenu(now, outs);
+    // "Nowhere" would be somebody's choice.
+    const bool missing = rig.devices().getCurrentAudioDevice() == nullptr;
+    for (juce::ComboBox* box : {&heard, &haptic})
+    {
+        box->setTextWhenNothingSelected(missing ? "No sound device" : "");
+        if (missing)
+            box->setSelectedId(0, juce::dontSendNotification);
+        box->setEnabled(!missing);
+    }
+    devicesButton.setTooltip(missing ? "No sound device is open: press to see what to do"
+                                     : "Chooses the sound device, its rate and its block size");
 }
 
 /// One actuator, several side by side, or each somewhere.
@@ -217,7 +227,8 @@ void RoutingBar::readMenus()
     if (wanted.input == InputChoice::device && in > 0)
         wanted.mainInput = in - 2;
     wanted.sidechainInput = sidechain.getSelectedId() - 2;
-    wanted.mainOutput = heard.getSelectedId() - 2;
+    if (heard.getSelectedId() != 0)
+        wanted.mainOutput = heard.getSelectedId() - 2; // else there is no device, and the choice is kept
     readHapticMenu(wanted);
     rig.setRouting(wanted);
     fillHapticMenu(wanted, rig.outputNames());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/StandaloneWindow.h"
 
+#include "app/DevicePage.h"
 #include "editor/Translation.h"
 
 namespace pacini::app
@@ -41,6 +42,8 @@ public:
         bar.setLookAndFeel(nullptr);
     }
 
+    bool keyPressed(const juce::KeyPress& key) override { return plugin.keyPressed(key); }
+
     void resized() override
     {
         auto area = getLocalBounds();
@@ -57,12 +60,11 @@ private:
 
     void showDevices()
     {
-        auto selector = std::make_unique<juce::AudioDeviceSelectorComponent>(rig.devices(), 0, 256, 0, 256, false,
-                                                                             false, false, false);
-        selector->setSize(560, 520);
-        selector->setLookAndFeel(&plugin.getLookAndFeel());
+        auto page = std::make_unique<DevicePage>(rig.devices());
+        page->setSize(560, 520);
+        page->setLookAndFeel(&plugin.getLookAndFeel());
         juce::DialogWindow::LaunchOptions options;
-        options.content.setOwned(selector.release());
+        options.content.setOwned(page.release());
         options.dialogTitle = editor::tr("Audio devices");
         options.dialogBackgroundColour = editor::paletteFor(plugin).background;
         options.useNativeTitleBar = true;

@@ -3,6 +3,7 @@
 #include "document/ProcessId.h"
 #include "document/ProjectJson.h"
 #include "io/AtomicFile.h"
+#include "io/FileLock.h"
 #include "io/InputFile.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace
 {
 constexpr std::string_view extension = ".pacini-recovery";
 constexpr std::string_view soundExtension = ".sound";
+constexpr std::string_view lockExtension = ".pacini-lock"; // beside each recovery file, held by its program
 
 double now()
 {
@@ -58,14 +60,53 @@ std::vector<fs::path> filesOf(const fs::path& folder)
     return files;
 }
 
+fs::path lockOf(fs::path recoveryFile)
+{
+    return recoveryFile.replace_extension(lockExtension);
+}
+
+/// Whether the program that made a recovery file, or a temporary of it, still runs. Not its id alone: ids are given
+/// again, and a killed program keeps its own until its parent has noticed.
+bool hasOwner(const fs::path& recoveryFile)
+{
+    FileLock lock;
+    switch (lock.take(lockOf(recoveryFile), FileLock::IfMissing::leave))
+    {
+    case FileLock::Outcome::heldElsewhere:
+        return true;
+    case FileLock::Outcome::taken:
+    case FileLock::Outcome::missing:
+        return false;
+    case FileLock::Outcome::unknown:
+        break;
+    }
+    const auto process = processOf(recoveryFile.filename().string());
+    return process && isRunning(*process);
+}
+
+/// The recovery file that `file` is, or is a temporary or the lock of; empty for others.
+fs::path recoveryOf(const fs::path& file)
+{
+    std::string name = file.filename().string();
+    if (!processOf(name))
+        return {};
+    if (name.starts_with('.'))
+        name.erase(0, 1);
+    if (name.ends_with(lockExtension))
+        name.replace(name.size() - lockExtension.size(), lockExtension.size(), extension);
+    const auto end = name.find(extension);
+    return end == std::string::npos ? fs::path() : file.parent_path() / name.substr(0, end + extension.size());
+}
+
+/// Embedded sounds are written before the project that needs them, under a lock that is there before both.
 void removeOrphanedSounds(const fs::path& folder)
 {
     const auto files = filesOf(folder);
-    const auto isRecovery = [](const fs::path& file)
+    const auto mayNeedSounds = [](const fs::path& file)
     {
-        return file.extension() == fs::path(extension);
+        return file.extension() == fs::path(extension) || file.extension() == fs::path(lockExtension);
     };
-    if (std::any_of(files.begin(), files.end(), isRecovery))
+    if (std::any_of(files.begin(), files.end(), mayNeedSounds))
         return;
     std::error_code ignored;
     for (const fs::path& file : files)
@@ -73,10 +114,12 @@ void removeOrphanedSounds(const fs::path& folder)
             fs::remove(file, ignored);
 }
 
+/// With its lock, which must not be held by another program.
 void removeRecovery(const fs::path& file)
 {
     std::error_code ignored;
     fs::remove(file, ignored);
+    fs::remove(lockOf(file), ignored);
     removeOrphanedSounds(file.parent_path());
 }
 } // namespace
@@ -146,7 +189,7 @@ void Autosave::discard()
     waiting.reset();
     changed.wait(lock, [this] { return !writing; });
     failure.reset();
-    removeRecovery(recoveryFile);
+    forget();
 }
 
 std::optional<Error> Autosave::lastError() const
@@ -167,38 +210,67 @@ void Autosave::run()
         waiting.reset();
         writing = true;
         lock.unlock();
-        Result<void> written;
-        if (snapshot.dirty)
-            written = writeRecovery(recoveryFile, snapshot);
-        else
-            removeRecovery(recoveryFile);
+        const auto start = std::chrono::steady_clock::now();
+        const auto written = put(snapshot);
+        const auto taken = std::chrono::steady_clock::now() - start;
         lock.lock();
         writing = false;
         failure = written ? std::nullopt : std::optional(written.error());
         if (failure && !waiting && !ending)
             waiting = snapshot; // to be tried again
         changed.notify_all();
-        changed.wait_for(lock, interval, [this] { return ending || (flushing && waiting && !failure); });
+        // The disk rests at least half of the time.
+        changed.wait_for(lock, std::max<std::chrono::steady_clock::duration>(interval, taken),
+                         [this] { return ending || (flushing && waiting && !failure); });
     }
+}
+
+/// On the thread. Where there are no locks, files are written all the same.
+Result<void> Autosave::put(const DocumentSnapshot& snapshot)
+{
+    if (!snapshot.dirty)
+    {
+        forget();
+        return {};
+    }
+    if (!owned.isHeld())
+    {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        // Its name is ours alone: who holds it is a program that looks for stale ones, and lets go at once.
+        for (int attempt = 0; attempt < 20; ++attempt)
+        {
+            if (owned.take(lockOf(recoveryFile), FileLock::IfMissing::create) != FileLock::Outcome::heldElsewhere)
+                break;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    return writeRecovery(recoveryFile, snapshot);
+}
+
+void Autosave::forget()
+{
+    owned.release();
+    removeRecovery(recoveryFile);
 }
 
 std::vector<Recoverable> listRecoverable(const fs::path& folder)
 {
     std::vector<Recoverable> found;
-    for (const fs::path& file : filesOf(folder))
+    const auto files = filesOf(folder);
+    for (const fs::path& file : files)
     {
-        const std::string name = file.filename().string();
-        const auto process = processOf(name);
-        if (!process || isRunning(*process))
+        const fs::path recovery = recoveryOf(file);
+        if (recovery.empty() || hasOwner(recovery))
             continue;
-        if (name.ends_with(".tmp"))
+        if (file != recovery)
         {
+            // A temporary, or the lock of a recovery file that was never written.
             std::error_code ignored;
-            fs::remove(file, ignored);
+            if (file.extension() != fs::path(lockExtension) || !fs::exists(recovery, ignored))
+                fs::remove(file, ignored);
             continue;
         }
-        if (!name.ends_with(extension))
-            continue;
         Recoverable entry;
         entry.file = file;
         const auto text = readWholeFile(file, largestProjectText);

@@ -1,8 +1,9 @@
 #pragma once
 
-// Autosave and recovery of projects: nothing of more than a few seconds is ever lost.
+// Autosave and recovery of projects: nothing older than a second is ever lost.
 
 #include "document/Document.h"
+#include "io/FileLock.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -19,13 +20,14 @@ namespace pacini
 
 /// Writes a document that has unsaved changes into a recovery folder, on a thread of its own: at once when it has been
 /// quiet, else at most every `interval`. A file is replaced as a whole, so that a program killed at any time leaves a
-/// complete one, at most `interval` and the time of writing old. Embedded sounds are written once, beside it.
+/// complete one, at most `interval` and the time of writing old (twice that time, where it is the longer). Embedded
+/// sounds are written once, beside it. A lock beside it says that the program still runs.
 class Autosave
 {
 public:
     /// `folder` is made when it is missing. One Autosave for each open document.
     explicit Autosave(std::filesystem::path folder,
-                      std::chrono::milliseconds interval = std::chrono::milliseconds(2000));
+                      std::chrono::milliseconds interval = std::chrono::milliseconds(300));
 
     /// Waits for a write that is under way. What has been written stays; call discard() when the document was closed
     /// by the user's will.
@@ -52,10 +54,13 @@ public:
 
 private:
     void run();
+    Result<void> put(const DocumentSnapshot& snapshot);
+    void forget();
 
     const std::filesystem::path folder;
     const std::filesystem::path recoveryFile;
     const std::chrono::milliseconds interval;
+    FileLock owned; ///< of the thread while it writes, else under `mutex`
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::optional<DocumentSnapshot> waiting;

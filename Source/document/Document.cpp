@@ -37,6 +37,7 @@ bool replaceClip(Project& project, ClipItem item)
 Document::Document(Project project, fs::path path, bool saved)
     : content(std::move(project)), file(std::move(path)), history(content), savedState(saved ? history.id() : 0)
 {
+    countIds();
 }
 
 Result<Document> Document::open(const fs::path& path)
@@ -90,11 +91,36 @@ void Document::commit(std::string name, Project project, Gesture gesture)
     if (!continues)
         beforeGesture = gesture != 0 ? content : Project{};
     content = std::move(project);
+    countIds();
     if (continues)
         history.replaceNewest(content);
     else
         history.push(std::move(name), content);
     openGesture = gesture;
+}
+
+void Document::amend(const std::shared_ptr<const ClipItem>& added, const std::function<void(Project&)>& change)
+{
+    const auto both = [&](Project& project)
+    {
+        change(project);
+        if (added)
+            project.clips.push_back(added);
+    };
+    both(content);
+    if (openGesture != 0)
+        both(beforeGesture);
+    countIds();
+    history.amend(content, added, change);
+}
+
+/// After every change: each state was the current one once.
+void Document::countIds()
+{
+    for (const auto& item : content.clips)
+        nextClipId = std::max(nextClipId, item->id + 1);
+    for (const AudioReference& source : content.sources)
+        nextSourceId = std::max(nextSourceId, source.id + 1);
 }
 
 void Document::setProjectNotes(std::string notes, std::string name)
@@ -129,16 +155,15 @@ void Document::renameGroup(const std::string& from, const std::string& to, std::
     commit(std::move(name), std::move(next));
 }
 
-Result<void> Document::setProfile(ProjectProfile profile, std::string name, Gesture gesture)
+Result<void> Document::setProfile(ProjectProfile profile)
 {
     if (!isStrength(profile.strength))
         return Error{ErrorCode::invalidArgument, "strength", "must be 0 to 1"};
     if (profile.embedded)
         if (auto valid = validate(*profile.embedded); !valid)
             return valid.error();
-    Project next = content;
-    next.profile = std::move(profile);
-    commit(std::move(name), std::move(next), gesture);
+    if (profile != content.profile)
+        amend(nullptr, [&](Project& project) { project.profile = profile; });
     return {};
 }
 
@@ -188,44 +213,38 @@ bool Document::redo()
 
 // Clips.
 
-int Document::nextClipId() const
-{
-    int id = 1;
-    for (const auto& item : content.clips)
-        id = std::max(id, item->id + 1);
-    return id;
-}
-
-Result<int> Document::addClip(std::string name, Clip clip)
+Result<int> Document::addClip(Clip clip)
 {
     if (auto valid = validate(clip); !valid)
         return valid.error();
-    ClipItem item;
-    item.id = nextClipId();
-    item.clip = item.analysis = std::make_shared<const Clip>(std::move(clip));
-    Project next = content;
-    const int id = item.id;
-    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
-    commit(std::move(name), std::move(next));
-    return id;
+    auto item = std::make_shared<ClipItem>();
+    item->id = nextClipId;
+    item->clip = item->analysis = std::make_shared<const Clip>(std::move(clip));
+    amend(item, [](Project&) {});
+    return item->id;
 }
 
-Result<int> Document::addSound(std::string name, AudioReference sound, const EncoderParams& encoder, Clip analysis)
+Result<int> Document::addSound(AudioReference sound, const EncoderParams& encoder, Clip analysis)
 {
     if (auto valid = validate(analysis); !valid)
         return valid.error();
     if (auto valid = validate(encoder); !valid)
         return valid.error();
-    Project next = content;
-    ClipItem item;
-    item.id = nextClipId();
-    item.source = placeSound(next, std::move(sound));
-    item.encoder = encoder;
-    item.clip = item.analysis = std::make_shared<const Clip>(std::move(analysis));
-    const int id = item.id;
-    next.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
-    commit(std::move(name), std::move(next));
-    return id;
+    auto item = std::make_shared<ClipItem>();
+    item->id = nextClipId;
+    item->encoder = encoder;
+    item->clip = item->analysis = std::make_shared<const Clip>(std::move(analysis));
+    sound.id = nextSourceId;
+    if (const AudioReference* known = sameSound(content, sound))
+        sound = *known;
+    item->source = sound.id;
+    amend(item,
+          [&](Project& project)
+          {
+              if (project.findSource(sound.id) == nullptr)
+                  project.sources.push_back(sound);
+          });
+    return item->id;
 }
 
 Result<void> Document::replaceItem(ClipItem item, std::string name)
@@ -244,7 +263,7 @@ Result<int> Document::duplicateClip(int id, std::string name)
     if (!old)
         return noSuchClip(id);
     ClipItem item = *old;
-    item.id = nextClipId();
+    item.id = nextClipId;
     const int added = item.id;
     Project next = content;
     const auto place = std::find(next.clips.begin(), next.clips.end(), old);
@@ -300,7 +319,7 @@ Result<int> Document::splitClipAt(int id, double time, std::string name)
         item.clip = std::make_shared<const Clip>(std::move(trimmed).value());
         return std::shared_ptr<const ClipItem>(std::make_shared<const ClipItem>(std::move(item)));
     };
-    const int added = nextClipId();
+    const int added = nextClipId;
     const auto left = part(id, {0.0, at});
     const auto right = part(added, {at, old->clip->duration});
     if (!left || !right)
@@ -408,6 +427,32 @@ Result<void> Document::setClip(int id, std::string name, Clip edited, Gesture ge
     return change(id, std::move(name), std::move(edits), std::move(edited), gesture);
 }
 
+Result<void> Document::setClip(int id, std::string name, EditOperation first, Clip edited)
+{
+    const auto start = clip(id);
+    if (!start)
+        return noSuchClip(id);
+    if (auto wrong = checkOperation(first))
+        return *wrong;
+    if (auto valid = validate(edited); !valid)
+        return valid.error();
+    const auto between = applyEdit(*start->clip, first);
+    if (!between)
+        return between.error();
+    std::vector<Edit> edits;
+    edits.push_back(anchored(std::move(first), *start->clip));
+    for (EditOperation& operation : editsBetween(*between, edited))
+        edits.push_back(anchored(std::move(operation), *between));
+    return change(id, std::move(name), std::move(edits), std::move(edited), 0);
+}
+
+Result<void> Document::restoreClip(ClipItem item, std::string name)
+{
+    if (content.findSource(item.source) == nullptr)
+        item.source = 0;
+    return replaceItem(std::move(item), std::move(name));
+}
+
 Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
                                  std::optional<AudioReference> sound)
 {
@@ -422,7 +467,10 @@ Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& 
     ClipItem item = *old;
     item.encoder = encoder;
     if (sound)
+    {
+        sound->id = nextSourceId;
         item.source = placeSound(next, std::move(*sound));
+    }
     putReapplied(item, reapply(*old->analysis, analysis, listOf(old->edits)));
     item.analysis = std::make_shared<const Clip>(std::move(analysis));
     replaceClip(next, std::move(item));

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,16 +75,20 @@ public:
     /// Within a gesture, `edited` is made of gestureStart().
     Result<void> setClip(int id, std::string name, Clip edited, Gesture gesture = 0);
 
+    /// The same of a clip that `first` was applied to before: both are one step.
+    Result<void> setClip(int id, std::string name, EditOperation first, Clip edited);
+
     /// The clip that edits of a gesture start from: the current one when the gesture has none yet.
     [[nodiscard]] std::shared_ptr<const Clip> gestureStart(int id, Gesture gesture) const;
 
     // Clips and their analysis.
 
-    /// Adds a clip that is its own analysis (imported, or made by hand). Errors: those of validate(clip).
-    Result<int> addClip(std::string name, Clip clip);
+    /// Adds a clip that is its own analysis (imported, or made by hand). Errors: those of validate(clip). Opening is no
+    /// step: all states have the clip then, and undo goes on with the edits.
+    Result<int> addClip(Clip clip);
 
-    /// Adds a sound and the clip that analyse() made of it.
-    Result<int> addSound(std::string name, AudioReference sound, const EncoderParams& encoder, Clip analysis);
+    /// Adds a sound and the clip that analyse() made of it, as addClip() does.
+    Result<int> addSound(AudioReference sound, const EncoderParams& encoder, Clip analysis);
 
     /// Puts another analysis under the edits of a clip: other parameters, or `sound` in place of the old one. What does
     /// not fit any more is listed in the clip's `unfitting` and waits there. Errors: those of validate(analysis).
@@ -92,6 +97,10 @@ public:
 
     /// Removes edits by their indices (ascending) and applies the others anew.
     Result<void> removeEdits(int id, std::string name, const std::vector<std::size_t>& edits);
+
+    /// Puts a clip back as it was once, with its analysis and edits; its id says which. Where its sound is not in the
+    /// project any more, it has none.
+    Result<void> restoreClip(ClipItem item, std::string name);
 
     Result<int> duplicateClip(int id, std::string name);
     Result<void> removeClip(int id, std::string name);
@@ -114,8 +123,9 @@ public:
 
     /// Gives a group another name; that of another group joins the two, an empty one leaves its clips without a group.
     void renameGroup(const std::string& from, const std::string& to, std::string name);
-    /// Errors: invalidArgument for the strength, those of validate(*profile.embedded).
-    Result<void> setProfile(ProjectProfile profile, std::string name, Gesture gesture = 0);
+    /// What the clips are felt with is no edit of them, and no step: all states have it then. Errors: invalidArgument
+    /// for the strength, those of validate(*profile.embedded).
+    Result<void> setProfile(ProjectProfile profile);
 
     /// Another place, or an embedded copy or none, for a sound whose id `sound` has.
     Result<void> setSound(AudioReference sound, std::string name);
@@ -141,7 +151,8 @@ private:
     Result<void> change(int id, std::string name, std::vector<Edit> edits, Clip edited, Gesture gesture);
     void commit(std::string name, Project project, Gesture gesture = 0);
     Result<void> replaceItem(ClipItem item, std::string name);
-    [[nodiscard]] int nextClipId() const;
+    void amend(const std::shared_ptr<const ClipItem>& added, const std::function<void(Project&)>& change);
+    void countIds();
 
     Project content;
     std::filesystem::path file;
@@ -150,6 +161,8 @@ private:
     Gesture lastGesture = 0;
     Gesture openGesture = 0; ///< of the newest state
     Project beforeGesture;
+    int nextClipId = 1; ///< above those of all states
+    int nextSourceId = 1;
 };
 
 } // namespace pacini

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -35,6 +36,23 @@ public:
     {
         states.back().project = freeze(project);
         states.back().id = nextId++;
+    }
+
+    /// What is no step: `change` is made to every state (without its clips), and `added` put behind the clips of each.
+    /// `now` is the current project with both; its clips, but for `added`, are those of the current state.
+    void amend(const Project& now, const std::shared_ptr<const ClipItem>& added,
+               const std::function<void(Project&)>& change)
+    {
+        ProjectSnapshot current = freeze(now);
+        const auto frozen = added ? current.clips.back() : nullptr;
+        for (State& state : states)
+        {
+            change(state.project.bare);
+            if (frozen)
+                state.project.clips.push_back(frozen);
+            state.id = nextId++;
+        }
+        states[position].project = std::move(current);
     }
 
     [[nodiscard]] bool canUndo() const noexcept { return position > 0; }

@@ -19,14 +19,6 @@ EditList sharedList(std::vector<Edit> edits, const EditList& before)
                                                                : std::make_shared<const Edit>(std::move(edits[i])));
     return EditList::of(shared, before);
 }
-
-int freeSourceId(const Project& project)
-{
-    int id = 1;
-    for (const AudioReference& source : project.sources)
-        id = std::max(id, source.id + 1);
-    return id;
-}
 } // namespace
 
 Error noSuchClip(int id)
@@ -56,12 +48,18 @@ void putReapplied(ClipItem& item, Reapplied reapplied)
     item.clip = std::make_shared<const Clip>(std::move(reapplied.clip));
 }
 
-int placeSound(Project& project, AudioReference sound)
+const AudioReference* sameSound(const Project& project, const AudioReference& sound)
 {
     for (const AudioReference& known : project.sources)
         if (known.hash == sound.hash && known.path == sound.path)
-            return known.id;
-    sound.id = freeSourceId(project);
+            return &known;
+    return nullptr;
+}
+
+int placeSound(Project& project, AudioReference sound)
+{
+    if (const AudioReference* known = sameSound(project, sound))
+        return known->id;
     project.sources.push_back(std::move(sound));
     return project.sources.back().id;
 }

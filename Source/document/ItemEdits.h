@@ -19,7 +19,10 @@ namespace pacini
 /// Gives an item the clip and the edits of another analysis; edits that are as they were stay shared.
 void putReapplied(ClipItem& item, Reapplied reapplied);
 
-/// The id of a sound in a project, where it is put if it is not there yet.
+/// The sound of a project that is the same file with the same content, or null.
+[[nodiscard]] const AudioReference* sameSound(const Project& project, const AudioReference& sound);
+
+/// The id of a sound in a project, where it is put with its id if the same is not there yet.
 [[nodiscard]] int placeSound(Project& project, AudioReference sound);
 
 } // namespace pacini

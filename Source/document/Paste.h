@@ -2,6 +2,7 @@
 
 // Copy and paste between lanes, and between clips whose bands are not the same.
 
+#include "document/EditLayer.h"
 #include "document/SelectionEdits.h"
 
 #include <algorithm>
@@ -25,8 +26,9 @@ struct Copied
 struct Pasted
 {
     Clip clip;
-    Selection selection;     ///< what is new
-    std::size_t leftOut = 0; ///< lanes that found no band of their own
+    std::optional<EditOperation> extension; ///< what was done to the clip before, where it was too short
+    Selection selection;                    ///< what is new
+    std::size_t leftOut = 0;                ///< lanes that found no band of their own
 };
 
 namespace detail
@@ -85,9 +87,22 @@ namespace detail
     return copied;
 }
 
-/// Pastes at `time`, as pasteCurve() and pasteFragment(): what was one lane goes into the lane `into` where there is
-/// one, all else into the lanes that it came from, bands by their frequency. invalidArgument: `into` is not in the
-/// clip, or holds frequencies where amplitudes were copied or the other way round; or no copied lane has a place.
+/// Silence behind the end of a clip, where what is pasted at `time` would be cut off; none where it fits.
+[[nodiscard]] inline std::optional<EditOperation> extensionFor(const Clip& clip, const Copied& copied, double time)
+{
+    constexpr double negligible = 1e-6; // s
+    const double beyond = clampTo(time, 0.0, clip.duration) + copied.fragment.duration - clip.duration;
+    if (beyond <= negligible)
+        return std::nullopt;
+    auto silence = std::make_shared<Clip>();
+    silence->duration = beyond;
+    return InsertEdit{clip.duration, std::move(silence)};
+}
+
+/// Pastes at `time` into a clip that is extended as far as it takes, as pasteCurve() and pasteFragment(): what was one
+/// lane goes into the lane `into` where there is one, all else into the lanes that it came from, bands by their
+/// frequency. invalidArgument: `into` is not in the clip, or holds frequencies where amplitudes were copied or the
+/// other way round; or no copied lane has a place.
 [[nodiscard]] inline Result<Pasted> pasteInto(Clip clip, const Copied& copied, double time,
                                               const std::optional<Lane>& into)
 {
@@ -97,6 +112,13 @@ namespace detail
         places.front() = *into;
     Pasted result;
     const double at = clampTo(time, 0.0, clip.duration);
+    if ((result.extension = extensionFor(clip, copied, at)))
+    {
+        auto extended = applyEdit(clip, *result.extension);
+        if (!extended)
+            return extended.error();
+        clip = std::move(extended).value();
+    }
     for (std::size_t i = 0; i < places.size(); ++i)
     {
         if (!places[i])

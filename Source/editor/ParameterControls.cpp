@@ -4,6 +4,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace pacini::editor
 
 namespace
 {
+constexpr int mostKnobHeight = 15 * grid;
+
 juce::String withRange(const juce::AudioProcessorParameter& parameter, const juce::String& help)
 {
     const auto text = [&](float normal)
@@ -92,6 +95,9 @@ void ParameterSlider::refresh()
 void ParameterSlider::resized()
 {
     auto area = getLocalBounds();
+    // In a tall window a knob would drift away from its name above and its value below.
+    if (shape == Shape::knob)
+        area = area.withSizeKeepingCentre(area.getWidth(), std::min(area.getHeight(), mostKnobHeight));
     if (shape == Shape::knob)
         title.setBounds(area.removeFromTop(2 * grid + 2));
     else

@@ -1,5 +1,6 @@
 #include "document/Autosave.h"
 
+#include "document/ProcessId.h"
 #include "document/ProjectJson.h"
 #include "support/Catch.h"
 #include "support/RandomClip.h"
@@ -27,7 +28,7 @@ Document smallDocument()
     clip.name = "clip";
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.5}, {1.0, 0.25}};
-    (void)document.addClip("Add", clip);
+    (void)document.addClip(clip);
     return document;
 }
 } // namespace
@@ -41,7 +42,7 @@ TEST_CASE("What was autosaved comes back as the unsaved project that it was")
     sound.path = folder / "s.wav";
     sound.hash = "0123456789abcdef";
     sound.embedded = std::make_shared<const std::string>(std::string("RIFF\0\xFF bytes", 12));
-    REQUIRE(document.addSound("Import", sound, {}, *document.clip(1)->clip));
+    REQUIRE(document.addSound(sound, {}, *document.clip(1)->clip));
     {
         Autosave autosave(folder / "recovery");
         autosave.update(document.snapshot());
@@ -80,7 +81,94 @@ TEST_CASE("A recovery folder that cannot be written is reported, and tried again
     CHECK(std::filesystem::exists(autosave.file()));
 }
 
+TEST_CASE("A change is on disk within a second, also right after another")
+{
+    const test::TempFolder folder;
+    Document document = smallDocument();
+    Autosave autosave(folder / "recovery");
+    autosave.update(document.snapshot());
+    autosave.flush();
+    document.setProjectNotes("second", "Notes");
+    autosave.update(document.snapshot());
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    std::string notes;
+    while (notes != "second" && std::chrono::steady_clock::now() < end)
+    {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (const auto written = Document::recover(autosave.file()))
+            notes = written->project().notes;
+    }
+    CHECK(notes == "second");
+}
+
+TEST_CASE("A recovery file is offered also when another program has the id of its own by now")
+{
+    const test::TempFolder folder;
+    const Document document = smallDocument();
+    const auto file = folder / (std::to_string(processId()) + "-1-5e1.pacini-recovery");
+    REQUIRE(writeRecovery(file, document.snapshot()));
+    const auto found = listRecoverable(folder.path());
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].file == file);
+    discardRecoverable(found[0]);
+    CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("Discarding what one program has left keeps the sounds that another one needs")
+{
+    const test::TempFolder folder;
+    const auto recovery = folder / "recovery";
+    Document document = smallDocument();
+    AudioReference sound;
+    sound.hash = "0123456789abcdef";
+    sound.embedded = std::make_shared<const std::string>("RIFF");
+    REQUIRE(document.addSound(sound, {}, *document.clip(1)->clip));
+    Autosave running(recovery);
+    running.update(document.snapshot());
+    running.flush();
+    const auto left = recovery / "1-1-5e1.pacini-recovery";
+    REQUIRE(writeRecovery(left, document.snapshot()));
+    const auto found = listRecoverable(recovery);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].file == left);
+    std::filesystem::remove(running.file()); // it is about to write the first one
+    discardRecoverable(found[0]);
+    CHECK(std::filesystem::exists(recovery / "0123456789abcdef.sound"));
+    running.discard();
+    CHECK(std::filesystem::is_empty(recovery));
+}
+
 #if !defined(_WIN32)
+TEST_CASE("What a killed program has left is offered before its parent has noticed")
+{
+    const test::TempFolder folder;
+    int pipeEnds[2];
+    REQUIRE(pipe(pipeEnds) == 0);
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0)
+    {
+        Autosave autosave(folder / "recovery");
+        autosave.update(smallDocument().snapshot());
+        autosave.flush();
+        const char done = 1;
+        if (write(pipeEnds[1], &done, 1) != 1)
+            _exit(1);
+        for (;;)
+            pause();
+    }
+    close(pipeEnds[1]);
+    char done = 0;
+    REQUIRE(read(pipeEnds[0], &done, 1) == 1);
+    close(pipeEnds[0]);
+    CHECK(listRecoverable(folder / "recovery").empty());
+    kill(child, SIGKILL);
+    siginfo_t ended = {};
+    REQUIRE(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) == 0);
+    CHECK(listRecoverable(folder / "recovery").size() == 1);
+    waitpid(child, nullptr, 0);
+}
+
 TEST_CASE("A program killed at any time leaves a project that opens, with all but the last moments of work")
 {
     const test::TempFolder folder;
@@ -96,7 +184,7 @@ TEST_CASE("A program killed at any time leaves a project that opens, with all bu
             // Edits as fast as it can; tells how many it had made when each state was handed over.
             Document document;
             Clip clip = test::randomFullClip(1, 400);
-            const int id = document.addClip("Add", clip).value();
+            const int id = document.addClip(clip).value();
             Autosave autosave(recovery, std::chrono::milliseconds(1));
             for (int i = 1;; ++i)
             {

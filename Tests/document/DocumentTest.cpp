@@ -85,7 +85,7 @@ TEST_CASE("Undoing everything gives the first project bit for bit, redoing every
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip("Add", fileClip(seed)).value();
+        const int id = document.addClip(fileClip(seed)).value();
         std::vector<std::string> texts = {writeClipJson(*document.clip(id)->clip)};
         std::vector<std::size_t> states = {document.steps().current()};
         for (int step = 0; step < 40; ++step)
@@ -102,16 +102,13 @@ TEST_CASE("Undoing everything gives the first project bit for bit, redoing every
         for (std::size_t i = texts.size(); i-- > 0;)
         {
             CHECK(writeClipJson(*document.clip(id)->clip) == texts[i]);
-            CHECK(document.undo());
+            CHECK(document.undo() == (i > 0));
         }
-        CHECK(document.project().clips.empty());
-        CHECK_FALSE(document.undo());
-        for (const std::string& text : texts)
+        for (std::size_t i = 0; i < texts.size(); ++i)
         {
-            REQUIRE(document.redo());
-            CHECK(writeClipJson(*document.clip(id)->clip) == text);
+            CHECK(writeClipJson(*document.clip(id)->clip) == texts[i]);
+            CHECK(document.redo() == (i + 1 < texts.size()));
         }
-        CHECK_FALSE(document.redo());
         CHECK(document.project() == last);
     }
 }
@@ -122,7 +119,7 @@ TEST_CASE("The edits over an analysis make the clip again, bit for bit")
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip("Add", fileClip(seed)).value();
+        const int id = document.addClip(fileClip(seed)).value();
         for (int step = 0; step < 25; ++step)
             anyStep(random, document, id);
         const auto item = document.clip(id);
@@ -143,7 +140,7 @@ TEST_CASE("An edit of one of two bands with the same centre comes back on that o
     for (std::size_t band : {0u, 1u})
     {
         Document document;
-        const int id = document.addClip("Add", clip).value();
+        const int id = document.addClip(clip).value();
         Clip edited = clip;
         edited.bands[band].amplitude = {{0.0, 0.25}, {clip.duration, 0.5}};
         REQUIRE(document.setClip(id, "Edit", edited));
@@ -161,8 +158,8 @@ TEST_CASE("Edit, save, close, open, export: identical clips and edits")
     {
         Random random(seed);
         Document document;
-        const int id = document.addClip("Add", fileClip(seed)).value();
-        const int other = document.addClip("Add", fileClip(seed + 100)).value();
+        const int id = document.addClip(fileClip(seed)).value();
+        const int other = document.addClip(fileClip(seed + 100)).value();
         for (int step = 0; step < 20; ++step)
             anyStep(random, document, step % 3 == 0 ? other : id);
         REQUIRE(document.setGroup(id, "group \"ä\"", "Group"));
@@ -192,7 +189,7 @@ TEST_CASE("A project is dirty exactly when it differs from its file")
     Document document;
     CHECK_FALSE(document.isDirty());
     CHECK(document.save().error().code == ErrorCode::invalidArgument);
-    const int id = document.addClip("Add", fileClip(1)).value();
+    const int id = document.addClip(fileClip(1)).value();
     CHECK(document.isDirty());
     REQUIRE(document.saveAs(folder / "p.pacini"));
     REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
@@ -213,7 +210,7 @@ TEST_CASE("A file that cannot be written leaves the old one and the project as t
 {
     const test::TempFolder folder;
     Document document;
-    (void)document.addClip("Add", fileClip(1));
+    (void)document.addClip(fileClip(1));
     REQUIRE(document.saveAs(folder / "p.pacini"));
     const std::string before = test::bytesOf(folder / "p.pacini");
     document.setProjectNotes("new", "Notes");
@@ -231,7 +228,7 @@ TEST_CASE("All edits of a gesture are one step, each in place of the one before"
     Clip clip;
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.5}, {0.5, 0.8}, {1.0, 0.5}};
-    const int id = document.addClip("Add", clip).value();
+    const int id = document.addClip(clip).value();
     const auto steps = document.steps().size();
     const Gesture drag = document.beginGesture();
     for (int i = 1; i <= 30; ++i)
@@ -258,7 +255,7 @@ TEST_CASE("Clips are added, copied, moved, split and removed, and each of these 
 {
     Document document;
     const Clip clip = fileClip(4);
-    const int id = document.addClip("Add", clip).value();
+    const int id = document.addClip(clip).value();
     const int copy = document.duplicateClip(id, "Copy").value();
     CHECK(*document.clip(copy)->clip == clip);
     const int right = document.splitClipAt(id, 0.4 * clip.duration, "Split").value();
@@ -273,6 +270,9 @@ TEST_CASE("Clips are added, copied, moved, split and removed, and each of these 
         document.undo();
     CHECK(*document.clip(id)->clip == clip);
     CHECK(document.project().clips.size() == 2);
+    document.undo();
+    CHECK(document.project().clips.size() == 1);
+    CHECK_FALSE(document.undo());
 }
 
 TEST_CASE("Removing one edit keeps those after it")
@@ -281,7 +281,7 @@ TEST_CASE("Removing one edit keeps those after it")
     Clip clip;
     clip.duration = 1.0;
     clip.envelope = {{0.0, 0.1}, {0.3, 0.8}, {0.6, 0.2}, {1.0, 0.5}};
-    const int id = document.addClip("Add", clip).value();
+    const int id = document.addClip(clip).value();
     REQUIRE(document.edit(id, "Gain", GainEdit{{}, 6.0}));
     REQUIRE(document.edit(id, "Trim", TrimEdit{{0.3, 1.0}}));
     REQUIRE(document.removeEdits(id, "Remove gain", {0}));
@@ -297,7 +297,7 @@ TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the cl
     for (int i = 0; i < 50000; ++i)
         clip.envelope.push_back({0.002 * i, random.uniform()});
     Document document;
-    const int id = document.addClip("Add", clip).value();
+    const int id = document.addClip(clip).value();
     for (int i = 0; i < 200; ++i)
     {
         Clip edited = *document.clip(id)->clip;
@@ -318,8 +318,9 @@ TEST_CASE("Undo steps of a clip of 50 000 breakpoints cost kilobytes, not the cl
         sum += document.steps().bytes(document.steps().current());
     }
     CHECK(sum / 200 < 20'000); // the clip has 800 000 bytes
-    while (document.steps().current() > 1)
-        document.undo();
+    while (document.undo())
+    {
+    }
     CHECK(*document.clip(id)->clip == clip);
 }
 
@@ -328,7 +329,7 @@ TEST_CASE("A full disk is told with its reason, and the project stays unsaved an
 {
     const test::TempFolder folder;
     Document document;
-    (void)document.addClip("Add", fileClip(1));
+    (void)document.addClip(fileClip(1));
     const Project before = document.project();
     const auto full = document.saveAs("/dev/full");
     REQUIRE_FALSE(full);
@@ -342,30 +343,92 @@ TEST_CASE("A full disk is told with its reason, and the project stays unsaved an
 }
 #endif
 
-TEST_CASE("Strength turned in one gesture is one step, which undo takes back; out of range it is refused")
+TEST_CASE("What a project is felt with is kept through undo and redo, and is no step; out of range it is refused")
 {
+    const test::TempFolder folder;
     Document document;
+    const int id = document.addClip(fileClip(1)).value();
+    REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
+    REQUIRE(document.saveAs(folder / "p.pacini"));
     ProjectProfile profile;
     profile.name = "lra-175";
-    REQUIRE(document.setProfile(profile, "Choose actuator"));
-    const Gesture gesture = document.beginGesture();
-    for (const double strength : {0.5, 0.7, 1.0})
-    {
-        profile.strength = strength;
-        REQUIRE(document.setProfile(profile, "Strength", gesture));
-    }
+    profile.strength = 0.7;
+    REQUIRE(document.setProfile(profile));
+    CHECK(document.undoName() == "Reverse");
+    CHECK(document.isDirty());
+    REQUIRE(document.undo());
     CHECK(document.project().profile == profile);
-    CHECK(document.undoName() == "Strength");
+    CHECK(document.isDirty());
+    CHECK_FALSE(document.canUndo());
+    REQUIRE(document.redo());
+    CHECK(document.project().profile == profile);
+    REQUIRE(document.save());
+    REQUIRE(document.setProfile(profile));
+    CHECK_FALSE(document.isDirty());
     for (const double strength : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
     {
         profile.strength = strength;
-        CHECK_FALSE(document.setProfile(profile, "Strength"));
+        CHECK_FALSE(document.setProfile(profile));
     }
-    CHECK(document.project().profile.strength == 1.0);
+    CHECK(document.project().profile.strength == 0.7);
+}
+
+TEST_CASE("Opening is no step: undo takes back the edits only, and no state has lost a clip")
+{
+    const test::TempFolder folder;
+    Document document;
+    const int first = document.addClip(fileClip(1)).value();
+    REQUIRE(document.saveAs(folder / "p.pacini"));
+    REQUIRE(document.edit(first, "Reverse", ReverseEdit{}));
+    REQUIRE(document.setNotes(first, "reversed", "Notes"));
     REQUIRE(document.undo());
-    CHECK(document.project().profile.strength == standardStrength);
-    CHECK(document.project().profile.name == "lra-175");
+    AudioReference sound;
+    sound.path = folder / "s.wav";
+    sound.hash = "0123456789abcdef";
+    const int second = document.addSound(sound, {}, fileClip(2)).value();
+    CHECK(document.undoName() == "Reverse");
+    CHECK(document.redoName() == "Notes");
+    REQUIRE(document.edit(second, "Reverse", ReverseEdit{}));
+    const int third = document.addClip(fileClip(3)).value();
+    const Project last = document.project();
+    while (document.undo())
+    {
+        CHECK(document.project().clips.size() == 3);
+        CHECK(document.isDirty()); // the file has one
+    }
+    CHECK(*document.clip(first)->clip == fileClip(1));
+    CHECK(*document.clip(second)->clip == fileClip(2));
+    CHECK(document.project().findSource(document.clip(second)->source)->path == sound.path);
+    while (document.redo())
+        CHECK(document.clip(third));
+    CHECK(document.project() == last);
+}
+
+TEST_CASE("A clip that is opened after an undo has an id that no clip to be redone has")
+{
+    Document document;
+    const int first = document.addClip(fileClip(1)).value();
+    const int copy = document.duplicateClip(first, "Duplicate").value();
     REQUIRE(document.undo());
-    CHECK(document.project().profile.name.empty());
-    CHECK_FALSE(document.canUndo());
+    const int opened = document.addClip(fileClip(2)).value();
+    CHECK(opened != copy);
+    REQUIRE(document.redo());
+    REQUIRE(document.project().clips.size() == 3);
+    CHECK(*document.clip(copy)->clip == fileClip(1));
+    CHECK(*document.clip(opened)->clip == fileClip(2));
+}
+
+TEST_CASE("What is opened during a gesture does not end it, and is not lost by it")
+{
+    Document document;
+    const int id = document.addClip(fileClip(1)).value();
+    const Gesture turn = document.beginGesture();
+    REQUIRE(document.edit(id, "Gain", GainEdit{{}, -1.0}, turn));
+    const int opened = document.addClip(fileClip(2)).value();
+    REQUIRE(document.edit(id, "Gain", GainEdit{{}, -2.0}, turn));
+    CHECK(document.clip(opened));
+    CHECK(document.clip(id)->edits.size() == 1);
+    REQUIRE(document.undo());
+    CHECK(document.clip(opened));
+    CHECK(*document.clip(id)->clip == fileClip(1));
 }

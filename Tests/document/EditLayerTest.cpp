@@ -68,7 +68,7 @@ Edited editedClicks()
     Edited e;
     const Clip clip = analyse(clicks(times, 4.0), {}, reference()).value();
     REQUIRE(clip.transients.size() == times.size());
-    e.id = e.document.addSound("Import", reference(), {}, clip).value();
+    e.id = e.document.addSound(reference(), {}, clip).value();
     Clip drawn = clip;
     e.drawnAt = clip.transients[2].time;
     const Curve stroke = {{e.drawnAt, 0.123}, {e.drawnAt + 0.2, 0.123}};
@@ -151,7 +151,7 @@ TEST_CASE("Edits of bands find them by frequency, and wait when there is none")
     for (double f = 50.0; f < 200.0; f *= 1.44)
         six.bands.push_back({f, f * 1.2, f * 1.44, 0, {{0.0, 0.4}, {1.0, 0.4}}, {}});
     Document document;
-    const int id = document.addClip("Add", twelve).value();
+    const int id = document.addClip(twelve).value();
     const auto lower = [&](std::size_t band)
     {
         Clip clip = *document.clip(id)->clip;
@@ -182,7 +182,7 @@ TEST_CASE("Edits behind a trim, a reversal and a repetition still follow their e
     for (Transient& event : moved.transients)
         event.time += 0.02;
     Document document;
-    const int id = document.addClip("Add", analysis).value();
+    const int id = document.addClip(analysis).value();
     REQUIRE(document.edit(id, "Trim", TrimEdit{{0.8, 3.5}}));
     REQUIRE(document.edit(id, "Reverse", ReverseEdit{}));
     REQUIRE(document.edit(id, "Repeat", RepeatEdit{2}));

@@ -54,7 +54,7 @@ TEST_CASE("Several sounds get their new places in one step, or none of them")
         AudioReference sound;
         sound.path = folder / name;
         sound.hash = name;
-        REQUIRE(document.addSound("Add", sound, {}, clip));
+        REQUIRE(document.addSound(sound, {}, clip));
     }
     auto moved = document.project().sources;
     for (AudioReference& sound : moved)

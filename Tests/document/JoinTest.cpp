@@ -11,8 +11,8 @@ TEST_CASE("Clips are joined in one step that can be undone, and the joint is an 
     Document document;
     const Clip one = test::randomFullClip(3, 10);
     const Clip two = test::randomFullClip(4, 10);
-    const int first = *document.addClip("Add", one);
-    const int second = *document.addClip("Add", two);
+    const int first = *document.addClip(one);
+    const int second = *document.addClip(two);
     const auto before = document.project();
     REQUIRE(document.joinClip(first, second, "Join").ok());
     CHECK(document.project().clips.size() == 1);
@@ -27,7 +27,7 @@ TEST_CASE("Clips are joined in one step that can be undone, and the joint is an 
 TEST_CASE("A clip is not joined with itself or with one that is not there")
 {
     Document document;
-    const int id = *document.addClip("Add", test::randomFullClip(3, 10));
+    const int id = *document.addClip(test::randomFullClip(3, 10));
     const auto state = document.snapshot().state;
     CHECK_FALSE(document.joinClip(id, id, "Join").ok());
     CHECK_FALSE(document.joinClip(id, id + 1, "Join").ok());
@@ -39,7 +39,7 @@ TEST_CASE("A clip that was split and joined again plays as before")
 {
     Document document;
     const Clip clip = test::randomFullClip(5, 10);
-    const int left = *document.addClip("Add", clip);
+    const int left = *document.addClip(clip);
     const int right = *document.splitClipAt(left, 0.4 * clip.duration, "Split");
     REQUIRE(document.joinClip(left, right, "Join").ok());
     const Clip joined = *document.clip(left)->clip;

@@ -8,6 +8,7 @@
 #include "support/HeapGuard.h"
 #include "support/Paths.h"
 
+#include <pacini/actuator/Wearer.h>
 #include <pacini/linearize/SweepSchedule.h>
 
 #include <array>
@@ -228,6 +229,16 @@ TEST_CASE("At the settings a person starts with no simulated actuator clips, on 
         params.sampleRate = 8000.0;
         params.noiseDensity *= 0.05;
         SimulatedMeasureRig rig(params, 0.0);
+        for (unsigned wearer = 0; wearer <= simulatedWearers; ++wearer)
+        {
+            RigParams worn = params;
+            worn.body = bodyOn(wearer, *params.body);
+            double most = 0.0; // dB re 1 m/s^2 at full drive
+            for (double f = settings.lowFrequency; f < settings.highFrequency; f *= 1.01)
+                most = std::max(most, rigLevel(worn, f));
+            CAPTURE(profile->name, wearer);
+            CHECK(Decibels(settings.level + most).gain() + standardGravity < params.range);
+        }
         for (const std::size_t wearer : {std::size_t(0), std::size_t(3), std::size_t(9)})
         {
             CAPTURE(profile->name, wearer);
@@ -287,6 +298,21 @@ TEST_CASE("What goes wrong with a sweep is said in plain words with the name of 
         REQUIRE_FALSE(placement->notes.empty());
         CHECK(placement->notes.front().find("Clipping on '") != std::string::npos);
         CHECK(placement->notes.front().find("record or drive at a lower level") != std::string::npos);
+        // Nothing that is made of it is done.
+        ActuatorMeasurement work;
+        work.setSettings(settings);
+        work.setRate(8000.0);
+        work.addPlacement(*placement);
+        compute(work);
+        REQUIRE(work.equalizer() != nullptr);
+        for (const MeasureStep step : {MeasureStep::sweep, MeasureStep::response, MeasureStep::equalizer})
+            CHECK(work.state(step) == MeasureStepState::failed);
+        CHECK(work.state(MeasureStep::verify) == MeasureStepState::open);
+        work.addVerification(*placement);
+        compute(work);
+        CHECK(work.state(MeasureStep::verify) == MeasureStepState::failed);
+        work.dropPlacement(0);
+        CHECK(work.state(MeasureStep::sweep) == MeasureStepState::open);
         // Something so strong that nothing is seen of the sweep.
         RecordedSweep drowned = recordedOn(small, signal, sweep, {0});
         for (std::size_t n = 0; n < drowned.channels.front().size(); ++n)

@@ -26,7 +26,7 @@ struct Shelf
     Shelf()
     {
         for (const char* name : {"a", "c", "b", "d", "e"})
-            ids[name] = document.addClip("Add", named(name)).value();
+            ids[name] = document.addClip(named(name)).value();
         document.setGroups({"empty", "hits"}, "Groups");
         group("c", "hits");
         group("e", "hits");

@@ -25,7 +25,7 @@ int addDemo(Document& document, const std::string& file, const std::string& name
 {
     auto sound = describeAudio(demoFolder() / file).value();
     Clip clip = analyse(sound.audio, {}, sound.reference).value();
-    return document.addSound("Add " + name, sound.reference, {}, std::move(clip)).value();
+    return document.addSound(sound.reference, {}, std::move(clip)).value();
 }
 
 EditScope wholeClip(const Document& document, int id)
@@ -62,7 +62,7 @@ TEST_CASE("Make the sample project", "[.make-sample]")
     document.setProjectNotes("A project to try things on. It is not saved anywhere until you save it.", "Notes");
     ProjectProfile profile;
     profile.name = "l5-wristband";
-    REQUIRE(document.setProfile(std::move(profile), "Choose actuator"));
+    REQUIRE(document.setProfile(std::move(profile)));
     REQUIRE(document.saveAs(demoFolder() / "sample.pacini"));
 }
 

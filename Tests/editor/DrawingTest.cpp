@@ -1,6 +1,7 @@
 // How the editor draws, and how fast.
 
 #include "editor/Bench.h"
+#include "editor/clip/lanes/ColumnFill.h"
 #include "support/Paths.h"
 
 #include <pacini/foundation/Random.h>
@@ -93,6 +94,29 @@ void addLong(editor::Session& session)
     session.sounds.add(std::move(imported));
 }
 } // namespace
+
+TEST_CASE("Columns beside each other have no stripes, at whatever scale")
+{
+    for (const float scale : {1.0f, 1.25f, 1.5f, 2.0f})
+        for (const float place : {0.0f, 3.0f})
+        {
+            juce::Image image(juce::Image::ARGB, 220, 40, true);
+            {
+                juce::Graphics g(image);
+                g.addTransform(juce::AffineTransform::translation(place, 0.0f).scaled(scale));
+                editor::ColumnFill fill(g, juce::Colours::white.withAlpha(0.3f));
+                for (int x = 0; x < 100; ++x)
+                    fill.add(x, 0, 16);
+            }
+            // Inside of the outer columns all pixels are alike.
+            const int from = juce::roundToInt(scale * (place + 2.0f)), to = juce::roundToInt(scale * (place + 98.0f));
+            for (int x = from; x < to; ++x)
+            {
+                CAPTURE(scale, place, x);
+                REQUIRE(image.getPixelAt(x, 8) == image.getPixelAt(from, 8));
+            }
+        }
+}
 
 TEST_CASE("The editor draws itself empty, with a clip, light and dark, and at all scales")
 {

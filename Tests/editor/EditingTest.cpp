@@ -5,7 +5,9 @@
 #include "io/ClipFile.h"
 #include "support/TempFolder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -47,7 +49,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     CHECK(after.envelope[i].value == Approx(expected.envelope[i].value).epsilon(1e-5));
     expected.envelope[i] = after.envelope[i];
     CHECK(after == expected);
-    CHECK(bench.session.model.document().undoName() == "Move points");
+    CHECK(bench.session.model.document().undoName() == "Move point");
 
     TempFolder folder;
     ExportChoice choice;
@@ -61,7 +63,7 @@ TEST_CASE("A demo sound becomes a clip, a dragged breakpoint goes where the poin
     // The whole drag is one step.
     bench.session.model.undo();
     CHECK(bench.clip() == before);
-    CHECK(bench.session.model.document().undoName() != "Move points");
+    CHECK(bench.session.model.document().undoName() != "Move point");
     bench.session.model.redo();
     CHECK(bench.clip() == expected);
 }
@@ -170,6 +172,84 @@ TEST_CASE("Gain, fades, reverse, cut and paste go through the document with thei
     CHECK(bench.clip().duration == Approx(before.duration - 0.5));
 }
 
+TEST_CASE("What is pasted beyond the end extends the clip, in one step, and says so")
+{
+    EditorBench bench;
+    bench.openDemo("drums_tabla_pattern");
+    const Clip before = bench.clip();
+    juce::String said;
+    bench.session.model.onNotice = [&](const juce::String& text)
+    {
+        said = text;
+    };
+    bench.session.clipSelection.setTimeRange(TimeRange{0.5, 1.0});
+    REQUIRE(bench.view.doCommand(editor::copy));
+    bench.session.transport.setPlayhead(before.duration - 0.1);
+    REQUIRE(bench.view.doCommand(editor::paste));
+    const Clip longer = bench.clip();
+    CHECK(longer.duration == Approx(before.duration + 0.4));
+    CHECK(said == "Pasted beyond the end: the clip is 0.40 s longer");
+    CHECK(valueAt(longer.envelope, before.duration + 0.3) == Approx(valueAt(before.envelope, 0.9)));
+    const auto hits = [](const Clip& clip, double from, double to)
+    {
+        return std::count_if(clip.transients.begin(), clip.transients.end(),
+                             [&](const Transient& event) { return event.time >= from && event.time <= to; });
+    };
+    CHECK(hits(longer, before.duration - 0.1, longer.duration) == hits(before, 0.5, 1.0));
+    CHECK(bench.session.model.document().undoName() == "Paste");
+    bench.view.doCommand(editor::undo);
+    CHECK(bench.clip() == before);
+    bench.view.doCommand(editor::redo);
+    CHECK(bench.clip() == longer);
+    // Both are edits over the analysis, and not another clip in its place.
+    const auto item = bench.session.model.item();
+    bench.session.model.change([&](Document& document)
+                               { return document.reanalyse(item->id, "Again", item->encoder, *item->analysis); });
+    CHECK(bench.clip() == longer);
+    CHECK(bench.session.model.item()->unfitting.empty());
+    for (const auto& edit : bench.session.model.item()->edits.whole())
+        CHECK_FALSE(std::holds_alternative<ReplaceEdit>(edit->operation));
+}
+
+TEST_CASE("A single lane that is pasted beyond the end leaves silence in the others")
+{
+    EditorBench bench;
+    editor::Imported imported;
+    imported.clip.duration = 1.0;
+    imported.clip.envelope = {{0.0, 0.5}, {1.0, 0.5}};
+    imported.clip.bands = {{40.0, 50.0, 60.0, 0, {{0.0, 0.4}, {1.0, 0.4}}, {}}};
+    bench.session.sounds.add(std::move(imported));
+    bench.session.clipSelection.select(withPoints({}, envelope, {0, 1}));
+    REQUIRE(bench.view.doCommand(editor::copy));
+    bench.session.clipSelection.select({});
+    bench.session.clipSelection.paste(0.5, envelope);
+    const Clip longer = bench.clip();
+    CHECK(longer.duration == Approx(1.5));
+    CHECK(valueAt(longer.envelope, 1.4) == Approx(0.5));
+    CHECK(valueAt(longer.bands[0].amplitude, 0.9) == Approx(0.4));
+    CHECK(valueAt(longer.bands[0].amplitude, 1.1) == 0.0);
+}
+
+TEST_CASE("Smaller and larger interface work with the characters that Shift makes of - and + on US and German keys")
+{
+    EditorBench bench;
+    const auto press = [&](juce::juce_wchar key)
+    {
+        return bench.view.menus().keys()->keyPressed(
+            juce::KeyPress(static_cast<int>(key),
+                           juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, key),
+            &bench.view);
+    };
+    CHECK(press('_'));
+    CHECK(bench.view.scale() == 0.75);
+    CHECK(press('*'));
+    CHECK(bench.view.scale() == 1.0);
+    CHECK(press('+'));
+    CHECK(bench.view.scale() == 1.25);
+    CHECK(press('-'));
+    CHECK(bench.view.scale() == 1.0);
+}
+
 TEST_CASE("Simplifying keeps the wanted share of points and tells the error that it made")
 {
     EditorBench bench;
@@ -219,16 +299,13 @@ TEST_CASE("What an autosave wrote is offered and restored with all edits")
         session.model.edit("Gain", GainEdit{{}, -6.0});
         edited = *session.model.clip();
     }
-    // The process that wrote it still runs, so its file is not offered; under another name it is one that has ended.
-    std::filesystem::path left;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "recovery"))
-        left = entry.path();
-    REQUIRE(!left.empty());
+    // Nobody holds it any more, though the process that wrote it still runs.
     const juce::ScopedJuceInitialiser_GUI gui;
     editor::Session session({folder.path() / "recovery", {}}, {});
-    Recoverable entry;
-    entry.file = left;
-    REQUIRE(session.model.recover(entry).ok());
+    const auto offered = session.model.recoverable();
+    REQUIRE(offered.size() == 1);
+    REQUIRE(session.model.recover(offered.front()).ok());
+    CHECK(session.model.recoverable().empty()); // it is this session's now
     CHECK(*session.model.clip() == edited);
     CHECK(session.model.document().isDirty());
 }

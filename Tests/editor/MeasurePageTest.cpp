@@ -200,6 +200,7 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         bench.sweep();
         REQUIRE(bench.controller->measurement().placements().size() == 1);
         CHECK(notes(bench).find("Clipping on '") != std::string::npos);
+        CHECK(bench.controller->measurement().state(MeasureStep::sweep) == MeasureStepState::failed);
     }
     SECTION("a second try takes the words away, and placements can be dropped")
     {
@@ -216,6 +217,16 @@ TEST_CASE("The measure page says in plain words what is wrong with a sweep", "[m
         REQUIRE(bench.controller->measurement().placements().size() == 1);
         CHECK(bench.controller->measurement().response() != nullptr);
     }
+}
+
+TEST_CASE("Numbers that are rounded to nothing have no sign", "[measure]")
+{
+    CHECK(editor::numberText(-0.04, 1) == "0.0");
+    CHECK(editor::numberText(-0.4, 0) == "0");
+    CHECK(editor::numberText(-0.06, 1) == "-0.1");
+    CHECK(editor::signedText(-0.04, 1) == "0.0");
+    CHECK(editor::signedText(0.04, 1) == "0.0");
+    CHECK(editor::signedText(0.06, 1) == "+0.1");
 }
 
 TEST_CASE("Escape stops a sweep, and what was measured outlives the page", "[measure]")

@@ -70,6 +70,30 @@ TEST_CASE("Knobs of the analysis run it again after a pause as one step, the han
     CHECK(session.model.document().undoName() == "Softer");
 }
 
+TEST_CASE("Version A is shown with the settings of its analysis, and is taken back with them")
+{
+    Pages pages;
+    auto& session = pages.session;
+    auto& bands = get<juce::Slider>(pages.analysis, "Bands");
+    const auto first = *session.model.item();
+    session.model.keepVersion();
+    bands.setValue(20.0, juce::sendNotificationSync);
+    REQUIRE(pumpUntil([&] { return pages.clip().bands.size() == 20; }));
+    session.model.setComparing(true);
+    CHECK(pages.clip().bands.size() == 12);
+    CHECK(bands.getValue() == 12.0);
+    CHECK_FALSE(bands.isEnabled());
+    session.model.setComparing(false);
+    CHECK(bands.getValue() == 20.0);
+    CHECK(bands.isEnabled());
+    session.model.takeVersion();
+    CHECK(*session.model.item() == first);
+    CHECK(bands.getValue() == 12.0);
+    session.model.undo();
+    CHECK(bands.getValue() == 20.0);
+    CHECK(pages.clip().bands.size() == 20);
+}
+
 TEST_CASE("Presets set all knobs, own settings have no preset, reset goes back to the usual ones")
 {
     Pages pages;

@@ -145,6 +145,28 @@ TEST_CASE("Strength in the toolbar drives the actuator as the command does, and 
     }
 }
 
+TEST_CASE("The export starts from the format, rate and folder of the last one")
+{
+    StrengthBench bench;
+    const TempFolder folder;
+    {
+        OpenSheet sheet(bench);
+        sheet.choose("wav");
+        get<juce::ComboBox>(sheet.sheet, "Sample rate").setSelectedId(8000, juce::sendNotificationSync);
+        (void)sheet.written(bench, folder / "drive.wav");
+    }
+    OpenSheet again(bench);
+    CHECK(exportFormats()[static_cast<std::size_t>(again.format.getSelectedId() - 1)].name == "wav");
+    CHECK(get<juce::ComboBox>(again.sheet, "Sample rate").getSelectedId() == 8000);
+    CHECK(get<juce::TextEditor>(again.sheet, "File or folder to write")
+              .getText()
+              .startsWith(juce::String(folder.path().string())));
+    again.choose("ahap");
+    bench.view.showSheet(nullptr); // nothing was written
+    OpenSheet third(bench);
+    CHECK(exportFormats()[static_cast<std::size_t>(third.format.getSelectedId() - 1)].name == "wav");
+}
+
 TEST_CASE("What the actuator plays is shown with the strength, the old until the new is there")
 {
     StrengthBench bench;
@@ -158,15 +180,19 @@ TEST_CASE("What the actuator plays is shown with the strength, the old until the
     CHECK(row.trace()->peaks != usual->peaks);
 }
 
-TEST_CASE("Turning the strength is one step of undo, kept with the project and for the next actuator")
+TEST_CASE("Actuator and strength are choices of listening: kept with the project and through undo, and no steps of it")
 {
     StrengthBench bench;
     auto& document = bench.session.model.document();
-    for (const double percent : {50.0, 60.0, 80.0}) // at once
+    REQUIRE(bench.session.model.edit("Reverse", ReverseEdit{}));
+    for (const double percent : {50.0, 60.0, 80.0})
         bench.turn(percent);
-    CHECK(document.undoName() == "Strength");
     bench.session.actuators.setProfile("lra-235-narrow");
+    CHECK(document.undoName() == "Reverse");
+    bench.session.model.undo();
     CHECK(bench.slider.getValue() == 80.0);
+    CHECK(bench.session.actuators.profileName() == "lra-235-narrow");
+    CHECK_FALSE(document.canUndo());
     CHECK(document.project().profile.strength == Approx(0.8));
     const TempFolder folder;
     REQUIRE(bench.session.model.saveAs(folder / "strong.pacini"));
@@ -176,16 +202,9 @@ TEST_CASE("Turning the strength is one step of undo, kept with the project and f
     CHECK(bench.slider.getValue() == 80.0);
 }
 
-TEST_CASE("Undo takes the strength back, and what has nothing to trade has no strength to turn")
+TEST_CASE("What has nothing to trade has no strength to turn")
 {
     StrengthBench bench;
-    bench.turn(70.0);
-    bench.turn(75.0);
-    bench.session.model.undo();
-    CHECK(bench.slider.getValue() == 100.0 * standardStrength);
-    CHECK(bench.session.model.document().undoName() == "Choose actuator");
-    bench.session.model.redo();
-    CHECK(bench.slider.getValue() == 75.0);
     bench.session.actuators.setProfile("erm-coin");
     CHECK_FALSE(bench.slider.isEnabled());
     bench.session.actuators.setProfile({});

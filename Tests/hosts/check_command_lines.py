@@ -30,6 +30,9 @@ def main():
         check(f"{program} --version is a number", code == 0 and text.strip().replace(".", "").isdigit())
         code, text, problem = answer(program, "--nonsense")
         check(f"{program} refuses an unknown option and names it", code == 2 and "--nonsense" in problem)
+        code, _, problem = answer(program)
+        check(f"{program} says in one line that there is no display", code == 1 and problem.count("\n") == 1 and
+              "display" in problem, f"code {code}: {problem}")
     return 1 if failures else 0
 
 

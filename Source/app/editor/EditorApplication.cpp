@@ -3,6 +3,8 @@
 // The clip editor as a program of its own.
 
 #include "app/CommandLine.h"
+#include "app/Display.h"
+#include "app/editor/DemoFiles.h"
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewDevices.h"
@@ -34,24 +36,13 @@ void addOwnProfiles(std::vector<NamedProfile>& profiles, const juce::File& folde
                                 std::make_shared<const Profile>(std::move(profile).value()), true});
 }
 
-/// The sounds in Resources/demo or share/pacini/demo in the program's folder or one of those above it.
-std::vector<std::filesystem::path> demoSounds()
+/// Beside the settings, where projects find their sounds the next time too; without these where it does not stay.
+std::vector<std::filesystem::path> demoSounds(const juce::File* settings)
 {
-    constexpr int maxFolders = 7;
-    juce::File folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
-    for (int i = 0; i < maxFolders; ++i, folder = folder.getParentDirectory())
-        for (const char* name : {"Resources/demo", "share/pacini/demo"})
-        {
-            auto found = folder.getChildFile(name).findChildFiles(juce::File::findFiles, false, "*.flac");
-            if (found.isEmpty())
-                continue;
-            found.sort();
-            std::vector<std::filesystem::path> paths;
-            for (const auto& file : found)
-                paths.push_back(pathOf(file));
-            return paths;
-        }
-    return {};
+    if (settings != nullptr)
+        if (auto found = putDemoFiles(settings->getChildFile("demo")); !found.empty())
+            return found;
+    return putDemoFiles(juce::File::getSpecialLocation(juce::File::tempDirectory).getChildFile("pacini-demo"));
 }
 
 std::string languageCodes()
@@ -85,6 +76,11 @@ public:
             setApplicationReturnValue(*code);
             return quit();
         }
+        if (!hasDisplay("PaciniEditor"))
+        {
+            setApplicationReturnValue(1);
+            return quit();
+        }
         std::vector<std::filesystem::path> files;
         for (const std::string& name : names)
             files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(name))));
@@ -115,7 +111,7 @@ public:
                             : settings        ? settings->language()
                                               : juce::String("en"));
         editor::HostServices around;
-        around.demoSounds = demoSounds();
+        around.demoSounds = demoSounds(settings ? &home : nullptr);
         if (settings)
         {
             around.profileFolder = pathOf(ownProfiles);

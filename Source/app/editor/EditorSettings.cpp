@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/EditorSettings.h"
 
+#include "editor/Text.h"
+
 #include <utility>
 
 namespace pacini::app
@@ -64,6 +66,8 @@ void EditorSettings::apply(editor::EditorView& view) const
     view.setDark(file.getBoolValue("dark", true));
     view.setScale(file.getDoubleValue("scale", 1.0));
     viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
+    view.lastExport = {file.getValue("exportFormat").toStdString(), file.getIntValue("exportRate", 0),
+                       editor::pathOf(file.getValue("exportFolder"))};
     viewState.setLaneHeight(file.getIntValue("laneHeight", viewState.laneHeight()));
     editor::ViewOptions options = viewState.viewOptions();
     SnapTargets snap = viewState.snapTargets();
@@ -83,6 +87,9 @@ void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const j
     file.setValue("scale", view.scale());
     file.setValue("decibels", viewState.amplitudesInDecibels());
     file.setValue("laneHeight", viewState.laneHeight());
+    file.setValue("exportFormat", editor::toText(view.lastExport.format));
+    file.setValue("exportRate", view.lastExport.sampleRate);
+    file.setValue("exportFolder", editor::pathText(view.lastExport.folder));
     editor::ViewOptions options = viewState.viewOptions();
     SnapTargets snap = viewState.snapTargets();
     forAll(options, snap, [this](const char* name, bool& value) { file.setValue(name, value); });

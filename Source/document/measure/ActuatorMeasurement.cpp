@@ -172,23 +172,31 @@ MeasureStepState ActuatorMeasurement::state(MeasureStep step) const
         return locked;
     if (!problem(step).empty())
         return failed;
+    // What is made of a recording that was cut off is there, but it is not good.
+    const MeasureStepState made = anySpoiled(taken) ? failed : done;
     switch (step)
     {
     case MeasureStep::setUp:
-    case MeasureStep::sweep:
         return taken.empty() ? open : done;
+    case MeasureStep::sweep:
+        return taken.empty() ? open : made;
     case MeasureStep::response:
-        return average ? done : working;
+        return average ? made : working;
     case MeasureStep::equalizer:
-        return equalizing ? done : working;
+        return equalizing ? made : working;
     case MeasureStep::verify:
         if (verifying.empty())
             return open;
-        return !proof ? working : proof->linearity.passed() ? done : failed;
+        return !proof ? working : proof->linearity.passed() && !anySpoiled(verifying) ? done : failed;
     case MeasureStep::save:
         return savedTo.empty() ? open : done;
     }
     return open;
+}
+
+bool ActuatorMeasurement::anySpoiled(const Placements& placements)
+{
+    return std::any_of(placements.begin(), placements.end(), [](const auto& one) { return one->spoiled; });
 }
 
 std::string ActuatorMeasurement::whyLocked(MeasureStep step) const

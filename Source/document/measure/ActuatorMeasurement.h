@@ -32,7 +32,7 @@ enum class MeasureStepState
     open,
     working, ///< its result is not there yet
     done,
-    failed ///< see problem()
+    failed ///< see problem(), or what it stands on is spoiled
 };
 
 /// State of a measurement: what has been measured, and what follows from it. Everything behind a step that changes is
@@ -102,6 +102,8 @@ public:
     [[nodiscard]] const std::string& saved() const noexcept { return savedTo; } ///< empty: not since the last change
 
 private:
+    [[nodiscard]] static bool anySpoiled(const Placements& placements);
+
     /// Forgets what `step` and all later ones have come to.
     void forgetFrom(MeasureStep step);
 

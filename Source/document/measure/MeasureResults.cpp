@@ -77,7 +77,7 @@ Result<Placement> analysePlacement(const std::string& name, const RecordedSweep&
     auto measured = analyseSweeps(recorded.channels, recorded.sampleRate, recorded.sweep, params);
     if (!measured)
         return Error{measured.error().code, {}, whyNothing(measured.error(), recorded)};
-    Placement placement{name, std::move(measured).value(), recorded.sweep.levels.front(), {}};
+    Placement placement{name, std::move(measured).value(), recorded.sweep.levels.front(), {}, false};
     takeOut(placement.measurement, recorded.gain);
     std::set<std::string> useless;
     for (const MeasurementWarning& warning : placement.measurement.warnings)
@@ -85,6 +85,8 @@ Result<Placement> analysePlacement(const std::string& name, const RecordedSweep&
         placement.notes.push_back(explain(warning, recorded.inputs));
         if (showsNothing(warning))
             useless.insert(warning.where);
+        placement.spoiled = placement.spoiled || warning.code == MeasurementDefect::clipping ||
+                            warning.code == MeasurementDefect::droppedFrames;
     }
     if (useless.size() >= recorded.channels.size())
         return Error{ErrorCode::invalidData, {}, placement.notes.front()};

@@ -41,6 +41,7 @@ struct Placement
     SweepMeasurement measurement;
     double level = 0.0;             ///< dB re full scale, of the sweep
     std::vector<std::string> notes; ///< in plain words
+    bool spoiled = false;           ///< samples were cut off or lost: it is to be swept again
 };
 
 using Placements = std::vector<std::shared_ptr<const Placement>>;

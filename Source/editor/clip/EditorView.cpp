@@ -54,6 +54,7 @@ EditorView::EditorView(Session& shared, HostServices around)
          std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &empty})
         body.addAndMakeVisible(child);
     body.addChildComponent(workBar);
+    body.addChildComponent(notice);
     addKeyListener(menuList.keys());
     toolbar.onCommand = [this](Command command)
     {
@@ -74,6 +75,10 @@ EditorView::EditorView(Session& shared, HostServices around)
     open.model.onError = [this](const juce::String& title, const juce::String& text)
     {
         showMessage(std::make_unique<MessageSheet>(title, text, std::vector<Sheet::Answer>{{"Close", {}}}));
+    };
+    open.model.onNotice = [this](const juce::String& text)
+    {
+        notice.show(text);
     };
     open.sounds.onSoundsMissing = [this](const std::vector<AudioReference>& missing)
     {
@@ -98,6 +103,7 @@ EditorView::EditorView(Session& shared, HostServices around)
 EditorView::~EditorView()
 {
     open.model.onError = nullptr;
+    open.model.onNotice = nullptr;
     open.sounds.onSoundsMissing = nullptr;
     removeKeyListener(menuList.keys());
     menuBar.setModel(nullptr);
@@ -155,6 +161,7 @@ void EditorView::resized()
     meters.setBounds(beside.removeFromBottom(meters.wantedHeight()));
     side.setBounds(beside);
     clipPart.setBounds(area);
+    notice.setBounds(area.withTrimmedBottom(grid).removeFromBottom(4 * grid));
     workBar.setBounds(area.withTrimmedBottom(7 * grid)
                           .removeFromBottom(workBarHeight)
                           .withSizeKeepingCentre(std::min(workBarWidth, area.getWidth() - 2 * grid), workBarHeight));

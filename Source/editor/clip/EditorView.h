@@ -6,6 +6,7 @@
 #include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
 #include "editor/clip/EmptyState.h"
+#include "editor/clip/NoticeBar.h"
 #include "editor/clip/ProjectFiles.h"
 #include "editor/clip/Toolbar.h"
 #include "editor/clip/WorkBar.h"
@@ -15,6 +16,7 @@
 #include "editor/clip/panels/MeterPanel.h"
 #include "editor/clip/panels/SidePanel.h"
 #include "editor/clip/session/Session.h"
+#include "editor/clip/sheets/ExportSheet.h"
 #include "editor/clip/sheets/Sheet.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -49,6 +51,7 @@ public:
     ~EditorView() override;
 
     std::function<void()> onTitleChanged; ///< see title()
+    ExportMemory lastExport;              ///< kept by the program
 
     /// "name - changed".
     [[nodiscard]] juce::String title() const;
@@ -105,6 +108,7 @@ private:
     MeterPanel meters;
     EmptyState empty;
     WorkBar workBar;
+    NoticeBar notice;
     std::unique_ptr<Sheet> sheetNow;
     std::deque<std::unique_ptr<Sheet>> messages; ///< that wait
     HeldSwitch drawKey;

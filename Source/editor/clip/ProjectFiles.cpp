@@ -144,12 +144,8 @@ void ProjectFiles::whenSaved(std::function<void()> next)
                                     {
                                         save(next);
                                     }},
-                                   {"Don't save",
-                                    [&session, next]
-                                    {
-                                        session.model.discardAutosave();
-                                        next();
-                                    }},
+                                   // Until another project is open what is autosaved stays: opening may fail.
+                                   {"Don't save", next},
                                    {"Cancel", {}}}));
 }
 
@@ -239,10 +235,14 @@ void ProjectFiles::offerRecovery()
     for (const auto& name : usable->clips)
         names.add(toText(name));
     const juce::Time when(static_cast<juce::int64>(usable->time * 1000.0));
-    const auto restore = [&session, entry = *usable]
+    const auto restore = [this, &session, entry = *usable]
     {
-        if (const auto done = session.model.recover(entry); !done)
-            session.model.onError("Not restored", toText(done.error().text()));
+        whenSaved(
+            [&session, entry]
+            {
+                if (const auto done = session.model.recover(entry); !done)
+                    session.model.onError("Not restored", toText(done.error().text()));
+            });
     };
     view.showMessage(std::make_unique<MessageSheet>(
         "Restore unsaved work?",
@@ -251,9 +251,10 @@ void ProjectFiles::offerRecovery()
             when.toString(true, true, false), names.joinIntoString(", ")}),
         std::vector<Sheet::Answer>{{"Restore", restore},
                                    {"Discard",
-                                    [entry = *usable]
+                                    [this, entry = *usable]
                                     {
                                         discardRecoverable(entry);
+                                        offerRecovery(); // of another program that did not end properly
                                     }},
                                    {"Later", {}}}));
 }

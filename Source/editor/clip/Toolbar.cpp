@@ -11,8 +11,7 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int plainDrive = 1;        // menus know no item 0; profiles follow
-constexpr juce::uint32 pause = 1000; // ms: after it, keys begin another step of undo
+constexpr int plainDrive = 1; // menus know no item 0; profiles follow
 constexpr int clipWidth = 28, heardWidth = 36, profileWidth = 60, strengthWidth = 52; // of the labels
 constexpr int sliderWidth = 124;
 constexpr int leastHeard = 76;
@@ -98,13 +97,9 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     strength.setTextValueSuffix(" %");
     strength.setDoubleClickReturnValue(true, 100.0 * standardStrength);
     strength.setWantsKeyboardFocus(true);
-    strength.onDragStart = [this]
-    {
-        gesture = model.beginGesture();
-    };
     strength.onValueChange = [this]
     {
-        strengthMoved();
+        actuators.setStrength(0.01 * strength.getValue());
     };
     clips.onChange = [this]
     {
@@ -150,15 +145,6 @@ void Toolbar::fillProfiles()
         const NamedProfile& entry = actuators.profiles()[i];
         profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
     }
-}
-
-void Toolbar::strengthMoved()
-{
-    const auto now = juce::Time::getMillisecondCounter();
-    if (gesture == 0 || (!strength.isMouseButtonDown(true) && now - lastMoved > pause))
-        gesture = model.beginGesture();
-    lastMoved = now;
-    actuators.setStrength(0.01 * strength.getValue(), gesture);
 }
 
 void Toolbar::showState()

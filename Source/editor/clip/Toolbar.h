@@ -29,7 +29,6 @@ private:
     void fillClips();
     void fillProfiles();
     void showState();
-    void strengthMoved();
 
     EditorModel& model;
     Actuators& actuators;
@@ -39,8 +38,6 @@ private:
     juce::Label time, clipLabel, heardLabel, profileLabel, strengthLabel;
     juce::ComboBox clips, heard, profile;
     juce::Slider strength;
-    Gesture gesture = 0;        ///< of the strength
-    juce::uint32 lastMoved = 0; ///< ms
     Subscriptions subscriptions;
 };
 

@@ -72,7 +72,7 @@ void ResponseStep::refresh()
                                                             numberText(1e3 * response->findings.times->fallTime, 0)})});
         list.push_back({tr("Distortion"), tr("at most {0} %", {numberText(response->findings.distortion, 1)})});
         if (const auto& drift = measured.driftPpm)
-            list.push_back({tr("Clock drift"), (*drift > 0.0 ? "+" : "") + numberText(*drift, 1) + " ppm"});
+            list.push_back({tr("Clock drift"), signedText(*drift, 1) + " ppm"});
         list.push_back({tr("Latency"), numberText(1e3 * measured.latency, 1) + " ms"});
         facts.show(std::move(list));
         for (const std::string& note : response->notes)

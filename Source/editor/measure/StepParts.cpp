@@ -21,12 +21,15 @@ void prepareSlider(juce::Slider& slider, double least, double most, double step,
 
 juce::String numberText(double value, int decimals)
 {
-    return decimals > 0 ? juce::String(value, decimals) : juce::String(static_cast<juce::int64>(std::llround(value)));
+    const juce::String text =
+        decimals > 0 ? juce::String(value, decimals) : juce::String(static_cast<juce::int64>(std::llround(value)));
+    return text.containsAnyOf("123456789") ? text : text.trimCharactersAtStart("-"); // no -0.0
 }
 
 juce::String signedText(double value, int decimals)
 {
-    return (value >= 0.0 ? "+" : "") + numberText(value, decimals);
+    const juce::String text = numberText(value, decimals);
+    return value > 0.0 && text.containsAnyOf("123456789") ? "+" + text : text;
 }
 
 juce::String worstText(const Linearity& linearity)

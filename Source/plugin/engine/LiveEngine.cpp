@@ -10,9 +10,24 @@
 namespace pacini::plugin
 {
 
+namespace
+{
+/// Of the engine, for a translator that has one of its own at that rate.
+std::size_t engineLatency(double sampleRate, std::size_t ofTranslator)
+{
+    constexpr double commonRate = 48000.0, lowestOfThem = 44100.0; // Hz
+    if (sampleRate < lowestOfThem || sampleRate >= commonRate)
+        return ofTranslator;
+    Translator common;
+    common.prepare({commonRate, 1});
+    return std::max(ofTranslator, common.latencyFrames());
+}
+} // namespace
+
 LiveEngine::LiveEngine()
 {
     voices[0].translator = std::make_unique<Translator>();
+    latency = voices[0].translator->latencyFrames();
 }
 
 void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_t hapticChannels)
@@ -21,6 +36,10 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_
     for (Voice& voice : voices)
         if (voice.translator)
             voice.translator->prepare({sampleRate, pieceFrames});
+    latency = engineLatency(sampleRate, voices[0].translator->latencyFrames());
+    for (Voice& voice : voices)
+        if (voice.translator)
+            prepareVoice(voice);
     mix.prepare(sampleRate);
     row.prepare(sampleRate, std::max(hapticChannels, mainChannels));
     routing.prepare(sampleRate);
@@ -34,6 +53,12 @@ void LiveEngine::prepare(double sampleRate, std::size_t mainChannels, std::size_
     reset();
 }
 
+/// Its translator is prepared.
+void LiveEngine::prepareVoice(Voice& voice) const
+{
+    voice.late.prepare(1, latency - std::min(latency, voice.translator->latencyFrames()));
+}
+
 void LiveEngine::reset() noexcept
 {
     for (Voice& voice : voices)
@@ -43,7 +68,10 @@ void LiveEngine::reset() noexcept
         playing[c] = sources[c].load(std::memory_order_acquire);
         Voice& voice = voices[playing[c]];
         if (!std::exchange(voice.plays, true))
+        {
             voice.translator->reset();
+            voice.late.reset();
+        }
     }
     mix.reset();
     row.reset();
@@ -62,6 +90,7 @@ void LiveEngine::setSetup(std::size_t channel, const TranslatorSetup& setup)
         made->setSetup(setup);
         made->prepare({sampleRate(), pieceFrames});
         voice.translator = std::move(made);
+        prepareVoice(voice);
     }
     // The audio thread sees the translator no earlier than this.
     sources[channel].store(channel, std::memory_order_release);
@@ -165,8 +194,13 @@ void LiveEngine::translate(std::span<const float> in) noexcept
         {
             voice.translator->setParams(params);
             if (!voice.plays)
+            {
                 voice.translator->reset();
-            voice.translator->process(in, std::span(voice.drive).first(in.size()));
+                voice.late.reset();
+            }
+            const auto drive = std::span(voice.drive).first(in.size());
+            voice.translator->process(in, drive);
+            voice.late.process(std::span(&drive, 1));
         }
         voice.plays = plays;
     }

@@ -56,7 +56,9 @@ public:
     /// Any number of frames. [audio]
     void process(const EngineBlock& block, const ParameterValues& values, bool bypassed) noexcept;
 
-    [[nodiscard]] std::size_t latencyFrames() const noexcept { return voices[0].translator->latencyFrames(); }
+    /// Frames by which the outputs are later than the inputs. The same at 44.1 and 48 kHz: hosts load plugins at the
+    /// one and play at the other, and compensate the first blocks by what they read before.
+    [[nodiscard]] std::size_t latencyFrames() const noexcept { return latency; }
     [[nodiscard]] double sampleRate() const noexcept { return fs.load(std::memory_order_relaxed); }
 
     /// The actuator of a channel: one thread at a time, and not while prepare() runs. The channel has a translation of
@@ -95,10 +97,12 @@ private:
     struct Voice
     {
         std::unique_ptr<Translator> translator; ///< null until a channel wants it
+        MainDelay late;                         ///< up to the latency of the engine
         bool plays = false;                     ///< some channel listened to it in the last piece
         std::array<float, pieceFrames> drive{};
     };
 
+    void prepareVoice(Voice& voice) const;
     void followSources() noexcept;
     void translate(std::span<const float> in) noexcept;
     void meterPeaks(std::size_t frames) noexcept;
@@ -108,6 +112,7 @@ private:
     std::array<std::atomic<std::size_t>, maxHapticChannels> sources{}; ///< the voice that each channel shall play
     std::array<std::size_t, maxHapticChannels> playing{};              ///< that it does
     SourceMix mix;
+    std::size_t latency = 0;
     MainDelay delay;
     ClipPreview preview;
     HostedProject* clips = nullptr;

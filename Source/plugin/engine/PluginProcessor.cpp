@@ -52,6 +52,7 @@ PluginProcessor::PluginProcessor()
     appliedStrength = parameter(ParameterId::strength).value();
     engine.setSetup(0, setupOf(actuators[0].profile, appliedStrength));
     engine.setClips(&clips);
+    setLatencySamples(static_cast<int>(engine.latencyFrames())); // some hosts ask before they tell their rate
     worker->add(*this);
 }
 

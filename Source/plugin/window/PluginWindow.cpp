@@ -250,6 +250,12 @@ void PluginWindow::show(Page wanted)
     repaint();
 }
 
+bool PluginWindow::keyPressed(const juce::KeyPress& key)
+{
+    return clipView && clipView->isVisible() && clipView->sheet() == nullptr &&
+           clipView->menus().keys()->keyPressed(key, clipView.get());
+}
+
 void PluginWindow::editClip(const Clip& clip)
 {
     show(Page::clips);

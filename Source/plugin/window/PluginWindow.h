@@ -30,6 +30,8 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
+    /// The keys of the clip editor also work while the header has the focus.
+    bool keyPressed(const juce::KeyPress& key) override;
 
     /// Looks at everything that may have changed, as the timer does.
     void refresh();

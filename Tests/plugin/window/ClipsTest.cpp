@@ -93,6 +93,22 @@ TEST_CASE("The sound passes untouched while a clip plays")
     CHECK(out.main[1] == delayed(in[1], latency));
 }
 
+TEST_CASE("The keys of the clip editor work while the header of the window has the focus, and on its page only")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    addClip(rig, toneClip(3.0));
+    auto& model = rig.plugin.clips().session().model;
+    const juce::KeyPress keep('k', juce::ModifierKeys::commandModifier, 0);
+    CHECK_FALSE(window.keyPressed(keep));
+    window.show(plugin::PluginWindow::Page::clips);
+    CHECK(window.keyPressed(keep));
+    CHECK(model.keptVersion() != nullptr);
+    window.show(plugin::PluginWindow::Page::live);
+    CHECK_FALSE(window.keyPressed(keep));
+}
+
 TEST_CASE("The clips of the window are kept with the session")
 {
     const juce::ScopedJuceInitialiser_GUI gui;

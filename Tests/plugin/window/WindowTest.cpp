@@ -67,6 +67,32 @@ TEST_CASE("The window draws itself, light and dark, small and large, and its met
     CHECK(changed > 500);
 }
 
+TEST_CASE("Knobs stay between their names and their values, however tall the window is")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    plugin::PluginWindow window(rig.plugin);
+    for (const auto size : {juce::Point<int>(936, 608), juce::Point<int>(1910, 1040), juce::Point<int>(2400, 1600)})
+    {
+        window.setSize(size.x, size.y);
+        int knobs = 0;
+        forEachChild(window,
+                     [&](juce::Component& child)
+                     {
+                         auto* slider = dynamic_cast<juce::Slider*>(&child);
+                         if (slider == nullptr || slider->getSliderStyle() == juce::Slider::LinearHorizontal)
+                             return;
+                         ++knobs;
+                         auto* owner = slider->getParentComponent();
+                         const auto* name = owner->getChildComponent(0);
+                         CAPTURE(size.toString(), slider->getTitle());
+                         CHECK(slider->getHeight() <= 120);
+                         CHECK(slider->getY() == name->getBottom());
+                     });
+        CHECK(knobs == 12);
+    }
+}
+
 TEST_CASE("The page of the actuators shows each haptic channel that there is, and its level")
 {
     const juce::ScopedJuceInitialiser_GUI gui;

@@ -70,14 +70,8 @@ Menu clipMenu(EditorView& view)
         [&session] { return session.model.isComparing(); }, {juce::KeyPress('c')},
         [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
-        takeVersionA, "Revert to version A", "Replaces the clip with version A",
-        [&session]
-        {
-            const auto kept = session.model.keptVersion();
-            session.model.setComparing(false);
-            session.clipSelection.setEdited("Revert to version A", {*kept, {}});
-        },
-        [&session] { return session.model.keptVersion() != nullptr; });
+        takeVersionA, "Revert to version A", "Replaces the clip with version A, and the settings of its analysis",
+        [&session] { session.model.takeVersion(); }, [&session] { return session.model.keptVersion() != nullptr; });
     menu.addLine();
     menu.add(duplicateClip, "Duplicate", "Adds a copy of the clip to the project",
              [&session] { session.model.duplicate(); }, anyClip, {ctrl('d')});

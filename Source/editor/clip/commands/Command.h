@@ -23,6 +23,7 @@ enum Command : int
 
     undo,
     redo,
+    showHistory,
     cut,
     copy,
     paste,

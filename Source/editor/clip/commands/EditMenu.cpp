@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/Text.h"
-#include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/lanes/CurveLane.h"
+#include "editor/clip/session/StepText.h"
+#include "editor/clip/sheets/HistorySheet.h"
 
 #include <optional>
 
@@ -12,11 +12,6 @@ namespace pacini::editor
 
 namespace
 {
-juce::String nameWithStep(const char* name, const char* named, const std::string& step)
-{
-    return step.empty() ? tr(name) : tr(named, {translateMessage(toText(step))});
-}
-
 std::optional<Lane> focusedLane()
 {
     const auto* row = dynamic_cast<const CurveLane*>(juce::Component::getCurrentlyFocusedComponent());
@@ -49,15 +44,20 @@ Menu editMenu(EditorView& view)
             [&session] { return session.model.document().canUndo(); }, {ctrl('z')})
         .fullName = [&session]
     {
-        return nameWithStep("Undo", "Undo: {0}", session.model.document().undoName());
+        return commandWithStep("Undo", "Undo {0}", session.model.document().undoName());
     };
     menu.add(
             redo, "Redo", "Redoes the last undone step", [&session] { session.model.redo(); },
             [&session] { return session.model.document().canRedo(); }, {ctrlShift('z'), ctrl('y')})
         .fullName = [&session]
     {
-        return nameWithStep("Redo", "Redo: {0}", session.model.document().redoName());
+        return commandWithStep("Redo", "Redo {0}", session.model.document().redoName());
     };
+    menu.add(
+        showHistory, "History...", "Lists all steps, and goes to any of them",
+        [&view] { view.showSheet(std::make_unique<HistorySheet>(view.session().model)); },
+        [&session] { return session.model.document().steps().size() > 1; },
+        {Key('z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::altModifier, 0)});
     menu.addLine();
     menu.add(cut, "Cut", "Cuts the selection or the time range", [&session] { session.clipSelection.cut(); }, anyClip,
              {ctrl('x')});

@@ -57,7 +57,10 @@ Menu fileMenu(EditorView& view)
              anyClip, {ctrlShift('s')});
     menu.addLine();
     menu.add(exportClips, "Export...", "Exports clips to any supported format",
-             [&view] { view.showSheet(std::make_unique<ExportSheet>(view.session().model, view.session().actuators)); },
+             [&view] {
+                 view.showSheet(
+                     std::make_unique<ExportSheet>(view.session().model, view.session().actuators, view.lastExport));
+             },
              anyClip, {ctrl('e')});
     menu.addLine();
     menu.add(

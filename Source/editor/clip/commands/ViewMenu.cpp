@@ -138,9 +138,10 @@ Menu viewMenu(EditorView& view)
         lightLook, "Light theme", "Dark text on a light background", [&view] { view.setDark(!view.isDark()); },
         [&view] { return !view.isDark(); });
     menu.add(largerInterface, "Larger interface", "Enlarges the interface, up to 200 %",
-             [&view] { view.setScale(view.scale() + scaleStep); }, {}, {ctrlShift('+')});
+             [&view] { view.setScale(view.scale() + scaleStep); }, {},
+             {ctrlShift('+'), ctrlShift('='), ctrlShift('*')});
     menu.add(smallerInterface, "Smaller interface", "Shrinks the interface, down to 75 %",
-             [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-')});
+             [&view] { view.setScale(view.scale() - scaleStep); }, {}, {ctrlShift('-'), ctrlShift('_')});
     menu.addLine();
     menu.add(preferences, "Preferences...", "Appearance and behaviour of the editor",
              [&view] { view.showSheet(std::make_unique<PreferencesSheet>(view)); }, {}, {ctrl(',')});

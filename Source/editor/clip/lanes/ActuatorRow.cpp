@@ -4,6 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
@@ -324,23 +325,23 @@ void ActuatorRow::paintDrive(juce::Graphics& g, juce::Rectangle<int> plot)
     shown->reduction.columns(axis, taken);
     const juce::Colour limited = lossColour(Loss::limited, p, dark);
     const juce::Colour soft = lossColour(Loss::belowTouch, p, dark);
-    for (std::size_t i = 0; i < peaks.size(); ++i)
     {
-        const int x = visible.getX() + static_cast<int>(i);
-        if (peaks[i].high > 0.0f)
+        ColumnFill limits(g, limited), softLine(g, p.dim), line(g, p.accent), softGround(g, soft),
+            ground(g, p.accent.withAlpha(0.45f)); // drawn from the last to the first
+        for (std::size_t i = 0; i < peaks.size(); ++i)
         {
-            const double level = 20.0 * std::log10(static_cast<double>(peaks[i].high));
-            const int y = yOf(level);
-            g.setColour(level < shown->touch ? soft : p.accent.withAlpha(0.45f));
-            g.fillRect(x, y, 1, plot.getBottom() - y);
-            g.setColour(level < shown->touch ? p.dim : p.accent);
-            g.fillRect(x, y, 1, 2);
-        }
-        if (taken[i].high > 0.1f)
-        {
+            const int x = visible.getX() + static_cast<int>(i);
+            if (peaks[i].high > 0.0f)
+            {
+                const double level = 20.0 * std::log10(static_cast<double>(peaks[i].high));
+                const int y = yOf(level);
+                const bool isSoft = level < shown->touch;
+                (isSoft ? softGround : ground).add(x, y, plot.getBottom() - y);
+                (isSoft ? softLine : line).add(x, y, 2);
+            }
             // What protection takes hangs from the top, in the same dB.
-            g.setColour(limited);
-            g.fillRect(x, plot.getY(), 1, std::max(2, yOf(-static_cast<double>(taken[i].high)) - plot.getY()));
+            if (taken[i].high > 0.1f)
+                limits.add(x, plot.getY(), std::max(2, yOf(-static_cast<double>(taken[i].high)) - plot.getY()));
         }
     }
     g.setColour(p.dim);

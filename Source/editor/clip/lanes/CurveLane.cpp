@@ -6,6 +6,7 @@
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/lanes/LaneText.h"
 
 #include <algorithm>
@@ -196,17 +197,16 @@ void CurveLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
             const double y = std::clamp(values.yOf(static_cast<double>(value)), 0.0, values.height);
             return plot.getY() + juce::roundToInt(y);
         };
+        ColumnFill line(g, colour), ground(g, fill); // the line is drawn last
         for (std::size_t i = 0; i < columns.size(); ++i)
         {
             const int x = plot.getX() + firstColumn + static_cast<int>(i);
             const int top = yOf(columns[i].high);
             const int low = bars ? yOf(columns[i].low) : top;
-            g.setColour(fill);
             if (filled)
-                g.fillRect(x, low, 1, bottom - low);
-            g.setColour(colour);
+                ground.add(x, low, bottom - low);
             if (bars)
-                g.fillRect(x, top, 1, std::max(2, low - top));
+                line.add(x, top, std::max(2, low - top));
         }
     }
     drewHandles = false;

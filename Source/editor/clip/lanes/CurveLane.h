@@ -37,7 +37,6 @@ private:
     SelectionMove move(Breakpoint from, Breakpoint to) const override;
     juce::String valueText(double value) const override;
     std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const override;
-    const char* moveName() const override { return "Move points"; }
     bool beginTool(const juce::MouseEvent& event) override;
     void dragTool(const juce::MouseEvent& event) override;
     void endTool() override { bent.reset(); }

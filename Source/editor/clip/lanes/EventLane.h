@@ -33,7 +33,6 @@ private:
     SelectionMove move(Breakpoint from, Breakpoint to) const override;
     juce::String valueText(double value) const override;
     std::optional<TimeRange> changedTime(const Clip& before, const Clip& now) const override;
-    const char* moveName() const override { return "Move transients"; }
 
     Shows shows;
 };

@@ -4,6 +4,7 @@
 #include "document/view/Columns.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/lanes/PlotLane.h"
 
 #include <algorithm>
@@ -64,11 +65,14 @@ void Overview::paint(juce::Graphics& g)
     double highest = 1e-6;
     for (const Column& column : columns)
         highest = std::max(highest, static_cast<double>(column.high));
-    g.setColour(p.dim.withAlpha(0.7f));
-    for (std::size_t i = 0; i < columns.size(); ++i)
     {
-        const int height = juce::roundToInt(static_cast<double>(columns[i].high) / highest * (plot.getHeight() - 4));
-        g.fillRect(plot.getX() + static_cast<int>(i), plot.getBottom() - height, 1, height);
+        ColumnFill level(g, p.dim.withAlpha(0.7f));
+        for (std::size_t i = 0; i < columns.size(); ++i)
+        {
+            const int height =
+                juce::roundToInt(static_cast<double>(columns[i].high) / highest * (plot.getHeight() - 4));
+            level.add(plot.getX() + static_cast<int>(i), plot.getBottom() - height, height);
+        }
     }
     const auto shown = frame();
     g.setColour(p.background.withAlpha(0.6f));

@@ -5,6 +5,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/session/Snapping.h"
+#include "editor/clip/session/StepText.h"
 
 #include <algorithm>
 #include <array>
@@ -305,7 +306,7 @@ void PlotLane::mouseDrag(const juce::MouseEvent& event)
         target.time = grabbed.time;
     SelectionMove wanted = move(grabbed, target);
     wanted.time = target.time - grabbed.time;
-    if (clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), gesture))
+    if (clipSelection.setEdited(stepName(SelectionStep::move, dragged), moveSelected(*start, dragged, wanted), gesture))
         say(juce::String(target.time, 3) + " s, " + valueText(target.value));
 }
 
@@ -363,7 +364,7 @@ void PlotLane::scaleByKeys(double pixels, double steps)
     if (length > 0.0)
         wanted.timeFactor = std::max(0.01, 1.0 + nudgedPixels * viewState.axis().secondsPerPixel / length);
     wanted.spread = std::pow(spreadStep, nudgedSteps);
-    clipSelection.setEdited("Scale", scaleSelected(*start, dragged, wanted), nudging);
+    clipSelection.setEdited(stepName(SelectionStep::scale, dragged), scaleSelected(*start, dragged, wanted), nudging);
     nudged = clipSelection.selected();
     say(tr(steps != 0.0 ? "{0} % of the level differences" : "{0} % of the length",
            {juce::String(100.0 * (steps != 0.0 ? wanted.spread : wanted.timeFactor), 0)}));
@@ -387,7 +388,7 @@ void PlotLane::nudge(double pixels, double steps)
         to.value += nudgedSteps * (axis.high - axis.low) / 50.0;
     SelectionMove wanted = move(grabbed, to);
     wanted.time = nudgedPixels * viewState.axis().secondsPerPixel;
-    clipSelection.setEdited(moveName(), moveSelected(*start, dragged, wanted), nudging);
+    clipSelection.setEdited(stepName(SelectionStep::move, dragged), moveSelected(*start, dragged, wanted), nudging);
     nudged = clipSelection.selected();
     say(valueText(to.value));
 }

@@ -71,7 +71,6 @@ protected:
     /// How everything selected moves when the thing at `from` goes to `to`.
     [[nodiscard]] virtual SelectionMove move(Breakpoint from, Breakpoint to) const = 0;
     [[nodiscard]] virtual juce::String valueText(double value) const = 0;
-    [[nodiscard]] virtual const char* moveName() const = 0;
     /// A drag that is for a tool and not for things; false: there is none for it.
     virtual bool beginTool(const juce::MouseEvent&) { return false; }
     virtual void dragTool(const juce::MouseEvent&) {}

@@ -5,6 +5,7 @@
 #include "editor/Controls.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/ColumnFill.h"
 #include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/lanes/PlotLane.h"
 
@@ -211,14 +212,14 @@ void WaveformRow::paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, co
     g.setColour(p.line);
     if (!overSpectrum)
         g.fillRect(visible.getX(), plot.getCentreY(), visible.getWidth(), 1);
-    g.setColour(overSpectrum ? p.text.withAlpha(0.55f) : p.dim);
+    ColumnFill wave(g, overSpectrum ? p.text.withAlpha(0.55f) : p.dim);
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
         const int top = juce::roundToInt(middle - half * std::clamp(columns[i].high, -1.0f, 1.0f));
         const int bottom = juce::roundToInt(middle - half * std::clamp(columns[i].low, -1.0f, 1.0f));
         if (columns[i] == Column{})
             continue;
-        g.fillRect(visible.getX() + static_cast<int>(i), top, 1, std::max(1, bottom - top));
+        wave.add(visible.getX() + static_cast<int>(i), top, std::max(1, bottom - top));
     }
 }
 

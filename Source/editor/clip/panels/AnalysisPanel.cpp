@@ -140,7 +140,8 @@ AnalysisPanel::AnalysisPanel(EditorView& shown)
                          if (!sounds.workNow() && !isTimerRunning())
                              waiting.reset();
                      });
-    subscriptions.on({&model.projectChanged, &sounds.changed, &sounds.workChanged}, [this] { show(); });
+    subscriptions.on({&model.projectChanged, &model.versionChanged, &sounds.changed, &sounds.workChanged},
+                     [this] { show(); });
     lookAndFeelChanged();
     show();
 }
@@ -237,6 +238,7 @@ void AnalysisPanel::show()
     }
     const AudioReference* source = item ? model.document().project().findSource(item->source) : nullptr;
     const auto sound = item ? sounds.soundOfClip() : nullptr;
+    const auto shown = model.shownItem(); // version A has settings of its own, which are only looked at
     const bool missing = source != nullptr && sounds.isMissing(source->id);
     juce::String text;
     if (model.isShowingUnanalysed())
@@ -260,7 +262,7 @@ void AnalysisPanel::show()
     state.setText(text, juce::dontSendNotification);
     replaceButton.setEnabled(item != nullptr);
     findButton.setVisible(missing);
-    const bool can = sound != nullptr;
+    const bool can = sound != nullptr && !model.isComparing();
     for (Knob& one : knobs)
     {
         one.name.setEnabled(can);
@@ -271,8 +273,8 @@ void AnalysisPanel::show()
         one->setEnabled(can);
     if (item && waiting && *waiting == item->encoder && !isTimerRunning())
         waiting.reset();
-    if (item && !waiting)
-        set(item->encoder);
+    if (shown && (!waiting || model.isComparing()))
+        set(shown->encoder);
     edits.refresh();
     resized();
     repaint();

@@ -7,6 +7,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/lanes/LaneText.h"
+#include "editor/clip/session/StepText.h"
 
 #include <cmath>
 
@@ -94,21 +95,22 @@ Inspector::Inspector(EditorView& shown)
     field(sharpField, "Selection sharpness",
           "Sharpness of the first selected transient, 0 % dull to 100 % crisp; the others follow");
     // What is typed there moves the first thing selected, and the others with it.
-    const auto moves = [this](juce::Label& typed, const char* name, auto moveOf)
+    const auto moves = [this](juce::Label& typed, SelectionStep step, auto moveOf)
     {
-        typed.onTextChange = [this, &typed, name, moveOf]
+        typed.onTextChange = [this, &typed, step, moveOf]
         {
             const auto clip = model.clip();
             const auto first = clip ? firstOf(clipSelection.selected(), *clip) : std::nullopt;
             const std::optional<SelectionMove> move =
                 first ? moveOf(*first, typed.getText().getDoubleValue()) : std::nullopt;
             if (move)
-                clipSelection.setEdited(name, moveSelected(*clip, clipSelection.selected(), *move));
+                clipSelection.setEdited(stepName(step, clipSelection.selected()),
+                                        moveSelected(*clip, clipSelection.selected(), *move));
         };
     };
-    moves(timeField, "Move points",
+    moves(timeField, SelectionStep::move,
           [](const FirstThing& first, double time) { return std::optional(SelectionMove{.time = time - first.time}); });
-    moves(valueField, "Change value",
+    moves(valueField, SelectionStep::setValue,
           [](const FirstThing& first, double number)
           {
               SelectionMove move;
@@ -120,7 +122,7 @@ Inspector::Inspector(EditorView& shown)
                   move.amplitudeOffset = std::pow(10.0, number / 20.0);
               return std::optional(move);
           });
-    moves(sharpField, "Change sharpness",
+    moves(sharpField, SelectionStep::setSharpness,
           [](const FirstThing& first, double percent)
           {
               return first.sharpness ? std::optional(SelectionMove{.sharpness = 0.01 * percent - *first.sharpness})

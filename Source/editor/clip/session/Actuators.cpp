@@ -51,16 +51,16 @@ void Actuators::choose(const std::string& name)
     for (const NamedProfile& entry : list)
         if (entry.name == name && entry.own)
             wanted.embedded = *entry.profile;
-    model.change([&](Document& document) { return document.setProfile(std::move(wanted), "Choose actuator"); });
+    model.change([&](Document& document) { return document.setProfile(std::move(wanted)); });
 }
 
-void Actuators::setStrength(double wanted, Gesture gesture)
+void Actuators::setStrength(double wanted)
 {
     ProjectProfile chosen = model.document().project().profile;
     wanted = clampTo(wanted, 0.0, 1.0);
     if (std::exchange(chosen.strength, wanted) == wanted)
         return;
-    model.change([&](Document& document) { return document.setProfile(std::move(chosen), "Strength", gesture); });
+    model.change([&](Document& document) { return document.setProfile(std::move(chosen)); });
 }
 
 bool Actuators::strengthMatters() const

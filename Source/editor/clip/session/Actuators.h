@@ -32,7 +32,7 @@ public:
 
     /// Of the project, 0 to 1, see fitActuator(); clamped when it is set.
     [[nodiscard]] double strength() const noexcept { return model.document().project().profile.strength; }
-    void setStrength(double wanted, Gesture gesture = 0);
+    void setStrength(double wanted);
     /// Whether the chosen actuator is played differently with another strength.
     [[nodiscard]] bool strengthMatters() const;
 

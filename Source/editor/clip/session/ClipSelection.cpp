@@ -2,6 +2,7 @@
 #include "editor/clip/session/ClipSelection.h"
 
 #include "editor/Translation.h"
+#include "editor/clip/session/StepText.h"
 
 #include <utility>
 
@@ -70,10 +71,18 @@ EditScope ClipSelection::scope() const
     return clip ? scopeOf(selectionNow, *clip, rangeNow) : EditScope{};
 }
 
-bool ClipSelection::setEdited(const char* name, EditedClip wanted, Gesture gesture)
+bool ClipSelection::setEdited(std::string name, EditedClip wanted, Gesture gesture)
 {
     edited = std::move(wanted.selection);
-    const bool done = model.setClip(name, std::move(wanted.clip), gesture);
+    const bool done = model.setClip(std::move(name), std::move(wanted.clip), gesture);
+    edited.reset();
+    return done;
+}
+
+bool ClipSelection::setEdited(std::string name, EditOperation first, EditedClip wanted)
+{
+    edited = std::move(wanted.selection);
+    const bool done = model.setClip(std::move(name), std::move(first), std::move(wanted.clip));
     edited.reset();
     return done;
 }
@@ -81,7 +90,7 @@ bool ClipSelection::setEdited(const char* name, EditedClip wanted, Gesture gestu
 void ClipSelection::deleteSelection()
 {
     if (const auto clip = model.clip(); clip && !isEmpty(selectionNow))
-        setEdited("Delete points", {deleteSelected(*clip, selectionNow), {}});
+        setEdited(stepName(SelectionStep::remove, selectionNow), {deleteSelected(*clip, selectionNow), {}});
 }
 
 void ClipSelection::copy()
@@ -115,7 +124,13 @@ void ClipSelection::paste(double time, const std::optional<Lane>& into)
     if (rangeNow)
         pasted->selection = {}; // what follows is for the time range
     const auto leftOut = static_cast<int>(pasted->leftOut);
-    if (setEdited("Paste", {std::move(pasted->clip), std::move(pasted->selection)}) && leftOut > 0 && model.onError)
+    const double longer = pasted->clip.duration - clip->duration;
+    EditedClip result{std::move(pasted->clip), std::move(pasted->selection)};
+    const bool done = pasted->extension ? setEdited("Paste", *pasted->extension, std::move(result))
+                                        : setEdited("Paste", std::move(result));
+    if (done && pasted->extension && model.onNotice)
+        model.onNotice(tr("Pasted beyond the end: the clip is {0} s longer", {juce::String(longer, 2)}));
+    if (done && leftOut > 0 && model.onError)
         model.onError("Partly pasted",
                       tr("This clip has no band near {0} of the copied lanes.", {juce::String(leftOut)}));
 }

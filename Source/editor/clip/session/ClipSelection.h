@@ -8,6 +8,7 @@
 #include "editor/clip/session/EditorModel.h"
 
 #include <optional>
+#include <string>
 
 namespace pacini::editor
 {
@@ -29,11 +30,13 @@ public:
     [[nodiscard]] EditScope scope() const;
 
     /// An edited clip with where its selection went. False: told by the project's onError, and nothing has changed.
-    bool setEdited(const char* name, EditedClip edited, Gesture gesture = 0);
+    bool setEdited(std::string name, EditedClip edited, Gesture gesture = 0);
+    /// The same of a clip that `first` was applied to before, in the same step.
+    bool setEdited(std::string name, EditOperation first, EditedClip edited);
     void deleteSelection();
     void copy();
     void cut();
-    /// At `time`; a single lane that was copied goes into `into`.
+    /// At `time`; a single lane that was copied goes into `into`. A clip that is too short becomes longer.
     void paste(double time, const std::optional<Lane>& into = {});
     [[nodiscard]] bool canPaste() const noexcept { return clipboard.has_value(); }
 

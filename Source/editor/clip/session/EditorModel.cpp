@@ -4,6 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pacini::editor
@@ -79,7 +80,9 @@ Result<void> EditorModel::recover(const Recoverable& entry)
     take(std::move(recovered).value());
     if (autosave)
         autosave->flush();
-    discardRecoverable(entry);
+    // Where it could not be written anew, the old file is all there is.
+    if (autosave && !autosave->lastError())
+        discardRecoverable(entry);
     return {};
 }
 
@@ -166,8 +169,8 @@ bool EditorModel::follow(int before)
 {
     std::erase_if(versions, [this](const auto& kept) { return !open->clip(kept.first); });
     comparing = comparing && keptVersion() != nullptr;
-    if (!item() && !isEmpty() && !unanalysed)
-        active = open->project().clips.front()->id;
+    if (!item())
+        active = isEmpty() || unanalysed ? 0 : open->project().clips.front()->id;
     if (autosave)
     {
         const auto failure = autosave->lastError();
@@ -205,7 +208,7 @@ void EditorModel::keepVersion()
     const auto shown = item();
     if (!shown || preview)
         return;
-    versions[active] = clip();
+    versions[active] = shown;
     setComparing(false);
     versionChanged.emit();
 }
@@ -213,7 +216,20 @@ void EditorModel::keepVersion()
 std::shared_ptr<const Clip> EditorModel::keptVersion() const
 {
     const auto found = versions.find(active);
-    return found != versions.end() ? found->second : nullptr;
+    return found != versions.end() ? found->second->clip : nullptr;
+}
+
+std::shared_ptr<const ClipItem> EditorModel::shownItem() const
+{
+    return comparing && keptVersion() ? versions.at(active) : item();
+}
+
+void EditorModel::takeVersion()
+{
+    if (!keptVersion())
+        return;
+    setComparing(false);
+    change([this](Document& document) { return document.restoreClip(*versions.at(active), "Take version A"); });
 }
 
 void EditorModel::setComparing(bool wanted)
@@ -241,35 +257,72 @@ std::shared_ptr<const Clip> EditorModel::gestureStart(Gesture gesture) const
     return open->gestureStart(active, gesture);
 }
 
-bool EditorModel::edit(const char* name, EditOperation operation, Gesture gesture)
+bool EditorModel::edit(std::string name, EditOperation operation, Gesture gesture)
 {
     return mayEdit(gesture) &&
-           change([&](Document& document) { return document.edit(active, name, std::move(operation), gesture); });
+           change([&](Document& document)
+                  { return document.edit(active, std::move(name), std::move(operation), gesture); });
 }
 
-bool EditorModel::setClip(const char* name, Clip edited, Gesture gesture)
+bool EditorModel::setClip(std::string name, Clip edited, Gesture gesture)
 {
     return mayEdit(gesture) &&
-           change([&](Document& document) { return document.setClip(active, name, std::move(edited), gesture); });
+           change([&](Document& document)
+                  { return document.setClip(active, std::move(name), std::move(edited), gesture); });
+}
+
+namespace
+{
+/// The clip to show after a step from one state to another: what the step has changed, `active` wherever it can stay;
+/// 0: there is none.
+int clipAfterStep(const Project& before, const Project& after, int active)
+{
+    int changed = 0;
+    for (const auto& item : after.clips)
+        if (const auto old = before.find(item->id); !old || old->clip != item->clip)
+        {
+            if (item->id == active)
+                return active;
+            changed = changed != 0 ? changed : item->id;
+        }
+    if (changed != 0 || after.find(active) || after.clips.empty())
+        return changed != 0 ? changed : after.clips.empty() ? 0 : active;
+    // It is gone: what stands in its place now.
+    std::size_t place = 0;
+    while (place < before.clips.size() && before.clips[place]->id != active)
+        ++place;
+    return after.clips[std::min(place, after.clips.size() - 1)]->id;
+}
+} // namespace
+
+bool EditorModel::setClip(std::string name, EditOperation first, Clip edited)
+{
+    return mayEdit(0) &&
+           change([&](Document& document)
+                  { return document.setClip(active, std::move(name), std::move(first), std::move(edited)); });
 }
 
 void EditorModel::undo()
 {
-    step(&Document::undo);
+    if (open->canUndo())
+        goTo(open->steps().current() - 1);
 }
 
 void EditorModel::redo()
 {
-    step(&Document::redo);
+    if (open->canRedo())
+        goTo(open->steps().current() + 1);
 }
 
-void EditorModel::step(bool (Document::*through)())
+void EditorModel::goTo(std::size_t state)
 {
     setComparing(false);
-    const int before = active;
-    if (!(open.get()->*through)())
-        return;
-    follow(before);
+    const int shown = active;
+    const Project before = open->project();
+    open->goTo(state);
+    if (!unanalysed)
+        active = clipAfterStep(before, open->project(), active);
+    follow(shown);
     contentChanged.emit();
     projectChanged.emit();
 }

@@ -11,6 +11,7 @@
 
 #include <juce_core/juce_core.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -48,6 +49,8 @@ public:
 
     std::function<void(const juce::String& title, const juce::String& text)> onError;
     void report(const std::string& title, const Error& error) const;
+    /// What was done beside what was asked for: to be seen, but not to be answered.
+    std::function<void(const juce::String& text)> onNotice;
 
     // The project.
 
@@ -94,6 +97,10 @@ public:
     void keepVersion();
     /// Null when none was kept of the clip that is shown.
     [[nodiscard]] std::shared_ptr<const Clip> keptVersion() const;
+    /// The clip whose curves and settings are shown: the kept version while that is compared with. Null: none is.
+    [[nodiscard]] std::shared_ptr<const ClipItem> shownItem() const;
+    /// The clip becomes the kept version, with the settings of its analysis.
+    void takeVersion();
     /// The kept version is shown and heard, which cannot be edited, or the clip again; playing goes on.
     void setComparing(bool wanted);
     [[nodiscard]] bool isComparing() const noexcept { return comparing; }
@@ -102,10 +109,14 @@ public:
 
     [[nodiscard]] Gesture beginGesture() noexcept { return open->beginGesture(); }
     [[nodiscard]] std::shared_ptr<const Clip> gestureStart(Gesture gesture) const;
-    bool edit(const char* name, EditOperation operation, Gesture gesture = 0);
-    bool setClip(const char* name, Clip edited, Gesture gesture = 0);
+    bool edit(std::string name, EditOperation operation, Gesture gesture = 0);
+    bool setClip(std::string name, Clip edited, Gesture gesture = 0);
+    /// See Document::setClip().
+    bool setClip(std::string name, EditOperation first, Clip edited);
     void undo();
     void redo();
+    /// To any state of document().steps().
+    void goTo(std::size_t state);
     /// Any other step of the document: what clips are called, their order, groups, notes.
     bool change(const std::function<Result<void>(Document&)>& step);
     /// A step that adds a clip, which is not shown for it: its id.
@@ -121,7 +132,6 @@ public:
 private:
     bool take(Result<void> result);
     void take(Document document);
-    void step(bool (Document::*through)());
     bool follow(int before);
     void documentChanged();
     [[nodiscard]] bool mayEdit(Gesture gesture) const;
@@ -136,7 +146,7 @@ private:
     std::shared_ptr<const Sound> unanalysed; ///< shown in place of a clip: active is 0
     int beforeUnanalysed = 0;
     std::shared_ptr<const Clip> preview;
-    std::map<int, std::shared_ptr<const Clip>> versions; ///< that were kept, by id of the clip
+    std::map<int, std::shared_ptr<const ClipItem>> versions; ///< that were kept, by id of the clip
     bool comparing = false;
 };
 

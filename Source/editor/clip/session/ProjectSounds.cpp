@@ -73,13 +73,12 @@ void ProjectSounds::openFiles(const std::vector<std::filesystem::path>& files)
 
 Result<int> ProjectSounds::insert(Imported imported)
 {
-    const std::string name = "Add " + imported.clip.name;
     return model.insert(
         [&](Document& document)
         {
             if (!imported.sound)
-                return document.addClip(name, imported.clip);
-            auto id = document.addSound(name, imported.reference, imported.encoder, imported.clip);
+                return document.addClip(imported.clip);
+            auto id = document.addSound(imported.reference, imported.encoder, imported.clip);
             if (id)
                 sounds[document.clip(*id)->source] = imported.sound;
             return id;

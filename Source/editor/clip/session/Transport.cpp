@@ -39,6 +39,12 @@ void Transport::send()
     wanted.source = hear != Heard::haptic;
     wanted.haptic = hear != Heard::sound;
     const auto clip = model.clip();
+    // An edit or its undo may have made it shorter.
+    if (const double end = clip ? clip->duration : 0.0; startTime > end && !model.isShowingUnanalysed())
+    {
+        startTime = end;
+        changed.emit();
+    }
     if (looping && clip)
         wanted.loop = selection.timeRange().value_or(TimeRange{0.0, clip->duration});
     const auto item = model.item();

@@ -42,8 +42,8 @@ juce::String lossText(const FormatLoss& loss)
 }
 } // namespace
 
-ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
-    : Sheet("Export", 680, 520), model(project), actuators(profiles), browseButton(toText("Browse…"))
+ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last)
+    : Sheet("Export", 680, 520), model(project), actuators(profiles), memory(last), browseButton(toText("Browse…"))
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
     {
@@ -61,7 +61,11 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     format.setTooltip("Format of the exported files");
     for (const ClipFormat& one : exportFormats())
         format.addItem(tr(toText(one.title)) + "  " + toText(one.extension), format.getNumItems() + 1);
-    format.setSelectedId(1, juce::dontSendNotification);
+    const auto& formats = exportFormats();
+    const auto known = std::find_if(formats.begin(), formats.end(),
+                                    [this](const ClipFormat& one) { return one.name == memory.format; });
+    format.setSelectedId(known == formats.end() ? 1 : 1 + static_cast<int>(known - formats.begin()),
+                         juce::dontSendNotification);
     format.onChange = [this]
     {
         chooseUsualEvents();
@@ -73,6 +77,8 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     for (const int hertz : {48000, 8000, 2000})
         rate.addItem(juce::String(hertz) + " Hz", hertz);
     rate.setSelectedId(sourceRate, juce::dontSendNotification);
+    if (rate.indexOfItemId(memory.sampleRate) >= 0)
+        rate.setSelectedId(memory.sampleRate, juce::dontSendNotification);
     rate.onChange = [this]
     {
         showLosses();
@@ -117,8 +123,11 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles)
     setAnswers({{"Export", {}}, {"Cancel", {}}});
     setUsualAnswer([this] { run(); });
     const auto& path = model.document().path();
-    const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
-                                           : juce::File(toText(path.parent_path().string()));
+    std::error_code gone;
+    const juce::File folder = !memory.folder.empty() && std::filesystem::is_directory(memory.folder, gone)
+                                  ? juce::File(pathText(memory.folder))
+                              : path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                                             : juce::File(pathText(path.parent_path()));
     target.setText(folder.getFullPathName(), false);
     chooseUsualEvents();
     formatChanged();
@@ -233,6 +242,8 @@ void ExportSheet::run()
         if (!place.hasFileExtension(toText(chosenFormat().extension)))
             wanted.file += chosenFormat().extension;
     }
+    memory = {std::string(chosenFormat().name), rate.getSelectedId() == sourceRate ? 0 : rate.getSelectedId(),
+              wanted.folder};
     setAnswerEnabled(false);
     ++asked;
     losses.setText(tr(toText("Exporting…")), false);

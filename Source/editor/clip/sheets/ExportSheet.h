@@ -10,15 +10,26 @@
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
+#include <filesystem>
 #include <memory>
+#include <string>
 
 namespace pacini::editor
 {
 
+/// Choices of an export that the next one starts from.
+struct ExportMemory
+{
+    std::string format;           ///< its name; empty or unknown: the first one
+    int sampleRate = 0;           ///< Hz; 0: as the sound
+    std::filesystem::path folder; ///< empty: that of the project
+};
+
 class ExportSheet final : public Sheet
 {
 public:
-    ExportSheet(const EditorModel& project, const Actuators& profiles);
+    /// `last` outlives it; what was exported is written there.
+    ExportSheet(const EditorModel& project, const Actuators& profiles, ExportMemory& last);
 
 private:
     void layOut(juce::Rectangle<int> area) override;
@@ -33,6 +44,7 @@ private:
 
     const EditorModel& model;
     const Actuators& actuators;
+    ExportMemory& memory;
     juce::Label formatLabel, rateLabel, eventsLabel, targetLabel, lossLabel;
     juce::ComboBox format, rate, events;
     juce::ToggleButton all;
