@@ -139,13 +139,13 @@ void RoutingBar::fillMenus()
     const bool missing = rig.devices().getCurrentAudioDevice() == nullptr;
     for (juce::ComboBox* box : {&heard, &haptic})
     {
-        box->setTextWhenNothingSelected(missing ? "No sound device" : "");
+        box->setTextWhenNothingSelected(missing ? "No audio device" : "");
         if (missing)
             box->setSelectedId(0, juce::dontSendNotification);
         box->setEnabled(!missing);
     }
-    devicesButton.setTooltip(missing ? "No sound device is open: press to see what to do"
-                                     : "Chooses the sound device, its rate and its block size");
+    devicesButton.setTooltip(missing ? "No audio device is open: click for help"
+                                     : "Chooses the audio device, sample rate and block size");
 }
 
 /// One actuator, several side by side, or each somewhere.

@@ -78,10 +78,10 @@ TEST_CASE("The sheet of haptic outputs sets channel, actuator, gain, delay and p
     CHECK(outputs.outputs()[1].actuator.empty());
     get<juce::Slider>(sheet, "Gain of output 2").setValue(-6.0, juce::sendNotificationSync);
     get<juce::Slider>(sheet, "Delay of output 2").setValue(12.0, juce::sendNotificationSync);
-    CHECK_FALSE(get<juce::Slider>(sheet, "Place of output 2").isEnabled()); // nothing is panned
+    CHECK_FALSE(get<juce::Slider>(sheet, "Position of output 2").isEnabled()); // nothing is panned
     outputs.setPan(PanLaw::constantPower);
-    CHECK(get<juce::Slider>(sheet, "Place of output 2").isEnabled());
-    get<juce::Slider>(sheet, "Place of output 2").setValue(40.0, juce::sendNotificationSync);
+    CHECK(get<juce::Slider>(sheet, "Position of output 2").isEnabled());
+    get<juce::Slider>(sheet, "Position of output 2").setValue(40.0, juce::sendNotificationSync);
     CHECK(outputs.outputs()[1].gain == -6.0);
     CHECK(outputs.outputs()[1].delay == Approx(0.012));
     CHECK(outputs.outputs()[1].place == Approx(0.4));
@@ -89,7 +89,7 @@ TEST_CASE("The sheet of haptic outputs sets channel, actuator, gain, delay and p
     for (const char* title : {"Channel of output", "Actuator of output", "Gain of output", "Delay of output"})
         for (int i = 1; i <= 2; ++i)
             CHECK(get<juce::Component>(sheet, juce::String(title) + " " + juce::String(i)).getWantsKeyboardFocus());
-    get<juce::TextButton>(sheet, "Remove last").onClick();
+    get<juce::TextButton>(sheet, "Remove last output").onClick();
     CHECK(outputs.outputs().size() == 1);
 }
 

@@ -33,7 +33,8 @@ FILES = {
         "Source/document/ProjectFields.h", "Source/document/ProjectJson.cpp", "Source/document/ProjectJson.h",
         "Source/document/OperationCheck.h", "Source/document/EditLayer.cpp", "Source/document/ItemEdits.cpp",
         "Source/plugin/engine/PluginState.cpp"],
-    "the command line, which is English": ["Source/app/Settings.cpp", "Source/app/CommandLine.h"],
+    "the command line, which is English": ["Source/app/Settings.cpp", "Source/app/CommandLine.h",
+                                              "Source/app/Display.h"],
     "units and values of parameters, which are the same in every language for hosts": [
         "Source/plugin/engine/ParameterText.cpp"],
     "codes of languages and names of fonts": ["Source/editor/Translation.cpp", "Source/editor/Translation.h"],
@@ -48,7 +49,7 @@ LITERALS = {
     "names of threads, folders and settings": [
         "Pacini capture", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
-        "files", "clip", ".sound-", "md"],
+        "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "names that a new thing gets in the project, which is the same file in every language": [
         "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement",
         "Simulated actuator", "Nothing connected", "Sensor, axis x", "Sensor, axis y", "Sensor, axis z"],
@@ -62,6 +63,7 @@ LITERALS = {
         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
+        "must have 1 to 8 actuators",
         "is not one of the project's sounds"],
     "errors of hosts' names of buses": ["Main", "Sidechain"],
     "names in files of formats": ["Simple Parametric", "noise {} {}"],

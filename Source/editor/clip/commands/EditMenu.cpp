@@ -54,7 +54,7 @@ Menu editMenu(EditorView& view)
         return commandWithStep("Redo", "Redo {0}", session.model.document().redoName());
     };
     menu.add(
-        showHistory, "History...", "Lists all steps, and goes to any of them",
+        showHistory, "History...", "Lists all steps and jumps to any of them",
         [&view] { view.showSheet(std::make_unique<HistorySheet>(view.session().model)); },
         [&session] { return session.model.document().steps().size() > 1; },
         {Key('z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::altModifier, 0)});

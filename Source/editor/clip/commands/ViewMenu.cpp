@@ -152,7 +152,8 @@ Menu viewMenu(EditorView& view)
                  [&view] { view.hostServices().showDevices(); });
     }
     if (view.hostServices().outputNames)
-        menu.add(hapticOutputs, "Haptic outputs...", "The outputs that clips play on: actuator, gain, delay and place",
+        menu.add(hapticOutputs, "Haptic outputs...",
+                 "Outputs that clips play on: actuator, gain, delay and position of each",
                  [&view, &session]
                  {
                      view.showSheet(std::make_unique<OutputsSheet>(session.outputs, session.actuators,

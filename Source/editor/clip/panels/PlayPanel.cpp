@@ -22,21 +22,20 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
     : transport(playing), outputs(hapticOutputs), resetButton("Reset")
 {
     setTitle("Play");
-    prepare(gain, "Gain", "Gain of the touch in dB; the actuator's limits are kept", {leastDecibels, mostDecibels}, 0.5,
-            0.0, " dB");
-    prepare(intensity, "Intensity", "How much of the touch is played", {0.0, 100.0}, 1.0, 100.0, " %");
-    prepare(pitch, "Pitch", "Semitones by which all pitches are moved", {-24.0, 24.0}, 0.5, 0.0, " st");
-    prepare(speed, "Speed", "How fast the clip plays; pitches of the touch stay, those of the sound follow",
-            {0.25, 4.0}, 0.01, 1.0, {});
+    prepare(gain, "Gain", "Haptic gain in dB, within the actuator's limits", {leastDecibels, mostDecibels}, 0.5, 0.0,
+            " dB");
+    prepare(intensity, "Intensity", "Strength of the haptics", {0.0, 100.0}, 1.0, 100.0, " %");
+    prepare(pitch, "Pitch", "Transposes all pitches by semitones", {-24.0, 24.0}, 0.5, 0.0, " st");
+    prepare(speed, "Speed", "Playback speed; haptic pitches stay, those of the sound follow", {0.25, 4.0}, 0.01, 1.0,
+            {});
     speed.slider.setSkewFactorFromMidPoint(1.0);
-    prepare(position, "Position", "Where the touch is over the places of the haptic outputs", {0.0, 100.0}, 1.0, 50.0,
-            " %");
+    prepare(position, "Position", "Position of the clip across the haptic outputs", {0.0, 100.0}, 1.0, 50.0, " %");
     panLabel.setText("Pan", juce::dontSendNotification);
     panLabel.setFont(smallFont());
     panLabel.setBorderSize({});
     panLabel.setAccessible(false);
     pan.setTitle("Pan");
-    pan.setTooltip("How the position counts: every output plays all, or levels, delays or both follow it");
+    pan.setTooltip("How the position is played: not at all, by levels, by delays or by both");
     pan.addItem("Off", noPan);
     pan.addItem("Levels", noPan + 1 + static_cast<int>(PanLaw::constantPower));
     pan.addItem("Delays", noPan + 1 + static_cast<int>(PanLaw::delay));
@@ -47,12 +46,12 @@ PlayPanel::PlayPanel(Transport& playing, HapticOutputs& hapticOutputs)
         outputs.setPan(chosen < 0 ? std::nullopt : std::optional(static_cast<PanLaw>(chosen)));
     };
     resetButton.setTitle("Reset live controls");
-    prepareButton(resetButton, "All live controls back to where the clip plays as it is",
+    prepareButton(resetButton, "Resets all live controls, so that the clip plays as it is",
                   [this] { transport.setControls({}); });
     note.setFont(smallFont());
     note.setBorderSize({});
     note.setJustificationType(juce::Justification::topLeft);
-    note.setText("Heard at once; the clip stays as it is.", juce::dontSendNotification);
+    note.setText("Takes effect at once; the clip is not changed.", juce::dontSendNotification);
     note.setTitle("Live");
     addAll(*this, {&resetButton, &note, &panLabel, &pan, &position.label, &position.slider});
     setSize(200, playPreferredHeight);
@@ -121,7 +120,7 @@ void PlayPanel::paint(juce::Graphics& g)
     const Palette& p = paletteFor(*this);
     g.fillAll(p.background);
     drawCard(g, liveCard, "Live", p);
-    drawCard(g, rowCard, "Over several outputs", p);
+    drawCard(g, rowCard, "Across outputs", p);
 }
 
 void PlayPanel::resized()

@@ -229,7 +229,7 @@ void EditorModel::takeVersion()
     if (!keptVersion())
         return;
     setComparing(false);
-    change([this](Document& document) { return document.restoreClip(*versions.at(active), "Take version A"); });
+    change([this](Document& document) { return document.restoreClip(*versions.at(active), "Revert to version A"); });
 }
 
 void EditorModel::setComparing(bool wanted)

@@ -16,7 +16,7 @@ namespace
 constexpr int outputRowHeight = 4 * grid;
 constexpr int nowhere = 1;              // menus know no item 0; channels follow
 constexpr int asProject = 1, plain = 2; // profiles follow
-constexpr std::array<const char*, 5> names{"Output", "Actuator", "Gain", "Delay", "Place"};
+constexpr std::array<const char*, 5> names{"Output", "Actuator", "Gain", "Delay", "Position"};
 } // namespace
 
 OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profiles, const juce::StringArray& channels)
@@ -25,7 +25,7 @@ OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profil
       actuators(profiles),
       channelNames(channels),
       addButton("Add output"),
-      removeButton("Remove last")
+      removeButton("Remove last output")
 {
     for (std::size_t i = 0; i < heads.size(); ++i)
     {
@@ -37,8 +37,8 @@ OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profil
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
         prepare(i);
-    prepareButton(addButton, "One more output, on the next channel of the device", [this] { outputs.add(); });
-    prepareButton(removeButton, "The last output plays no more", [this] { outputs.removeLast(); });
+    prepareButton(addButton, "Adds an output on the next channel of the device", [this] { outputs.add(); });
+    prepareButton(removeButton, "Removes the last output", [this] { outputs.removeLast(); });
     note.setFont(smallFont());
     note.setBorderSize({});
     note.setTitle("Note");
@@ -57,27 +57,27 @@ void OutputsSheet::prepare(std::size_t index)
     row.number.setAccessible(false);
     const auto box = [&](juce::ComboBox& one, const juce::String& title, const juce::String& help)
     {
-        one.setTitle(tr(title) + " " + number);
+        one.setTitle(tr(title, {number}));
         one.setTooltip(help);
     };
-    box(row.channel, "Channel of output", "The channel that the actuator's amplifier is connected to");
-    box(row.actuator, "Actuator of output", "The actuator there; its limits are kept");
+    box(row.channel, "Channel of output {0}", "Output channel connected to the actuator's amplifier");
+    box(row.actuator, "Actuator of output {0}", "Actuator of this output; its limits are respected");
     const auto slider = [&](juce::Slider& one, const juce::String& title, const juce::String& help,
                             const juce::String& unit, juce::Range<double> range, double step, double rest)
     {
         one.setSliderStyle(juce::Slider::LinearHorizontal);
         one.setTextBoxStyle(juce::Slider::TextBoxRight, false, 7 * grid, 3 * grid);
-        one.setTitle(tr(title) + " " + number);
+        one.setTitle(tr(title, {number}));
         one.setTooltip(help);
         one.setRange(range, step);
         one.setTextValueSuffix(unit);
         one.setDoubleClickReturnValue(true, rest);
         one.setWantsKeyboardFocus(true);
     };
-    slider(row.gain, "Gain of output", "How strong, in dB", " dB", {HapticOutputs::leastGain, 0.0}, 0.5, 0.0);
-    slider(row.delay, "Delay of output", "How much later than the others, in ms: all should be felt at once", " ms",
+    slider(row.gain, "Gain of output {0}", "Level in dB", " dB", {HapticOutputs::leastGain, 0.0}, 0.5, 0.0);
+    slider(row.delay, "Delay of output {0}", "Delay in ms, to align the outputs", " ms",
            {0.0, 1000.0 * HapticOutputs::longestDelay}, 1.0, 0.0);
-    slider(row.place, "Place of output", "Where it is in the row, for the pan", " %", {0.0, 100.0}, 1.0, 0.0);
+    slider(row.place, "Position of output {0}", "Position in the row, for panning", " %", {0.0, 100.0}, 1.0, 0.0);
     row.channel.onChange = [this, index]
     {
         set(index, [&](HapticOutput& output) { output.channel = rows[index].channel.getSelectedId() - nowhere - 1; });
@@ -136,14 +136,14 @@ void OutputsSheet::show()
             continue;
         const HapticOutput& output = list[i];
         row.channel.clear(juce::dontSendNotification);
-        row.channel.addItem(tr("Nowhere"), nowhere);
+        row.channel.addItem(tr("None"), nowhere);
         for (int c = 0; c < channels; ++c)
             row.channel.addItem(juce::String(c + 1) + "  " + channelNames[c], nowhere + 1 + c);
         row.channel.setSelectedId(nowhere + 1 + std::min(output.channel, std::max(-1, channels - 1)),
                                   juce::dontSendNotification);
         row.actuator.clear(juce::dontSendNotification);
-        row.actuator.addItem(tr("As the project"), asProject);
-        row.actuator.addItem(tr("None (plain drive)"), plain);
+        row.actuator.addItem(tr("As in project"), asProject);
+        row.actuator.addItem(tr("No actuator"), plain);
         int chosen = output.actuator == HapticOutputs::plainDrive ? plain : asProject;
         for (std::size_t k = 0; k < actuators.profiles().size(); ++k)
         {
@@ -163,10 +163,10 @@ void OutputsSheet::show()
     }
     addButton.setEnabled(list.size() < HapticOutputs::most);
     removeButton.setEnabled(list.size() > 1);
-    note.setText(tr(shared             ? "Two outputs are on one channel: only the first of them is played."
-                    : beyond           ? "The device has fewer channels: the last one is played instead."
+    note.setText(tr(shared             ? "Two outputs share a channel: only the first one plays."
+                    : beyond           ? "The device has fewer channels: its last one is used instead."
                     : list.size() == 1 ? "One output plays the clip."
-                                       : "All outputs play the clip; the page Play pans it over their places."),
+                                       : "All outputs play the clip; the Play page pans it across them."),
                  juce::dontSendNotification);
     resized();
 }
