@@ -1,23 +1,32 @@
-#include "cli/SceneCheck.h"
+#pragma once
 
-#include "cli/SceneTimeline.h"
+// Lint checks of a scene: what in it does nothing, or less than is written there. All of it is in this header, as in
+// SoundEncoder.h.
 
 #include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <vector>
 
-namespace pacini::cli
+namespace pacini
 {
 
-namespace
+struct SceneFinding
 {
-using detail::indexed;
+    std::string where;   ///< such as `plays[3]`
+    std::string message; ///< for people
+};
 
-void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
+namespace detail
+{
+inline void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
 {
     std::vector<bool> played(scene.clips.size(), false);
     for (const ScenePlay& play : scene.plays)
@@ -27,7 +36,7 @@ void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
             found.push_back({indexed("clips", i), "is never played"});
 }
 
-void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
+inline void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
 {
     const auto plan = compilePlan(scene);
     if (!plan)
@@ -42,7 +51,7 @@ void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
                          std::isfinite(item.error) ? fmt::format(" (costs {:.0f} dB)", item.error) : std::string())});
 }
 
-void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+inline void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
 {
     constexpr double margin = 1e-6; // s
     for (const TimedPlay& timed : timeline.plays)
@@ -52,7 +61,7 @@ void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
                  fmt::format("is cut by the end of the scene {:.3f} s before its own", timed.wanted - timed.end)});
 }
 
-void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
 {
     for (std::size_t i = 0; i < scene.changes.size(); ++i)
     {
@@ -68,7 +77,7 @@ void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector
     }
 }
 
-void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
+inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
 {
     if (scene.actuators > 1)
         return;
@@ -76,20 +85,23 @@ void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
         if (scene.plays[i].pan != ScenePlay{}.pan)
             found.push_back({indexed("plays", i) + ".pan", "does nothing: the scene has one actuator"});
 }
-} // namespace
+} // namespace detail
 
-std::vector<SceneFinding> checkScene(const Scene& scene)
+/// Clips that are never played; plays and bands of them that compilePlan() leaves out; plays that the end of the scene
+/// cuts; changes that come after their play or the scene; pans with one actuator. In this order. Errors of
+/// compilePlan() are findings too.
+[[nodiscard]] inline std::vector<SceneFinding> checkScene(const Scene& scene)
 {
     std::vector<SceneFinding> found;
     if (scene.plays.empty())
         found.push_back({"plays", "is empty, so nothing sounds"});
     const SceneTimeline timeline = timelineOf(scene);
-    checkClips(scene, found);
-    checkPlan(scene, found);
-    checkEnds(timeline, found);
-    checkChanges(scene, timeline, found);
-    checkPans(scene, found);
+    detail::checkClips(scene, found);
+    detail::checkPlan(scene, found);
+    detail::checkEnds(timeline, found);
+    detail::checkChanges(scene, timeline, found);
+    detail::checkPans(scene, found);
     return found;
 }
 
-} // namespace pacini::cli
+} // namespace pacini
