@@ -4,7 +4,7 @@
 # Eigen: small dense matrices. Its imported target marks its headers as those of a system.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
-if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_TESTS OR PACINI_BUILD_FUZZERS)
+if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_PYTHON OR PACINI_BUILD_TESTS OR PACINI_BUILD_FUZZERS)
     find_package(nlohmann_json 3.10 REQUIRED)
     find_package(fmt REQUIRED)
     find_package(PkgConfig REQUIRED)

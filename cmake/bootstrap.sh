@@ -16,7 +16,7 @@ build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfm
     libeigen3-dev libcairo2-dev libhidapi-dev)
 # The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)
-host_packages=(python3-venv liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
+host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool imagemagick x11-utils jackd2 jack-tools ardour
     umockdev gir1.2-umockdev-1.0 python3-gi)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
@@ -30,6 +30,9 @@ cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
+# What the package for Python is built and tested with.
+python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
+    'ipykernel<8')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
@@ -99,16 +102,24 @@ need_room() { # MB of the folder build when all is done
         fail "building needs about $needed MB in $PWD, but only $free MB are free"
 }
 
-# Hosts that come as Python modules, in a place of their own.
-install_host_modules() {
-    local venv=build/hosts-venv
-    [ "$(cat "$venv/modules" 2>/dev/null)" != "${host_modules[*]}" ] || return 0
-    say "Installing ${host_modules[*]} in $venv"
-    if python3 -m venv "$venv" && "$venv/bin/python" -m pip install -q --disable-pip-version-check "${host_modules[@]}"; then
-        printf '%s' "${host_modules[*]}" >"$venv/modules"
+# Python modules, in a place of their own.
+install_modules() { # folder, what is skipped without them, modules
+    local venv=$1 skipped=$2 modules=("${@:3}")
+    [ "$(cat "$venv/modules" 2>/dev/null)" != "${modules[*]}" ] || return 0
+    say "Installing ${modules[*]} in $venv"
+    if python3 -m venv "$venv" && "$venv/bin/python" -m pip install -q --disable-pip-version-check "${modules[@]}"; then
+        printf '%s' "${modules[*]}" >"$venv/modules"
     else
-        printf 'bootstrap: these modules cannot be installed; the tests in DawDreamer and Pedalboard will be SKIPPED\n' >&2
+        printf 'bootstrap: these modules cannot be installed; %s will be SKIPPED\n' "$skipped" >&2
     fi
+}
+
+install_host_modules() {
+    install_modules build/hosts-venv "the tests in DawDreamer and Pedalboard" "${host_modules[@]}"
+}
+
+install_python_modules() {
+    install_modules build/python-venv "the package for Python" "${python_modules[@]}"
 }
 
 # What the binding for Node.js needs, in a place of its own. Its binary comes within the package.
@@ -182,6 +193,7 @@ deps)
     install_packages "${build_packages[@]}" "${test_packages[@]}" "${portability_packages[@]}" "${slow_binding_packages[@]}" \
         "${cluster_packages[@]}"
     install_host_modules
+    install_python_modules
     install_node_modules
     ;;
 build)
@@ -220,9 +232,11 @@ package)
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
-    need_room 3000
+    install_python_modules
+    need_room 3200
     say "Building"
-    build release all -DPACINI_BUILD_TESTS=ON -DPACINI_BUILD_PLUGIN=ON
+    build release all -DPACINI_BUILD_TESTS=ON -DPACINI_BUILD_PLUGIN=ON \
+        "-DPACINI_BUILD_PYTHON=$([ -e build/python-venv/modules ] && echo ON || echo OFF)"
     say "Testing"
     run_tests release --label-exclude slow
     ;;

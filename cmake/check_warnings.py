@@ -26,6 +26,8 @@ def of_kind(path, build):
         return "header"
     if Path(path).is_relative_to(build):
         return "made"
+    if Path(path).is_relative_to(ROOT / "build"):  # modules of Python that are compiled with ours
+        return None
     return "source" if Path(path).is_relative_to(ROOT) else None
 
 

@@ -1,8 +1,8 @@
 #include "cli/CompareJob.h"
 
 #include "cli/ReadingAdvice.h"
-#include "cli/Stopwatch.h"
 #include "io/ClipFile.h"
+#include "io/Stopwatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,6 @@ struct MonoSound
 {
     int sampleRate = 0;
     std::vector<float> samples;
-    std::uint64_t notFinite = 0;
 
     [[nodiscard]] double duration() const { return static_cast<double>(samples.size()) / sampleRate; }
 };
@@ -62,24 +61,9 @@ Result<MonoSound> readMono(const fs::path& path, const AudioReadOptions& options
         return read.error();
     if (sound.duration() > limits::duration)
         return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
-    work.run(
-        [&]
-        {
-            sound.notFinite = static_cast<std::uint64_t>(
-                std::count_if(sound.samples.begin(), sound.samples.end(), [](float v) { return !std::isfinite(v); }));
-        });
     return sound;
 }
 
-/// What both measures need of one sound.
-struct Features
-{
-    HtsFeatures hts;
-    HtsFeatures itself; ///< of a source: as its own candidate
-    SignalFeatures judge;
-    HeardTrack heard; ///< of a source
-    TouchTrack felt;
-};
 } // namespace
 
 CompareJob::CompareJob(const CompareSettings& wanted) : settings(wanted) {}
@@ -90,47 +74,25 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     // The judge counts what is not finite as silence after resampling, so it must come through.
     const AudioReadOptions reading{
         .allowTruncated = settings.allowTruncated, .keepNan = true, .lowestSampleRate = lowestResamplerRate};
-    CompareResult result;
     Stopwatch work;
-    std::optional<SignalAnalyzer> judge;
-    const auto analyze = [&](const fs::path& path, HtsRole role) -> std::variant<Features, InputFailure>
+    const auto analyze = [&](const fs::path& path,
+                             Result<void> (Comparer::*set)(std::span<const float>, int)) -> std::optional<InputFailure>
     {
         const auto sound = readMono(path, reading, work);
         if (!sound)
             return InputFailure{path, withAdvice(sound.error(), false)};
-        (role == HtsRole::source ? result.duration : result.candidateDuration) = sound->duration();
-        result.notFinite += sound->notFinite;
-        const std::span<const float> samples(sound->samples);
-        Features features;
-        work.run(
-            [&]
-            {
-                // The reader has checked the rate, the only thing that can be wrong here.
-                if (role == HtsRole::source)
-                    judge.emplace(signalAnalysisLength(samples.size(), sound->sampleRate));
-                features.judge = signalFeatures(*judge, samples, sound->sampleRate).value();
-                HtsFeatures& asCandidate = role == HtsRole::source ? features.itself : features.hts;
-                asCandidate = htsCandidateFeatures(hts, samples, sound->sampleRate).value();
-                features.felt = touchTrack(touch, samples, sound->sampleRate).value();
-                if (role == HtsRole::source)
-                {
-                    features.hts = htsSourceFeatures(hts, samples, sound->sampleRate).value();
-                    features.heard = heardTrack(samples, sound->sampleRate).value();
-                }
-            });
-        return features;
+        Result<void> done;
+        work.run([&] { done = (comparer.*set)(sound->samples, sound->sampleRate); });
+        return done ? std::nullopt : std::optional(InputFailure{path, done.error()});
     };
-    const auto reference = analyze(pair.reference, HtsRole::source);
-    if (const auto* failure = std::get_if<InputFailure>(&reference))
+    if (auto failure = analyze(pair.reference, &Comparer::setReference))
         return *failure;
     progress(0.5);
-    const auto candidate = analyze(pair.candidate, HtsRole::candidate);
-    if (const auto* failure = std::get_if<InputFailure>(&candidate))
+    if (auto failure = analyze(pair.candidate, &Comparer::setCandidate))
         return *failure;
-    const Features& source = std::get<Features>(reference);
-    const Features& target = std::get<Features>(candidate);
 
-    std::vector<double> events = target.judge.onsets;
+    CompareResult result;
+    std::vector<double> events = comparer.onsets();
     if (!pair.events.empty())
     {
         const auto read = readClip(pair.events, settings.strict);
@@ -144,27 +106,13 @@ std::variant<CompareResult, InputFailure> CompareJob::run(const ComparePair& pai
     work.run(
         [&]
         {
-            result.hts = compare(source.hts, target.hts, HtsMode::translation);
-            result.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
-            result.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
-            result.measures = compare(source.judge, target.judge);
-            result.impression = feltFigures(target.felt);
-            if (!source.heard.loudness.empty())
-            {
-                // One that was made for the sound is as late as it will be felt; a recording begins when it was begun.
-                const int late = matchLag(source.heard, target.felt);
-                result.aligned = late != 0 && std::abs(result.duration - result.candidateDuration) > 0.005;
-                result.matchLag = 1000.0 * late / TouchTrack::rate;
-                result.match = matchParts(source.heard, earlier(target.felt, result.aligned ? late : 0));
-                result.matchCeiling = predictedMatch(matchParts(source.heard, source.felt));
-            }
+            static_cast<Comparison&>(result) = comparer.compare();
             const auto* onsets = settings.onsets ? settings.onsets->find(pair.reference) : nullptr;
             if (onsets == nullptr)
                 return;
             const auto* ambiguous = settings.ambiguous.find(pair.reference);
-            const auto others = ambiguous != nullptr ? std::span(*ambiguous) : std::span<const double>();
-            result.events = scoreEvents(*onsets, events, 0.025, others);
-            result.eventsNarrow = scoreEvents(*onsets, events, 0.010, others);
+            scoreEvents(result, *onsets, events,
+                        ambiguous != nullptr ? std::span(*ambiguous) : std::span<const double>());
         });
     result.seconds = work.seconds();
     return result;

@@ -15,71 +15,37 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// A figure of one pair; `heading` is empty for what only the JSON has.
+/// How a figure of one pair is shown; `heading` is empty for what only the JSON has.
 struct Column
 {
-    const char* key;
     const char* heading;
     int decimals;
-    std::optional<double> (*value)(const CompareResult&);
 };
 
-/// A measure of the judge, which a silent reference has not.
-template <double SignalMetrics::*member>
-std::optional<double> judged(const CompareResult& r)
-{
-    return r.measures.silentReference ? std::nullopt : std::optional(r.measures.*member);
-}
-
-template <std::optional<EventScore> CompareResult::*member>
-std::optional<double> scored(const CompareResult& r)
-{
-    return (r.*member) ? std::optional((r.*member)->f) : std::nullopt;
-}
-
-constexpr std::array<Column, 13> columns{{
-    {"match", "match", 1,
-     [](const CompareResult& r)
-     {
-         return r.match ? std::optional(predictedMatch(*r.match)) : std::nullopt;
-     }},
-    {"matchCeiling", "", 1,
-     [](const CompareResult& r)
-     {
-         return r.match ? std::optional(r.matchCeiling) : std::nullopt;
-     }},
-    {"hts", "HTS", 1,
-     [](const CompareResult& r)
-     {
-         return std::optional(r.hts.score);
-     }},
-    {"ceiling", "of REF", 1,
-     [](const CompareResult& r)
-     {
-         return std::optional(r.ceiling);
-     }},
-    {"htsF", "HTS-F", 1,
-     [](const CompareResult& r)
-     {
-         return std::optional(r.htsFidelity.score);
-     }},
-    {"lsd", "LSD dB", 2, judged<&SignalMetrics::logSpectralDistance>},
-    {"wideSnr", "wide SNR dB", 2, judged<&SignalMetrics::wideSnr>},
-    {"bandSnr", "band SNR dB", 2, judged<&SignalMetrics::envelopeSnr>},
-    {"bandSnrPerBand", "", 2, judged<&SignalMetrics::envelopeSnrPerBand>},
-    {"centroidError", "centroid error %", 1, judged<&SignalMetrics::centroidError>},
-    {"centroidBias", "", 1, judged<&SignalMetrics::centroidBias>},
-    {"f1", "F1", 3, scored<&CompareResult::events>},
-    {"f1Within10ms", "", 3, scored<&CompareResult::eventsNarrow>},
+/// In the order of comparisonFigures.
+constexpr std::array<Column, comparisonFigures.size()> columns{{
+    {"match", 1},
+    {"", 1},
+    {"HTS", 1},
+    {"of REF", 1},
+    {"HTS-F", 1},
+    {"LSD dB", 2},
+    {"wide SNR dB", 2},
+    {"band SNR dB", 2},
+    {"", 2},
+    {"centroid error %", 1},
+    {"", 1},
+    {"F1", 3},
+    {"", 3},
 }};
 
-std::optional<double> mean(const std::vector<CompareTask>& tasks, const Column& column)
+std::optional<double> mean(const std::vector<CompareTask>& tasks, const ComparisonFigure& figure)
 {
     double sum = 0.0;
     std::size_t count = 0;
     for (const CompareTask& task : tasks)
         if (task.result)
-            if (const auto value = column.value(*task.result))
+            if (const auto value = figure.value(*task.result))
             {
                 sum += *value;
                 ++count;
@@ -198,26 +164,26 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows)
 
 std::string compareTable(const std::vector<CompareTask>& tasks)
 {
-    std::vector<const Column*> shown;
-    for (const Column& column : columns)
-        if (*column.heading != '\0' && (column.value != scored<&CompareResult::events> || mean(tasks, column)))
-            shown.push_back(&column);
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        if (*columns[i].heading != '\0' && (comparisonFigures[i].key != "f1" || mean(tasks, comparisonFigures[i])))
+            shown.push_back(i);
     std::vector<std::vector<std::string>> rows(1, {"file"});
-    for (const Column* column : shown)
-        rows.front().emplace_back(column->heading);
+    for (const std::size_t i : shown)
+        rows.front().emplace_back(columns[i].heading);
     const auto addRow = [&](const std::string& name, auto&& valueOf)
     {
         rows.push_back({name});
-        for (const Column* column : shown)
+        for (const std::size_t i : shown)
         {
-            const std::optional<double> value = valueOf(*column);
-            rows.back().push_back(value ? fmt::format("{:.{}f}", *value, column->decimals) : "-");
+            const std::optional<double> value = valueOf(comparisonFigures[i]);
+            rows.back().push_back(value ? fmt::format("{:.{}f}", *value, columns[i].decimals) : "-");
         }
     };
     for (const CompareTask& task : tasks)
         if (task.result)
-            addRow(task.pair.name.string(), [&](const Column& column) { return column.value(*task.result); });
-    addRow("mean", [&](const Column& column) { return mean(tasks, column); });
+            addRow(task.pair.name.string(), [&](const ComparisonFigure& figure) { return figure.value(*task.result); });
+    addRow("mean", [&](const ComparisonFigure& figure) { return mean(tasks, figure); });
     return aligned(rows);
 }
 
@@ -228,8 +194,8 @@ nlohmann::ordered_json pairJson(const CompareTask& task)
               {"candidate", task.pair.candidate.string()},
               {"duration", r.duration},
               {"candidateDuration", r.candidateDuration}};
-    for (const Column& column : columns)
-        json[column.key] = orNull(column.value(r));
+    for (const ComparisonFigure& figure : comparisonFigures)
+        json[std::string(figure.key)] = orNull(figure.value(r));
     json["matchLag"] = r.match ? Json(r.matchLag) : Json(nullptr);
     json["matchAligned"] = r.aligned;
     json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
@@ -251,8 +217,8 @@ nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks)
 {
     const Totals totals(tasks);
     Json report{{"files", Json::array()}, {"mean", Json::object()}};
-    for (const Column& column : columns)
-        report["mean"][column.key] = orNull(mean(tasks, column));
+    for (const ComparisonFigure& figure : comparisonFigures)
+        report["mean"][std::string(figure.key)] = orNull(mean(tasks, figure));
     const auto events = pooledEvents(tasks);
     report["events"] = events ? toJson(*events) : Json(nullptr);
     report["duration"] = totals.duration;

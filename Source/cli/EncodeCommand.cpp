@@ -73,19 +73,6 @@ std::string summary(const std::vector<EncodeTask>& tasks)
     return text;
 }
 
-/// Options that only some methods have.
-constexpr const char* tunedOptions[] = {"--bands",   "--breakpoints", "--quantise",    "--low",       "--high",
-                                        "--spacing", "--audible",     "--sensitivity", "--keep-level"};
-
-bool hasOption(const MethodInfo& method, std::string_view option)
-{
-    if (method.method == Method::a2vt)
-        return true;
-    if (method.method == Method::thesis)
-        return option != "--spacing" && option != "--audible" && option != "--sensitivity" && option != "--keep-level";
-    return method.output == MethodOutput::clip && option == "--breakpoints";
-}
-
 std::string methodNames(MethodOutput output)
 {
     std::string names;
@@ -230,8 +217,8 @@ Result<void> EncodeCommand::checkOptions(const MethodInfo& method) const
 {
     if (inputs.empty())
         return wrongUsage("encode", "a file to work on is missing; try 'pacini encode --help'");
-    for (const char* option : tunedOptions)
-        if (command->count(option) > 0 && !hasOption(method, option))
+    for (const std::string_view name : tunedOptions)
+        if (const std::string option = "--" + std::string(name); command->count(option) > 0 && !hasOption(method, name))
             return wrongUsage(option, fmt::format("is no option of the method {}; leave it out", method.name));
     if (method.output == MethodOutput::signal)
     {

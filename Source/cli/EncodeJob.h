@@ -3,12 +3,10 @@
 // Encoding job: one sound file into a clip or, by methods that make no clip, a drive signal.
 
 #include "cli/Overwrite.h"
-#include "cli/Stopwatch.h"
 #include "io/AudioReader.h"
 #include "io/ClipFile.h"
-
-#include <pacini/analysis/Encoder.h>
-#include <pacini/analysis/methods/Method.h>
+#include "io/SoundEncoder.h"
+#include "io/Stopwatch.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,17 +18,13 @@
 namespace pacini::cli
 {
 
-struct EncodeSettings
+struct EncodeSettings : SoundEncoderParams
 {
-    Method method = Method::a2vt;
-    EncoderParams params;                     ///< of a2vt
-    MethodChoices choices;                    ///< of the other methods
     const ClipFormat* format = &jsonFormat(); ///< never null
     ExportParams exporting;                   ///< for formats of others
-    AudioReadOptions reading;
-    bool dryRun = false; ///< only look at the sound, write nothing
-    bool force = false;  ///< encode even what is up to date; signals and formats of others, which have no record of the
-                         ///< method, always are
+    bool dryRun = false;                      ///< only look at the sound, write nothing
+    bool force = false; ///< encode even what is up to date; signals and formats of others, which have no record of the
+                        ///< method, always are
 };
 
 /// Result of the encoding of one file.
@@ -86,16 +80,11 @@ private:
 
     [[nodiscard]] FileOrigin signalOrigin(const Path& input, const Path& output) const;
 
-    [[nodiscard]] Result<Clip> makeClip(AudioReader& reader, const Path& input, const Progress& progress,
-                                        Stopwatch& work);
-    [[nodiscard]] Result<Clip> encodeInPieces(AudioReader& reader, const Path& input, const Progress& progress,
-                                              Stopwatch& work);
-    [[nodiscard]] Result<SoundScale> survey(const Path& input, const Progress& progress, Stopwatch& work) const;
     [[nodiscard]] Result<std::size_t> writeForeign(const Clip& clip, const Path& output, Replaceable replaceable,
                                                    Stopwatch& work, EncodeResult& result) const;
 
     EncodeSettings settings;
-    Encoder encoder;
+    SoundEncoder encoder;
 };
 
 } // namespace pacini::cli

@@ -3,8 +3,6 @@
 #include "io/ProfileFile.h"
 #include "io/ShippedProfiles.h"
 
-#include <pacini/actuator/Wearer.h>
-
 #include <string>
 
 namespace pacini::cli
@@ -13,11 +11,8 @@ namespace pacini::cli
 Result<FeltSettings> feltSettings(const Profile& profile, unsigned wearer, double fullScale,
                                   const std::filesystem::path& programFolder)
 {
-    if (auto model = feltModelParams(profile))
-    {
-        model->body.body = bodyOn(wearer, model->body.body);
-        return FeltSettings{*model, wearer, profile.drive.overdrive, fullScale};
-    }
+    if (auto settings = feltSettingsOf(profile, wearer, fullScale))
+        return *settings;
     std::string message = "is missing in this profile, so nothing is known of what is felt";
     bool first = true;
     for (const ShippedProfile& shipped : shippedProfiles(programFolder))

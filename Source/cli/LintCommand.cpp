@@ -6,11 +6,11 @@
 #include "cli/InputFiles.h"
 #include "cli/Manifest.h"
 #include "cli/Options.h"
-#include "cli/SceneCheck.h"
-#include "cli/SceneTimeline.h"
 #include "io/ClipFile.h"
+#include "io/SceneCheck.h"
 
 #include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

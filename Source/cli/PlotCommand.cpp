@@ -7,7 +7,6 @@
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
 #include "cli/RenderJob.h"
-#include "cli/SceneTimeline.h"
 #include "cli/plot/ClipFigure.h"
 #include "cli/plot/Figure.h"
 #include "cli/plot/ProfileFigure.h"
@@ -18,6 +17,7 @@
 
 #include <pacini/synthesis/Scene.h>
 #include <pacini/synthesis/ScenePlayer.h>
+#include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

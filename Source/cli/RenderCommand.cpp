@@ -326,11 +326,12 @@ Exit RenderCommand::run(Console& console)
     settings.compile.adaptation.maxBoost = Decibels(maxBoost);
     settings.compile.adaptation.strength = strength;
     settings.protect = !noProtection;
-    settings.transposition = transpose;
-    settings.stretch = stretch;
-    settings.gain = gain;
-    settings.delay = delay;
-    settings.variation = {variation, variationPer == "band" ? VariationScope::band : VariationScope::breakpoint, seed};
+    settings.adjustment.transposition = transpose;
+    settings.adjustment.stretch = stretch;
+    settings.adjustment.gain = gain;
+    settings.adjustment.delay = delay;
+    settings.adjustment.variation = {variation,
+                                     variationPer == "band" ? VariationScope::band : VariationScope::breakpoint, seed};
     DecoderChoice& decoder = settings.compile.decoder;
     decoder.carriers = chosen<CarrierMode>(
         carriers, {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});

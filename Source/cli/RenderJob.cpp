@@ -1,11 +1,12 @@
 #include "cli/RenderJob.h"
 
-#include "cli/SignalPlayer.h"
-#include "cli/Stopwatch.h"
 #include "cli/Task.h"
 #include "io/AudioReader.h"
 #include "io/Fingerprint.h"
+#include "io/Stopwatch.h"
 #include "io/formats/json/ClipJson.h"
+
+#include <pacini/synthesis/SignalPlayer.h>
 
 #include <fmt/format.h>
 
@@ -124,50 +125,6 @@ bool isRecordingOf(const Clip& clip, const std::filesystem::path& input, const s
 }
 } // namespace
 
-Scene sceneOf(Clip clip)
-{
-    Scene scene;
-    scene.clips.push_back(std::move(clip));
-    scene.plays.push_back({});
-    return scene;
-}
-
-Scene adjusted(Scene scene, const RenderSettings& settings)
-{
-    const double r = settings.stretch;
-    const auto moved = [&](double time)
-    {
-        return settings.delay + r * time;
-    };
-    scene.gain += settings.gain;
-    if (scene.duration > 0.0)
-        scene.duration = moved(scene.duration);
-    for (std::size_t i = 0; i < scene.plays.size(); ++i)
-    {
-        ScenePlay& play = scene.plays[i];
-        play.start = moved(play.start);
-        play.stretch *= r;
-        play.transposition += settings.transposition;
-        if (play.variation.amount == 0.0 && settings.variation.amount > 0.0)
-        {
-            play.variation = settings.variation;
-            play.variation.seed += 0x9E3779B97F4A7C15u * i; // plays of one clip differ
-        }
-        else
-            play.variation.seed += settings.variation.seed;
-    }
-    for (SceneChange& change : scene.changes)
-    {
-        change.time = moved(change.time);
-        change.glide *= r;
-        if (change.parameter == SceneParameter::stretch)
-            change.value *= r;
-        if (change.parameter == SceneParameter::transposition)
-            change.value += settings.transposition;
-    }
-    return scene;
-}
-
 Result<RenderResult> render(const std::filesystem::path& input, const std::filesystem::path& output,
                             Replaceable replaceable, const RenderSettings& settings,
                             const std::function<void(double)>& progress)
@@ -200,9 +157,10 @@ Result<RenderResult> render(const std::filesystem::path& input, const std::files
     work.run(
         [&]
         {
-            scene = adjusted(std::move(scene), settings);
-            length = result.isScene ? scene.duration
-                                    : scene.plays.front().start + scene.clips.front().duration * settings.stretch;
+            scene = adjusted(std::move(scene), settings.adjustment);
+            length = result.isScene
+                         ? scene.duration
+                         : scene.plays.front().start + scene.clips.front().duration * settings.adjustment.stretch;
             if (length <= limits::duration)
                 compiled = compilePlan(scene, profile, settings.compile);
         });

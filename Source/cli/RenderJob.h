@@ -10,7 +10,7 @@
 #include <pacini/actuator/Profile.h>
 #include <pacini/synthesis/CompilePlan.h>
 #include <pacini/synthesis/DecoderParams.h>
-#include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/SceneAdjustment.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -22,16 +22,12 @@
 namespace pacini::cli
 {
 
-/// Settings of a rendering. The first group is done to the whole scene; a clip is a scene of one play.
+/// Settings of a rendering.
 struct RenderSettings
 {
-    double gain = 0.0;          ///< dB
-    double transposition = 0.0; ///< semitones
-    double stretch = 1.0;
-    double delay = 0.0;        ///< s
-    double from = 0.0;         ///< s of what comes of it: where the output starts
-    std::optional<double> to;  ///< s, where it ends; nothing: at the end
-    VariationParams variation; ///< of plays that have none of their own; its seed moves all seeds
+    SceneAdjustment adjustment;
+    double from = 0.0;        ///< s of what comes of it: where the output starts
+    std::optional<double> to; ///< s, where it ends; nothing: at the end
 
     CompileParams compile;
     std::optional<Profile> profile;
@@ -78,12 +74,6 @@ struct RenderResult
     std::vector<LeftOut> leftOut;  ///< in order of what it costs
     std::vector<PlayReport> plays; ///< when they were to be described; in order of start
 };
-
-/// A scene in which a clip plays once, as it is.
-[[nodiscard]] Scene sceneOf(Clip clip);
-
-/// Moves, stretches, transposes and varies a whole scene as the settings say. Times and changes come along.
-[[nodiscard]] Scene adjusted(Scene scene, const RenderSettings& settings);
 
 /// Errors: those of readClipOrScene, compilePlan and AudioWriter, without the file's name; io when what is at `output`
 /// is not to be replaced.

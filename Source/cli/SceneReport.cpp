@@ -1,10 +1,10 @@
 #include "cli/SceneReport.h"
 
 #include "cli/Console.h"
-#include "cli/SceneTimeline.h"
 #include "io/SceneFields.h"
 
 #include <pacini/clip/Clip.h>
+#include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
 

@@ -36,6 +36,7 @@ SOURCE = {
     "document": ({"io", "document"}, NO_JUCE),
     "devices": ({"devices"}, NO_JUCE),
     "library": ({"io", "document", "devices", "library"}, NO_JUCE),
+    "python": ({"io", "document", "python"}, NO_JUCE),
     "plugin/engine": ({"io", "document", "devices", "plugin/engine"}, NO_WINDOWS),
     "plugin/window": ({"io", "document", "devices", "editor", "plugin/engine", "plugin/window"}, ()),
     "editor": ({"io", "document", "devices", "editor"}, ()),
@@ -49,7 +50,7 @@ CORE_FORBIDDEN = {
     "semaphore", "latch", "barrier", "locale", "clocale",
 }
 # Libraries that only one room of Source touches.
-ONLY_IN = {"sndfile": "io", "hidapi": "devices"}
+ONLY_IN = {"sndfile": "io", "hidapi": "devices", "nanobind": "python"}
 CORE_THIRD_PARTY = re.compile(r"^Eigen/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

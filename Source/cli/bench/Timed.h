@@ -2,7 +2,7 @@
 
 // Timing of a piece of work: its shortest run time and its result, from the same runs.
 
-#include "cli/Stopwatch.h"
+#include "io/Stopwatch.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -3,11 +3,11 @@
 #include "cli/Command.h"
 #include "cli/Options.h"
 #include "cli/ProfileInput.h"
-#include "cli/Stopwatch.h"
 #include "cli/plot/ResponseFigure.h"
 #include "io/ProfileFields.h"
 #include "io/ProfileFile.h"
 #include "io/ResponseTable.h"
+#include "io/Stopwatch.h"
 
 #include <pacini/foundation/ParseNumber.h>
 #include <pacini/linearize/EqualizerCost.h>

@@ -1,10 +1,10 @@
 #include "cli/plot/SceneFigure.h"
 
 #include "cli/Console.h"
-#include "cli/SceneTimeline.h"
 #include "cli/plot/ShownCurve.h"
 #include "io/JsonText.h"
 
+#include <pacini/synthesis/SceneTimeline.h>
 #include <pacini/synthesis/SingleVoice.h>
 
 #include <fmt/format.h>
@@ -335,7 +335,7 @@ std::string counted(std::size_t number, std::string_view one)
 Figure makeSceneFigure(const Scene& scene, std::string title, TimeRange range, const FigureStyle& style)
 {
     const Look look = lookFor(style);
-    const SceneTimeline timeline = cli::timelineOf(scene);
+    const SceneTimeline timeline = pacini::timelineOf(scene);
     const auto columns = static_cast<std::size_t>(std::max(style.size.width / 2, 2));
     std::vector<Curve> strengths;
     for (const Clip& clip : scene.clips)

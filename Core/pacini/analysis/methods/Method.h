@@ -101,6 +101,21 @@ inline constexpr std::array<MethodInfo, 13> methodTable{{
     return std::nullopt;
 }
 
+/// Options that only some methods have, by their names on the command line without the dashes before them.
+inline constexpr std::array<std::string_view, 9> tunedOptions{
+    "bands", "breakpoints", "quantise", "low", "high", "spacing", "audible", "sensitivity", "keep-level"};
+
+/// Whether a method has one of `tunedOptions`; names in Python have `_` for `-`.
+[[nodiscard]] constexpr bool hasOption(const MethodInfo& method, std::string_view option) noexcept
+{
+    if (method.method == Method::a2vt)
+        return true;
+    if (method.method == Method::thesis)
+        return option == "bands" || option == "breakpoints" || option == "quantise" || option == "low" ||
+               option == "high";
+    return method.output == MethodOutput::clip && option == "breakpoints";
+}
+
 /// Choices that methods share; what is left out is the method's own. Values are clamped as the methods say.
 struct MethodChoices
 {

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace pacini::cli
+namespace pacini
 {
 
 class Stopwatch
@@ -28,4 +28,4 @@ private:
     double total = 0.0;
 };
 
-} // namespace pacini::cli
+} // namespace pacini

@@ -1,11 +1,10 @@
 // Felt signals do not depend on how they are asked for.
 
-#include "cli/SignalPlayer.h"
-
 #include "support/Catch.h"
 #include "support/Render.h"
 
 #include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/SignalPlayer.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,8 +13,6 @@
 #include <vector>
 
 using namespace pacini;
-using pacini::cli::FeltSettings;
-using pacini::cli::SignalPlayer;
 
 namespace
 {

@@ -1,8 +1,11 @@
-#include "cli/SceneCheck.h"
+#pragma once
 
-#include "cli/SceneTimeline.h"
+// Lint checks of a scene: what in it does nothing, or less than is written there. All of it is in this header, as in
+// SoundEncoder.h.
 
 #include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/Scene.h>
+#include <pacini/synthesis/SceneTimeline.h>
 
 #include <fmt/format.h>
 
@@ -10,15 +13,20 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
-namespace pacini::cli
+namespace pacini
 {
 
-namespace
+struct SceneFinding
 {
-using detail::indexed;
+    std::string where;   ///< such as `plays[3]`
+    std::string message; ///< for people
+};
 
-void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
+namespace detail
+{
+inline void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
 {
     std::vector<bool> played(scene.clips.size(), false);
     for (const ScenePlay& play : scene.plays)
@@ -29,13 +37,13 @@ void checkClips(const Scene& scene, std::vector<SceneFinding>& found)
 }
 
 /// Whether a place is a role of a play: to mute one does something.
-bool isRole(const std::string& where)
+inline bool isRole(const std::string& where)
 {
     return std::any_of(allRoles.begin(), allRoles.end(),
                        [&](Role role) { return where.ends_with(std::string(".") + nameOf(role)); });
 }
 
-void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
+inline void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
 {
     const auto plan = compilePlan(scene);
     if (!plan)
@@ -51,7 +59,7 @@ void checkPlan(const Scene& scene, std::vector<SceneFinding>& found)
                                                                    : std::string())});
 }
 
-void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+inline void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
 {
     constexpr double margin = 1e-6; // s
     for (const TimedPlay& timed : timeline.plays)
@@ -61,7 +69,7 @@ void checkEnds(const SceneTimeline& timeline, std::vector<SceneFinding>& found)
                  fmt::format("is cut by the end of the scene {:.3f} s before its own", timed.wanted - timed.end)});
 }
 
-void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
+inline void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector<SceneFinding>& found)
 {
     for (std::size_t i = 0; i < scene.changes.size(); ++i)
     {
@@ -80,7 +88,7 @@ void checkChanges(const Scene& scene, const SceneTimeline& timeline, std::vector
     }
 }
 
-void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
+inline void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
 {
     for (std::size_t i = 0; i < scene.plays.size(); ++i)
         for (const Role role : allRoles)
@@ -88,7 +96,7 @@ void checkRoles(const Scene& scene, std::vector<SceneFinding>& found)
                 found.push_back({indexed("plays", i) + "." + nameOf(role), "does nothing: the clip has none"});
 }
 
-void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
+inline void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
 {
     if (scene.actuators > 1)
         return;
@@ -96,21 +104,24 @@ void checkPans(const Scene& scene, std::vector<SceneFinding>& found)
         if (scene.plays[i].pan != ScenePlay{}.pan)
             found.push_back({indexed("plays", i) + ".pan", "does nothing: the scene has one actuator"});
 }
-} // namespace
+} // namespace detail
 
-std::vector<SceneFinding> checkScene(const Scene& scene)
+/// Clips that are never played; plays and bands of them that compilePlan() leaves out; plays that the end of the scene
+/// cuts; changes that come after their play or the scene; pans with one actuator. In this order. Errors of
+/// compilePlan() are findings too.
+[[nodiscard]] inline std::vector<SceneFinding> checkScene(const Scene& scene)
 {
     std::vector<SceneFinding> found;
     if (scene.plays.empty())
         found.push_back({"plays", "is empty, so nothing sounds"});
     const SceneTimeline timeline = timelineOf(scene);
-    checkClips(scene, found);
-    checkPlan(scene, found);
-    checkEnds(timeline, found);
-    checkChanges(scene, timeline, found);
-    checkPans(scene, found);
-    checkRoles(scene, found);
+    detail::checkClips(scene, found);
+    detail::checkPlan(scene, found);
+    detail::checkEnds(timeline, found);
+    detail::checkChanges(scene, timeline, found);
+    detail::checkPans(scene, found);
+    detail::checkRoles(scene, found);
     return found;
 }
 
-} // namespace pacini::cli
+} // namespace pacini

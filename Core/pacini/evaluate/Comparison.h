@@ -1,0 +1,218 @@
+#pragma once
+
+// Comparison of a candidate with its reference by all measures of quality.
+
+#include <pacini/evaluate/EventMatching.h>
+#include <pacini/evaluate/Hts.h>
+#include <pacini/evaluate/SignalMetrics.h>
+#include <pacini/evaluate/match/FeltImpression.h>
+#include <pacini/evaluate/match/MatchLag.h>
+#include <pacini/evaluate/match/MatchParts.h>
+#include <pacini/filters/Resampler.h>
+#include <pacini/foundation/Result.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// What all measures say of a candidate.
+struct Comparison
+{
+    double duration = 0.0;          ///< s of the reference
+    double candidateDuration = 0.0; ///< s
+    std::uint64_t notFinite = 0;    ///< frames of both sounds that were NaN or infinite
+    HtsScore hts;
+    double ceiling = 0.0; ///< HTS of the reference itself, played as it is
+    HtsScore htsFidelity;
+    SignalMetrics measures;
+    FeltFigures impression;                 ///< of the candidate
+    std::optional<MatchParts> match;        ///< empty for a silent reference
+    double matchLag = 0.0;                  ///< ms by which the candidate is late, as far as that can be told
+    bool aligned = false;                   ///< `match` is that without it: both are of different length
+    double matchCeiling = 0.0;              ///< predicted match of the reference itself, played as it is
+    std::optional<EventScore> events;       ///< within 25 ms; with known onsets only
+    std::optional<EventScore> eventsNarrow; ///< within 10 ms
+};
+
+/// One number of a comparison, by its key in reports.
+struct ComparisonFigure
+{
+    std::string_view key;
+    std::optional<double> (*value)(const Comparison&); ///< nothing where the measure says nothing
+};
+
+namespace detail
+{
+/// A measure of the judge, which a silent reference has not.
+template <double SignalMetrics::*member>
+[[nodiscard]] std::optional<double> judged(const Comparison& comparison)
+{
+    return comparison.measures.silentReference ? std::nullopt : std::optional(comparison.measures.*member);
+}
+
+template <std::optional<EventScore> Comparison::*member>
+[[nodiscard]] std::optional<double> scored(const Comparison& comparison)
+{
+    return (comparison.*member) ? std::optional((comparison.*member)->f) : std::nullopt;
+}
+} // namespace detail
+
+/// The figures of a comparison, the most telling first.
+inline constexpr std::array<ComparisonFigure, 13> comparisonFigures{{
+    {"match",
+     [](const Comparison& c)
+     {
+         return c.match ? std::optional(predictedMatch(*c.match)) : std::nullopt;
+     }},
+    {"matchCeiling",
+     [](const Comparison& c)
+     {
+         return c.match ? std::optional(c.matchCeiling) : std::nullopt;
+     }},
+    {"hts",
+     [](const Comparison& c)
+     {
+         return std::optional(c.hts.score);
+     }},
+    {"ceiling",
+     [](const Comparison& c)
+     {
+         return std::optional(c.ceiling);
+     }},
+    {"htsF",
+     [](const Comparison& c)
+     {
+         return std::optional(c.htsFidelity.score);
+     }},
+    {"lsd", detail::judged<&SignalMetrics::logSpectralDistance>},
+    {"wideSnr", detail::judged<&SignalMetrics::wideSnr>},
+    {"bandSnr", detail::judged<&SignalMetrics::envelopeSnr>},
+    {"bandSnrPerBand", detail::judged<&SignalMetrics::envelopeSnrPerBand>},
+    {"centroidError", detail::judged<&SignalMetrics::centroidError>},
+    {"centroidBias", detail::judged<&SignalMetrics::centroidBias>},
+    {"f1", detail::scored<&Comparison::events>},
+    {"f1Within10ms", detail::scored<&Comparison::eventsNarrow>},
+}};
+
+/// Compares one pair after another; keeps transforms between them: setReference(), setCandidate(), compare(). Samples
+/// are mono, at 2 to 768 kHz. One thread at a time; allocates.
+class Comparer
+{
+public:
+    /// Begins a pair. Errors: a rate that is not 2 to 768 kHz (invalidArgument).
+    [[nodiscard]] Result<void> setReference(std::span<const float> mono, int sampleRate)
+    {
+        if (auto valid = checkResamplerRate(sampleRate); !valid)
+            return valid;
+        found = {};
+        found.duration = durationOf(mono, sampleRate);
+        judge.emplace(signalAnalysisLength(mono.size(), sampleRate));
+        if (auto judged = analyze(mono, sampleRate, source, source.itself); !judged)
+            return judged;
+        auto wanted = htsSourceFeatures(hts, mono, sampleRate);
+        if (!wanted)
+            return wanted.error();
+        source.hts = std::move(*wanted);
+        auto heard = heardTrack(mono, sampleRate);
+        if (!heard)
+            return heard.error();
+        source.heard = std::move(*heard);
+        return {};
+    }
+
+    /// After setReference(). Errors: as there.
+    [[nodiscard]] Result<void> setCandidate(std::span<const float> mono, int sampleRate)
+    {
+        if (auto valid = checkResamplerRate(sampleRate); !valid)
+            return valid;
+        found.candidateDuration = durationOf(mono, sampleRate);
+        return analyze(mono, sampleRate, target, target.hts);
+    }
+
+    /// When events happen in the candidate, s.
+    [[nodiscard]] const std::vector<double>& onsets() const noexcept { return target.judge.onsets; }
+
+    /// The comparison over the reference's length. After setCandidate().
+    [[nodiscard]] Comparison compare()
+    {
+        using pacini::compare;
+        found.hts = compare(source.hts, target.hts, HtsMode::translation);
+        found.ceiling = compare(source.hts, source.itself, HtsMode::translation).score;
+        found.htsFidelity = compare(source.hts, target.hts, HtsMode::fidelity);
+        found.measures = compare(source.judge, target.judge);
+        found.impression = feltFigures(target.felt);
+        if (!source.heard.loudness.empty())
+        {
+            // One that was made for the sound is as late as it will be felt; a recording begins when it was begun.
+            const int late = matchLag(source.heard, target.felt);
+            found.aligned = late != 0 && std::abs(found.duration - found.candidateDuration) > 0.005;
+            found.matchLag = 1000.0 * late / TouchTrack::rate;
+            found.match = matchParts(source.heard, earlier(target.felt, found.aligned ? late : 0));
+            found.matchCeiling = predictedMatch(matchParts(source.heard, source.felt));
+        }
+        return found;
+    }
+
+private:
+    /// What the measures need of one sound.
+    struct Features
+    {
+        HtsFeatures hts;
+        HtsFeatures itself; ///< of a source: as its own candidate
+        SignalFeatures judge;
+        HeardTrack heard; ///< of a source
+        TouchTrack felt;
+    };
+
+    [[nodiscard]] static double durationOf(std::span<const float> mono, int sampleRate)
+    {
+        return static_cast<double>(mono.size()) / sampleRate;
+    }
+
+    [[nodiscard]] Result<void> analyze(std::span<const float> mono, int sampleRate, Features& features,
+                                       HtsFeatures& asCandidate)
+    {
+        features = {};
+        found.notFinite += static_cast<std::uint64_t>(
+            std::count_if(mono.begin(), mono.end(), [](float v) { return !std::isfinite(v); }));
+        auto judged = signalFeatures(*judge, mono, sampleRate);
+        if (!judged)
+            return judged.error();
+        features.judge = std::move(*judged);
+        auto candidate = htsCandidateFeatures(hts, mono, sampleRate);
+        if (!candidate)
+            return candidate.error();
+        asCandidate = std::move(*candidate);
+        auto felt = touchTrack(touch, mono, sampleRate);
+        if (!felt)
+            return felt.error();
+        features.felt = std::move(*felt);
+        return {};
+    }
+
+    HtsAnalyzer hts;
+    TouchAnalyzer touch;
+    std::optional<SignalAnalyzer> judge;
+    Features source, target;
+    Comparison found;
+};
+
+/// Scores `events` of a candidate against known `onsets`, both in s; `ambiguous` ones count neither way.
+inline void scoreEvents(Comparison& comparison, const std::vector<double>& onsets, const std::vector<double>& events,
+                        std::span<const double> ambiguous = {})
+{
+    comparison.events = scoreEvents(onsets, events, 0.025, ambiguous);
+    comparison.eventsNarrow = scoreEvents(onsets, events, 0.010, ambiguous);
+}
+
+} // namespace pacini

@@ -1,0 +1,223 @@
+#pragma once
+
+// Encoder of sounds by any translation method: a file, or samples in memory, into a clip or a drive signal. All of it
+// is in this header, since signal processing is compiled for speed and the files of this module are not.
+
+#include "io/AtomicFile.h"
+#include "io/AudioReader.h"
+#include "io/Stopwatch.h"
+#include "io/Utf8.h"
+
+#include <pacini/analysis/EncodeSound.h>
+#include <pacini/analysis/Encoder.h>
+#include <pacini/analysis/MonoMix.h>
+#include <pacini/analysis/SoundSurvey.h>
+#include <pacini/analysis/methods/Method.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini
+{
+
+/// How sounds are translated and read.
+struct SoundEncoderParams
+{
+    Method method = Method::a2vt;
+    EncoderParams params;  ///< of a2vt
+    MethodChoices choices; ///< of the other methods
+    AudioReadOptions reading;
+};
+
+/// What a clip calls its sound; nothing when that came from standard input.
+[[nodiscard]] inline std::string sourceNameOf(const std::filesystem::path& input)
+{
+    return input == "-" ? std::string() : wellFormedUtf8(input.filename().string());
+}
+
+/// The parts of an open file. Errors: those of AudioReader, tooLarge beyond 24 hours.
+class SoundFileParts
+{
+public:
+    SoundFileParts(AudioReader& opened, const std::function<void(double)>& toTell)
+        : reader(opened),
+          progress(toTell),
+          expected(static_cast<double>(opened.frames().value_or(0))),
+          buffer(soundPartLength(static_cast<std::size_t>(opened.channels())))
+    {
+    }
+
+    [[nodiscard]] SoundPart operator()()
+    {
+        if (expected > 0.0 && frames > 0)
+            progress(static_cast<double>(frames) / expected);
+        const auto got = reader.read(buffer);
+        if (!got)
+            return got.error();
+        frames += *got;
+        if (static_cast<double>(frames) / reader.sampleRate() > limits::duration)
+            return Error{ErrorCode::tooLarge, "", "is longer than 24 hours; cut it into parts"};
+        return std::span<const float>(buffer).first(*got * static_cast<std::size_t>(reader.channels()));
+    }
+
+private:
+    AudioReader& reader;
+    const std::function<void(double)>& progress;
+    double expected;
+    std::vector<float> buffer;
+    std::uint64_t frames = 0;
+};
+
+/// Encodes one sound after another with one set of parameters; keeps filters and transforms between them. a2vt takes a
+/// sound piece by piece; the other methods hold all of it. One thread at a time.
+class SoundEncoder
+{
+public:
+    using Progress = std::function<void(double)>;
+
+    /// `params.params` must be valid.
+    explicit SoundEncoder(const SoundEncoderParams& wanted) : settings(wanted), encoder(wanted.params) {}
+
+    /// The clip of an open file, not yet rounded to its grids, named by `input`. Only for methods that make clips.
+    /// `progress(share)` is called now and then; `work` counts the time without access to files. Long files are read
+    /// twice. Errors: those of AudioReader, tooLarge beyond 24 hours.
+    [[nodiscard]] Result<Clip> clipOf(AudioReader& reader, const std::filesystem::path& input, const Progress& progress,
+                                      Stopwatch& work)
+    {
+        std::optional<SoundScale> scale;
+        double done = 0.0;
+        if (settings.method == Method::a2vt && isLong(reader) && !isStream(input))
+        {
+            done = shareOfSurvey();
+            const auto found = survey(
+                input, [&](double part) { progress(done * part); }, work);
+            if (!found)
+                return found.error();
+            scale = *found;
+        }
+        const Progress rest = [&](double part)
+        {
+            progress(done + (1.0 - done) * part);
+        };
+        SoundFileParts file(reader, rest);
+        auto clip = clipOf({reader.sampleRate(), reader.channels(), reader.frames().value_or(0), scale}, file, work);
+        if (!clip)
+            return clip;
+        clip->source.file = sourceNameOf(input);
+        clip->name = clip->source.file.empty() ? "stdin" : wellFormedUtf8(input.stem().string());
+        return clip;
+    }
+
+    /// The same, without a name, of the sound that `next()` hands out as SoundPart by SoundPart. Errors: those of
+    /// next().
+    template <typename Next>
+    [[nodiscard]] Result<Clip> clipOf(const SoundFormat& format, Next& next, Stopwatch& work)
+    {
+        if (settings.method != Method::a2vt)
+        {
+            const auto mono = readMono(format.channels, next, work);
+            if (!mono)
+                return mono.error();
+            Clip clip;
+            work.run([&] { clip = translateToClip(settings.method, *mono, format.sampleRate, settings.choices); });
+            clip.source.sampleRate = format.sampleRate;
+            clip.source.channels = format.channels;
+            return clip;
+        }
+        Stopwatch reading;
+        Result<Clip> clip = Clip();
+        work.run(
+            [&]
+            {
+                const auto timed = [&]
+                {
+                    SoundPart part = std::span<const float>();
+                    reading.run([&] { part = next(); });
+                    return part;
+                };
+                clip = encodePrecisely(encoder, format, timed);
+            });
+        work.leaveOut(reading);
+        return clip;
+    }
+
+    /// The drive signal of a sound, as long as it and at its rate. Only for methods that make signals. Errors: those of
+    /// next().
+    template <typename Next>
+    [[nodiscard]] Result<std::vector<float>> signalOf(const SoundFormat& format, Next& next, Stopwatch& work) const
+    {
+        const auto mono = readMono(format.channels, next, work);
+        if (!mono)
+            return mono.error();
+        std::vector<float> signal;
+        work.run([&] { signal = translateToSignal(settings.method, *mono, format.sampleRate); });
+        return signal;
+    }
+
+private:
+    /// Sounds that are worth being read twice, so that what is found in them need not be kept.
+    [[nodiscard]] static bool isLong(const AudioReader& reader)
+    {
+        constexpr double seconds = 1200.0;
+        return static_cast<double>(reader.frames().value_or(0)) > seconds * reader.sampleRate();
+    }
+
+    /// How much of the time of encoding a long sound its survey takes.
+    [[nodiscard]] double shareOfSurvey() const { return settings.params.audible > 0.0 ? 0.4 : 0.2; }
+
+    /// Hands visit() all parts of a sound. Errors: those of next().
+    template <typename Next, typename Visit>
+    [[nodiscard]] static Result<void> forEachPart(Next& next, Visit&& visit)
+    {
+        for (;;)
+        {
+            const SoundPart part = next();
+            if (!part)
+                return part.error();
+            if (part->empty())
+                return {};
+            visit(*part);
+        }
+    }
+
+    template <typename Next>
+    [[nodiscard]] static Result<std::vector<float>> readMono(int channels, Next& next, Stopwatch& work)
+    {
+        std::vector<float> samples;
+        const auto read = forEachPart(next, [&samples](std::span<const float> part)
+                                      { samples.insert(samples.end(), part.begin(), part.end()); });
+        if (!read)
+            return read.error();
+        work.run([&] { samples = monoMix(samples, static_cast<std::size_t>(channels)); });
+        return samples;
+    }
+
+    [[nodiscard]] Result<SoundScale> survey(const std::filesystem::path& input, const Progress& progress,
+                                            Stopwatch& work) const
+    {
+        auto reader = AudioReader::open(input, settings.reading);
+        if (!reader)
+            return reader.error();
+        SoundSurvey whole(settings.params);
+        whole.start(reader->sampleRate(), reader->channels());
+        SoundFileParts file(*reader, progress);
+        const auto read = forEachPart(file, [&](std::span<const float> part) { work.run([&] { whole.push(part); }); });
+        if (!read)
+            return read.error();
+        SoundScale found;
+        work.run([&] { found = whole.finish(); });
+        return found;
+    }
+
+    SoundEncoderParams settings;
+    Encoder encoder;
+};
+
+} // namespace pacini

@@ -1,0 +1,87 @@
+// Audio files: into arrays, and from them.
+
+#include "io/AudioReader.h"
+#include "io/AudioWriter.h"
+#include "python/native/Support.h"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+namespace pacini::python
+{
+
+namespace
+{
+Error inFile(const std::filesystem::path& path, Error error)
+{
+    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
+    return error;
+}
+
+/// (frames, channels) as the file has them, and the rate.
+nb::object readFile(const std::filesystem::path& path, bool allowNan, bool allowTruncated, bool keepNan)
+{
+    AudioReadOptions options;
+    options.allowNan = allowNan;
+    options.allowTruncated = allowTruncated;
+    options.keepNan = keepNan;
+    options.lowestSampleRate = limits::lowestWrittenRate;
+    auto audio = abandonable([path, options] { return readAudio(path, options); });
+    if (!audio)
+        raise(inFile(path, audio.error()));
+    const auto channels = static_cast<std::size_t>(audio->channels);
+    const std::size_t frames = audio->samples.size() / channels;
+    return nb::make_tuple(toArray(std::move(audio->samples), {frames, channels}), audio->sampleRate);
+}
+
+/// The number of samples that were clipped.
+std::uint64_t writeFile(const std::filesystem::path& path, const SoundArray& array, int rate,
+                        const std::string& encoding)
+{
+    const SoundView sound = soundOf(array);
+    AudioWriteParams params;
+    params.sampleRate = rate;
+    params.channels = static_cast<int>(sound.channels);
+    params.expectedFrames = sound.frames;
+    if (encoding == "pcm16")
+        params.encoding = SampleEncoding::pcm16;
+    else if (encoding == "pcm24")
+        params.encoding = SampleEncoding::pcm24;
+    else if (encoding != "float32")
+        raise({ErrorCode::invalidArgument, "encoding", "must be float32, pcm24 or pcm16"});
+    Watch watch{nb::none()};
+    auto written = unlocked(
+        [&]() -> Result<AudioWriteReport>
+        {
+            auto writer = AudioWriter::create(path, params);
+            if (!writer)
+                return writer.error();
+            ArrayParts parts(sound, Unsound::keep, watch); // the writer refuses what is no number
+            for (;;)
+            {
+                const SoundPart part = parts();
+                if (!part)
+                    return part.error();
+                if (part->empty())
+                    return writer->finish();
+                if (auto done = writer->write(*part); !done)
+                    return done.error();
+            }
+        });
+    if (!written)
+        raise(inFile(path, written.error()));
+    return written->clippedSamples;
+}
+} // namespace
+
+void bindAudio(nb::module_& module)
+{
+    module.def("read_audio", &readFile, "path"_a, "allow_nan"_a, "allow_truncated"_a, "keep_nan"_a);
+    module.def("write_audio", &writeFile, "path"_a, "sound"_a, "sample_rate"_a, "encoding"_a);
+}
+
+} // namespace pacini::python

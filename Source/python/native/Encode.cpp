@@ -1,0 +1,288 @@
+// Sounds to clips, or to drive signals by methods that make no clip.
+
+#include "io/ClipSeal.h"
+#include "io/SoundEncoder.h"
+#include "python/native/ClipHandle.h"
+#include "python/native/Support.h"
+
+#include <pacini/clip/PackedClip.h>
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace pacini::python
+{
+
+namespace
+{
+/// What a method was told, nothing where it is to decide by itself.
+struct EncodeOptions
+{
+    std::string method;
+    std::optional<int> bands;
+    std::optional<double> breakpoints;
+    std::optional<int> quantise;
+    std::optional<double> low;
+    std::optional<double> high;
+    std::optional<std::string> spacing;
+    std::optional<double> audible;
+    std::optional<double> sensitivity;
+    std::optional<bool> keepLevel;
+    bool allowNan = false;
+    bool allowTruncated = false;
+};
+
+[[noreturn]] void wrong(std::string where, std::string message)
+{
+    raise({ErrorCode::invalidArgument, std::move(where), std::move(message)});
+}
+
+SoundEncoderParams paramsOf(const EncodeOptions& options)
+{
+    const auto method = methodNamed(options.method);
+    if (!method)
+        wrong("method", "is none of those that pacini.methods() lists");
+    const MethodInfo& info = methodInfo(*method);
+    const auto check = [&](bool given, std::string_view name)
+    {
+        if (given && !hasOption(info, name))
+            wrong(std::string(name), "is no option of the method " + options.method + "; leave it out");
+    };
+    check(options.bands.has_value(), "bands");
+    check(options.breakpoints.has_value(), "breakpoints");
+    check(options.quantise.has_value(), "quantise");
+    check(options.low.has_value(), "low");
+    check(options.high.has_value(), "high");
+    check(options.spacing.has_value(), "spacing");
+    check(options.audible.has_value(), "audible");
+    check(options.sensitivity.has_value(), "sensitivity");
+    check(options.keepLevel.has_value(), "keep_level");
+
+    SoundEncoderParams params;
+    params.method = *method;
+    EncoderParams& own = params.params;
+    own.bands = options.bands.value_or(own.bands);
+    own.breakpoints = options.breakpoints.value_or(own.breakpoints);
+    own.quantise = options.quantise.value_or(own.quantise);
+    own.lowFrequency = options.low.value_or(own.lowFrequency);
+    own.highFrequency = options.high.value_or(own.highFrequency);
+    own.audible = options.audible.value_or(own.audible);
+    own.onsets.sensitivity = options.sensitivity.value_or(own.onsets.sensitivity);
+    own.normalise = !options.keepLevel.value_or(false);
+    const std::string spacing = options.spacing.value_or("log");
+    if (spacing != "log" && spacing != "linear")
+        wrong("spacing", "must be log or linear");
+    own.spacing = spacing == "log" ? BandSpacing::logarithmic : BandSpacing::linear;
+    take(validate(own));
+    params.choices.breakpoints = options.breakpoints;
+    if (options.bands)
+        params.choices.bands = static_cast<std::size_t>(*options.bands);
+    params.choices.lowFrequency = options.low;
+    params.choices.highFrequency = options.high;
+    params.choices.quantise = options.quantise;
+    params.reading = {options.allowTruncated, options.allowNan};
+    return params;
+}
+
+/// A clip as files have it, or a drive signal at its rate.
+using Encoded = std::variant<Clip, std::vector<float>>;
+
+/// Encodes sounds with one set of options, by one thread at a time; keeps transforms between them.
+class EncoderHandle
+{
+public:
+    explicit EncoderHandle(const EncodeOptions& options)
+        : params(paramsOf(options)), encoder(std::make_shared<SoundEncoder>(params))
+    {
+    }
+
+    [[nodiscard]] nb::object encodeArray(const SoundArray& array, int rate, std::string name, std::string source,
+                                         nb::object progress)
+    {
+        const SoundView sound = soundOf(array);
+        if (rate < limits::lowestSampleRate || rate > limits::highestSampleRate)
+            wrong("sample_rate", "must be 8000 to 768000 Hz");
+        if (static_cast<double>(sound.frames) / rate > limits::duration)
+            raise({ErrorCode::tooLarge, "sound", "is longer than 24 hours; cut it into parts"});
+        Watch watch(std::move(progress));
+        const Unsound unsound = params.reading.allowNan ? Unsound::silence : Unsound::refuse;
+        const SoundFormat format{rate, static_cast<int>(sound.channels), sound.frames, std::nullopt};
+        if (params.method == Method::a2vt)
+        {
+            auto clip = unlocked(
+                [&]
+                {
+                    ArrayParts parts(sound, unsound, watch);
+                    Stopwatch work;
+                    return finished(encoder->clipOf(format, parts, work),
+                                    [&](Clip& made) { named(made, std::move(name), std::move(source)); });
+                });
+            return nb::cast(ClipHandle(take(std::move(clip))));
+        }
+        // The other methods hold all of a sound, and cannot be stopped in their midst.
+        auto samples = take(unlocked(
+            [&]() -> Result<std::vector<float>>
+            {
+                ArrayParts parts(sound, unsound, watch);
+                std::vector<float> all;
+                all.reserve(sound.frames * sound.channels);
+                for (;;)
+                {
+                    const SoundPart part = parts();
+                    if (!part)
+                        return part.error();
+                    if (part->empty())
+                        return all;
+                    all.insert(all.end(), part->begin(), part->end());
+                }
+            }));
+        return handedOut(take(abandonable(
+            [shared = encoder, method = params.method, format, samples = std::move(samples), name = std::move(name),
+             source = std::move(source)]() mutable
+            {
+                SoundParts parts(samples, format.channels);
+                Stopwatch work;
+                return encoded(
+                    *shared, method, [&] { return shared->clipOf(format, parts, work); },
+                    [&] { return shared->signalOf(format, parts, work); },
+                    [&](Clip& made) { named(made, std::move(name), std::move(source)); });
+            })));
+    }
+
+    /// A clip, or a signal with its rate.
+    [[nodiscard]] nb::object encodeFile(const std::filesystem::path& path, nb::object progress)
+    {
+        Watch watch(std::move(progress));
+        const auto read = [&](const std::function<void(double)>& toTell)
+        {
+            return fromFile(*encoder, params, path, toTell);
+        };
+        int rate = 0;
+        if (params.method == Method::a2vt)
+            return handedOut(take(unlocked([&] { return read(std::ref(watch)); })).first);
+        auto made = take(abandonable([shared = encoder, settings = params, path]
+                                     { return fromFile(*shared, settings, path, [](double) {}); }));
+        rate = made.second;
+        nb::object result = handedOut(std::move(made.first));
+        return methodInfo(params.method).output == MethodOutput::clip ? result : nb::make_tuple(result, rate);
+    }
+
+    [[nodiscard]] bool makesClip() const { return methodInfo(params.method).output == MethodOutput::clip; }
+
+private:
+    static void named(Clip& clip, std::string name, std::string source)
+    {
+        clip.name = wellFormedUtf8(std::move(name));
+        clip.source.file = wellFormedUtf8(std::move(source));
+    }
+
+    /// What both of Pacini's formats hold: the clip on its grids, sealed.
+    template <typename Name>
+    [[nodiscard]] static Result<Clip> finished(Result<Clip> made, Name&& name)
+    {
+        if (!made)
+            return made;
+        name(*made);
+        Clip clip = onGrids(std::move(*made));
+        sealClip(clip);
+        return clip;
+    }
+
+    template <typename MakeClip, typename MakeSignal, typename Name>
+    [[nodiscard]] static Result<Encoded> encoded(SoundEncoder&, Method method, MakeClip&& makeClip,
+                                                 MakeSignal&& makeSignal, Name&& name)
+    {
+        if (methodInfo(method).output == MethodOutput::clip)
+        {
+            auto clip = finished(makeClip(), name);
+            return clip ? Result<Encoded>(std::move(*clip)) : clip.error();
+        }
+        auto signal = makeSignal();
+        return signal ? Result<Encoded>(std::move(*signal)) : signal.error();
+    }
+
+    [[nodiscard]] static Result<std::pair<Encoded, int>> fromFile(SoundEncoder& encoder,
+                                                                  const SoundEncoderParams& params,
+                                                                  const std::filesystem::path& path,
+                                                                  const std::function<void(double)>& progress)
+    {
+        auto reader = AudioReader::open(path, params.reading);
+        if (!reader)
+            return inFile(path, reader.error());
+        Stopwatch work;
+        auto made = encoded(
+            encoder, params.method, [&] { return encoder.clipOf(*reader, path, progress, work); },
+            [&]
+            {
+                SoundFileParts parts(*reader, progress);
+                return encoder.signalOf({reader->sampleRate(), reader->channels()}, parts, work);
+            },
+            [](Clip&) {});
+        if (!made)
+            return inFile(path, made.error());
+        return std::pair(std::move(*made), reader->sampleRate());
+    }
+
+    [[nodiscard]] static Error inFile(const std::filesystem::path& path, Error error)
+    {
+        error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
+        return error;
+    }
+
+    [[nodiscard]] static nb::object handedOut(Encoded made)
+    {
+        if (auto* clip = std::get_if<Clip>(&made))
+            return nb::cast(ClipHandle(std::move(*clip)));
+        return toArray(std::get<std::vector<float>>(std::move(made)));
+    }
+
+    SoundEncoderParams params;
+    std::shared_ptr<SoundEncoder> encoder;
+};
+
+std::vector<std::tuple<std::string, std::string, std::string>> methodList()
+{
+    std::vector<std::tuple<std::string, std::string, std::string>> list;
+    for (const MethodInfo& info : methodTable)
+        list.emplace_back(info.name, info.output == MethodOutput::clip ? "clip" : "signal", info.description);
+    return list;
+}
+} // namespace
+
+void bindEncode(nb::module_& module)
+{
+    nb::class_<EncoderHandle>(module, "EncoderHandle")
+        .def(
+            "__init__",
+            [](EncoderHandle* self, std::string method, std::optional<int> bands, std::optional<double> breakpoints,
+               std::optional<int> quantise, std::optional<double> low, std::optional<double> high,
+               std::optional<std::string> spacing, std::optional<double> audible, std::optional<double> sensitivity,
+               std::optional<bool> keepLevel, bool allowNan, bool allowTruncated)
+            {
+                new (self) EncoderHandle(EncodeOptions{std::move(method), bands, breakpoints, quantise, low, high,
+                                                       std::move(spacing), audible, sensitivity, keepLevel, allowNan,
+                                                       allowTruncated});
+            },
+            "method"_a, "bands"_a.none(), "breakpoints"_a.none(), "quantise"_a.none(), "low"_a.none(), "high"_a.none(),
+            "spacing"_a.none(), "audible"_a.none(), "sensitivity"_a.none(), "keep_level"_a.none(), "allow_nan"_a,
+            "allow_truncated"_a)
+        .def("encode_array", &EncoderHandle::encodeArray, "sound"_a, "sample_rate"_a, "name"_a, "source"_a,
+             "progress"_a.none())
+        .def("encode_file", &EncoderHandle::encodeFile, "path"_a, "progress"_a.none())
+        .def_prop_ro("makes_clip", &EncoderHandle::makesClip);
+    module.def("methods", &methodList);
+}
+
+} // namespace pacini::python

@@ -1,0 +1,24 @@
+#pragma once
+
+// An actuator profile as the module holds it: a value that never changes.
+
+#include <pacini/actuator/Profile.h>
+
+#include <memory>
+#include <utility>
+
+namespace pacini::python
+{
+
+class ProfileHandle
+{
+public:
+    explicit ProfileHandle(Profile profile) : content(std::make_shared<const Profile>(std::move(profile))) {}
+
+    [[nodiscard]] const Profile& profile() const noexcept { return *content; }
+
+private:
+    std::shared_ptr<const Profile> content;
+};
+
+} // namespace pacini::python

@@ -1,0 +1,325 @@
+// Scenes, and the way from clips and scenes to drive signals or what is felt of them.
+
+#include "io/SceneCheck.h"
+#include "io/SceneFile.h"
+#include "io/SceneJson.h"
+#include "python/native/ClipHandle.h"
+#include "python/native/ProfileHandle.h"
+#include "python/native/SceneHandle.h"
+#include "python/native/Support.h"
+
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/SceneAdjustment.h>
+#include <pacini/synthesis/SignalPlayer.h>
+
+#include <nanobind/operators.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::python
+{
+
+namespace
+{
+[[noreturn]] void wrong(std::string where, std::string message)
+{
+    raise({ErrorCode::invalidArgument, std::move(where), std::move(message)});
+}
+
+/// The one of `choices` that has this name; none for none.
+template <typename T, std::size_t n>
+std::optional<T> chosen(const std::optional<std::string>& name, const char* where,
+                        const std::pair<const char*, T> (&choices)[n])
+{
+    if (!name)
+        return std::nullopt;
+    std::string names;
+    for (const auto& [text, value] : choices)
+    {
+        if (*name == text)
+            return value;
+        names += (names.empty() ? "" : ", ") + std::string(text);
+    }
+    wrong(where, "must be one of " + names);
+}
+
+double inRange(const char* where, double value, double low, double high, const char* message)
+{
+    if (!(value >= low && value <= high))
+        wrong(where, message);
+    return value;
+}
+
+/// Rendering options.
+struct RenderOptions
+{
+    CompileParams compile;
+    SceneAdjustment adjustment;
+    double from = 0.0;
+    std::optional<double> to;
+    bool protect = true;
+    std::optional<Profile> profile;
+    std::optional<FeltSettings> felt;
+
+    void set(double rate, double tolerance, bool leaveOut, bool adapt, const std::optional<std::string>& mapping,
+             double maxBoost, double strength, bool protectIt)
+    {
+        compile.sampleRate = rate;
+        compile.tolerance = inRange("tolerance", tolerance, -200.0, 0.0, "must be -200 to 0 dB");
+        compile.leaveOut = leaveOut;
+        compile.adapt = adapt;
+        compile.adaptation.mapping = chosen<FrequencyMapping>(mapping, "mapping",
+                                                              {{"clamp", FrequencyMapping::clamp},
+                                                               {"rescale", FrequencyMapping::rescale},
+                                                               {"fold", FrequencyMapping::fold}});
+        compile.adaptation.maxBoost = Decibels(inRange("max_boost", maxBoost, 0.0, 40.0, "must be 0 to 40 dB"));
+        compile.adaptation.strength = inRange("strength", strength, 0.0, 1.0, "must be 0 to 1");
+        protect = protectIt;
+    }
+    void adjust(double gain, double transpose, double stretch, double delay, double variation,
+                const std::string& variationPer, std::uint64_t seed)
+    {
+        const auto scope =
+            chosen<VariationScope>(variationPer, "variation_per",
+                                   {{"breakpoint", VariationScope::breakpoint}, {"band", VariationScope::band}});
+        adjustment = {inRange("gain", gain, -1000.0, 60.0, "must be -1000 to 60 dB"),
+                      inRange("transpose", transpose, -96.0, 96.0, "must be -96 to 96 semitones"),
+                      inRange("stretch", stretch, 0.01, 100.0, "must be 0.01 to 100"),
+                      inRange("delay", delay, 0.0, limits::duration, "must be 0 s to 24 h"),
+                      {inRange("variation", variation, 0.0, 1.0, "must be 0 to 1"), *scope, seed}};
+    }
+    void decode(const std::optional<std::string>& carriers, std::optional<bool> followEnvelope,
+                const std::optional<std::string>& pulse, std::optional<double> pulseFrequency, double pulseCycles)
+    {
+        DecoderChoice& decoder = compile.decoder;
+        decoder.carriers = chosen<CarrierMode>(
+            carriers, "carriers",
+            {{"fixed", CarrierMode::fixed}, {"pitch", CarrierMode::pitch}, {"centroid", CarrierMode::centroid}});
+        decoder.followEnvelope = followEnvelope;
+        decoder.pulseShape = chosen<PulseShape>(
+            pulse, "pulse",
+            {{"adaptive", PulseShape::adaptive}, {"square", PulseShape::square}, {"sine", PulseShape::sine}});
+        decoder.pulseFrequency = pulseFrequency;
+        decoder.pulseCycles = pulseCycles;
+    }
+    void part(double start, std::optional<double> end)
+    {
+        from = inRange("start", start, 0.0, limits::duration, "must be 0 s to 24 h");
+        if (end && !(*end > start))
+            wrong("end", "must be after start");
+        to = end;
+    }
+    void feel(unsigned wearer, double fullScale)
+    {
+        if (!profile)
+            wrong("profile", "is needed to know what is felt");
+        if (wearer > simulatedWearers)
+            wrong("wearer", "must be 0 to 14");
+        felt = feltSettingsOf(*profile, wearer,
+                              inRange("full_scale", fullScale, 1e-3, 1e6, "must be 0.001 to 1000000 m/s^2"));
+        if (!felt)
+            raise({ErrorCode::invalidData, "body", "is missing in this profile, so nothing is known of what is felt"});
+    }
+};
+
+/// All of a signal, one channel after the other.
+struct Rendered
+{
+    std::size_t actuators = 1;
+    std::size_t frames = 0;
+    std::vector<float> samples;
+    double reduction = 0.0; ///< dB, the most that was taken to keep within the limits
+    double predictedError = 0.0;
+    std::vector<Adaptation> adaptations;
+    std::vector<LeftOut> leftOut;
+};
+
+Result<Rendered> rendered(Scene scene, bool isScene, const RenderOptions& options, Watch& watch)
+{
+    constexpr std::size_t blockFrames = 4096;
+    const double fs = options.compile.sampleRate;
+    scene = adjusted(std::move(scene), options.adjustment);
+    const double length = isScene
+                              ? scene.duration
+                              : scene.plays.front().start + scene.clips.front().duration * options.adjustment.stretch;
+    if (length > limits::duration)
+        return Error{ErrorCode::tooLarge, "duration", "would be longer than 24 hours"};
+    auto plan = compilePlan(scene, options.profile ? &*options.profile : nullptr, options.compile);
+    if (!plan)
+        return plan.error();
+    Rendered result;
+    result.actuators = plan->actuators;
+    result.predictedError = plan->predictedError;
+    result.adaptations = std::move(plan->adaptations);
+    result.leftOut = std::move(plan->leftOut);
+    scene = {};
+    ScenePlayerParams playing;
+    playing.sampleRate = fs;
+    playing.protect = options.protect;
+    SignalPlayer player(std::move(*plan), playing, options.felt);
+    // A part is played from the start like the whole, so that it is equal to that part of the whole.
+    const auto total = static_cast<std::size_t>(player.totalFrames());
+    const auto first = static_cast<std::size_t>(std::llround(options.from * fs));
+    const auto last = options.to ? std::min(total, static_cast<std::size_t>(std::llround(*options.to * fs))) : total;
+    if (first >= last && (first > 0 || last < total))
+        return Error{ErrorCode::invalidArgument, "start", "is behind the end"};
+    result.frames = last - first;
+    result.samples.resize(result.frames * result.actuators);
+    std::vector<float> before(first > 0 ? blockFrames * result.actuators : 0);
+    std::vector<std::span<float>> block(result.actuators);
+    for (std::size_t done = 0; done < last;)
+    {
+        // Blocks end where the part starts.
+        const std::size_t frames = std::min(blockFrames, (done < first ? first : last) - done);
+        for (std::size_t a = 0; a < result.actuators; ++a)
+            block[a] = done < first ? std::span(before).subspan(a * blockFrames, frames)
+                                    : std::span(result.samples).subspan(a * result.frames + done - first, frames);
+        player.process(block);
+        done += frames;
+        watch(static_cast<double>(done) / static_cast<double>(last));
+    }
+    result.reduction = player.maxReduction();
+    return result;
+}
+
+nb::object handedOut(Rendered&& made)
+{
+    nb::list adaptations, leftOut;
+    for (const Adaptation& adaptation : made.adaptations)
+        adaptations.append(nb::make_tuple(adaptation.where, adaptation.what));
+    for (const LeftOut& item : made.leftOut)
+        leftOut.append(nb::make_tuple(item.where, item.reason, item.error));
+    const std::size_t actuators = made.actuators;
+    const std::size_t frames = made.frames;
+    return nb::make_tuple(toArray(std::move(made.samples), {actuators, frames}), made.reduction, made.predictedError,
+                          adaptations, leftOut);
+}
+
+/// "0" to the first of `clips`, and so on: a text of a scene names them so.
+ClipLoader loaderOf(const std::vector<ClipHandle>& clips)
+{
+    return [&clips](const std::string& file) -> Result<Clip>
+    {
+        std::size_t index = clips.size();
+        try
+        {
+            index = std::stoul(file);
+        }
+        catch (const std::exception&)
+        {
+        }
+        if (index >= clips.size())
+            return Error{ErrorCode::invalidData, "", "is none of the clips"};
+        return clips[index].clip();
+    };
+}
+} // namespace
+
+void bindRender(nb::module_& module)
+{
+    nb::class_<SceneHandle>(module, "SceneHandle")
+        .def_static(
+            "of_clip", [](const ClipHandle& clip) { return SceneHandle(sceneOf(clip.clip())); }, "clip"_a)
+        .def_static(
+            "from_json",
+            [](const std::string& text, const std::vector<ClipHandle>& clips)
+            {
+                ReadWarnings strict(true);
+                return SceneHandle(take(unlocked([&] { return readSceneJson(text, loaderOf(clips), &strict); })));
+            },
+            "text"_a, "clips"_a)
+        .def_static(
+            "read",
+            [](const std::filesystem::path& path, const std::filesystem::path& clipFolder, bool strict)
+            {
+                ReadWarnings warnings(strict);
+                auto scene = unlocked([&] { return readScene(path, clipFolder, &warnings); });
+                if (!scene)
+                {
+                    Error error = scene.error();
+                    error.where = path.string() + (error.where.empty() ? "" : ": ") + error.where;
+                    raise(error);
+                }
+                return std::pair(SceneHandle(std::move(*scene)), warnings.texts());
+            },
+            "path"_a, "clip_folder"_a, "strict"_a)
+        .def("to_json", [](const SceneHandle& self) { return unlocked([&] { return writeSceneJson(self.scene()); }); })
+        .def(
+            "save",
+            [](const SceneHandle& self, const std::filesystem::path& path)
+            { return take(unlocked([&] { return writeScene(path, self.scene()); })); },
+            "path"_a)
+        .def_prop_ro("name", [](const SceneHandle& self) { return self.scene().name; })
+        .def_prop_ro("duration", [](const SceneHandle& self) { return self.scene().duration; })
+        .def_prop_ro("actuators", [](const SceneHandle& self) { return self.scene().actuators; })
+        .def_prop_ro("clips",
+                     [](const SceneHandle& self)
+                     {
+                         std::vector<ClipHandle> clips;
+                         for (const Clip& clip : self.scene().clips)
+                             clips.emplace_back(clip);
+                         return clips;
+                     })
+        .def("lint",
+             [](const SceneHandle& self)
+             {
+                 std::vector<std::pair<std::string, std::string>> list;
+                 for (SceneFinding& finding : unlocked([&] { return checkScene(self.scene()); }))
+                     list.emplace_back(std::move(finding.where), std::move(finding.message));
+                 return list;
+             })
+        .def(
+            "__eq__", [](const SceneHandle& self, const SceneHandle& other) { return self.scene() == other.scene(); },
+            nb::is_operator());
+
+    nb::class_<RenderOptions>(module, "RenderOptions")
+        .def(
+            "__init__",
+            [](RenderOptions* self, const ProfileHandle* profile)
+            {
+                new (self) RenderOptions();
+                if (profile != nullptr)
+                    self->profile = profile->profile();
+            },
+            "profile"_a.none())
+        .def("set", &RenderOptions::set, "sample_rate"_a, "tolerance"_a, "leave_out"_a, "adapt"_a, "mapping"_a.none(),
+             "max_boost"_a, "strength"_a, "protect"_a)
+        .def("adjust", &RenderOptions::adjust, "gain"_a, "transpose"_a, "stretch"_a, "delay"_a, "variation"_a,
+             "variation_per"_a, "seed"_a)
+        .def("decode", &RenderOptions::decode, "carriers"_a.none(), "follow_envelope"_a.none(), "pulse"_a.none(),
+             "pulse_frequency"_a.none(), "pulse_cycles"_a)
+        .def("part", &RenderOptions::part, "start"_a, "end"_a.none())
+        .def("feel", &RenderOptions::feel, "wearer"_a, "full_scale"_a);
+    module.def(
+        "render_clip",
+        [](const ClipHandle& clip, const RenderOptions& options, nb::object progress)
+        {
+            Watch watch(std::move(progress));
+            return handedOut(take(unlocked([&] { return rendered(sceneOf(clip.clip()), false, options, watch); })));
+        },
+        "clip"_a, "options"_a, "progress"_a.none());
+    module.def(
+        "render_scene",
+        [](const SceneHandle& scene, const RenderOptions& options, nb::object progress)
+        {
+            Watch watch(std::move(progress));
+            return handedOut(take(unlocked([&] { return rendered(scene.scene(), true, options, watch); })));
+        },
+        "scene"_a, "options"_a, "progress"_a.none());
+    module.attr("STANDARD_STRENGTH") = standardStrength;
+}
+
+} // namespace pacini::python

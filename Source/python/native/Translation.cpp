@@ -1,0 +1,222 @@
+// Live translator, block by block.
+
+#include "python/native/ProfileHandle.h"
+#include "python/native/Support.h"
+
+#include <pacini/realtime/Translator.h>
+#include <pacini/realtime/TranslatorPresets.h>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pacini::python
+{
+
+namespace
+{
+struct NumberField
+{
+    const char* name;
+    double TranslatorParams::*member;
+};
+
+struct RoleField
+{
+    const char* name;
+    RoleParams TranslatorParams::*member;
+};
+
+/// Names as in Python.
+constexpr NumberField numbers[] = {
+    {"input_gain", &TranslatorParams::inputGain},
+    {"intensity", &TranslatorParams::intensity},
+    {"brightness", &TranslatorParams::brightness},
+    {"audible", &TranslatorParams::audible},
+    {"transposition", &TranslatorParams::transposition},
+    {"direct", &TranslatorParams::direct},
+    {"attack", &TranslatorParams::attack},
+    {"release", &TranslatorParams::release},
+    {"transient_sensitivity", &TranslatorParams::transientSensitivity},
+    {"transient_sharpness", &TranslatorParams::transientSharpness},
+    {"gate_threshold", &TranslatorParams::gateThreshold},
+    {"gate_release", &TranslatorParams::gateRelease},
+};
+constexpr RoleField roles[] = {
+    {"rumble", &TranslatorParams::rumble},
+    {"texture", &TranslatorParams::texture},
+    {"transients", &TranslatorParams::transients},
+};
+
+nb::dict dictOf(const TranslatorParams& params)
+{
+    nb::dict result;
+    for (const NumberField& field : numbers)
+        result[field.name] = params.*field.member;
+    for (const RoleField& field : roles)
+    {
+        result[field.name] = (params.*field.member).level;
+        result[nb::str((std::string(field.name) + "_muted").c_str())] = (params.*field.member).muted;
+    }
+    result["bypass"] = params.bypass;
+    return result;
+}
+
+/// Sets one parameter by its name. Errors: invalidArgument for names that are none, and what is out of range.
+void set(TranslatorParams& params, const std::string& name, nb::handle value)
+{
+    for (const RoleField& field : roles)
+        if (name == std::string(field.name) + "_muted")
+        {
+            (params.*field.member).muted = nb::cast<bool>(value);
+            return;
+        }
+    if (name == "bypass")
+    {
+        params.bypass = nb::cast<bool>(value);
+        return;
+    }
+    double* number = nullptr;
+    for (const NumberField& field : numbers)
+        if (name == field.name)
+            number = &(params.*field.member);
+    for (const RoleField& field : roles)
+        if (name == field.name)
+            number = &(params.*field.member).level;
+    if (number == nullptr)
+        raise({ErrorCode::invalidArgument, name, "is no parameter of the translator"});
+    const TranslatorParams before = params;
+    *number = nb::cast<double>(value);
+    if (!(clamped(params, before) == params))
+        raise({ErrorCode::invalidArgument, name, "is out of its range"});
+}
+
+/// A translator with what it was made with, to be made anew. One thread at a time; others wait.
+class TranslatorHandle
+{
+public:
+    TranslatorHandle(double rate, const ProfileHandle* profile, std::size_t bands, double maxBoost, double strength)
+    {
+        if (!isPlayableRate(rate))
+            raise({ErrorCode::invalidArgument, "sample_rate", "must be 2000 to 768000 Hz"});
+        if (bands < 1 || bands > maxTranslatorBands)
+            raise({ErrorCode::invalidArgument, "bands", "must be 1 to 12"});
+        if (!(maxBoost >= 0.0 && maxBoost <= 40.0))
+            raise({ErrorCode::invalidArgument, "max_boost", "must be 0 to 40 dB"});
+        if (!(strength >= 0.0 && strength <= 1.0))
+            raise({ErrorCode::invalidArgument, "strength", "must be 0 to 1"});
+        TranslatorSetup setup;
+        if (profile != nullptr)
+            setup.profile = profile->profile();
+        setup.bands.bands = bands;
+        setup.maxBoost = Decibels(maxBoost);
+        setup.strength = strength;
+        ProcessSpec spec;
+        spec.sampleRate = rate;
+        translator.setSetup(setup);
+        translator.prepare(spec);
+        translator.reset();
+    }
+
+    [[nodiscard]] nb::object process(const SoundArray& array)
+    {
+        const SoundView sound = soundOf(array);
+        if (sound.channels != 1)
+            raise({ErrorCode::invalidArgument, "sound", "must be mono: (frames,)"});
+        std::vector<float> out(sound.frames);
+        Watch watch{nb::none()};
+        unlocked(
+            [&]
+            {
+                const std::scoped_lock lock(mutex);
+                ArrayParts parts(sound, Unsound::keep, watch); // the translator takes what is no number as 0
+                for (std::size_t done = 0; done < out.size();)
+                {
+                    const auto part = parts();
+                    translator.process(*part, std::span(out).subspan(done, part->size()));
+                    done += part->size();
+                }
+            });
+        return toArray(std::move(out));
+    }
+
+    [[nodiscard]] nb::dict params() const { return dictOf(current); }
+
+    void setParams(const nb::dict& changes)
+    {
+        TranslatorParams wanted = current;
+        for (const auto& [name, value] : changes)
+            set(wanted, nb::cast<std::string>(name), value);
+        const std::scoped_lock lock(mutex);
+        current = wanted;
+        translator.setParams(current);
+    }
+
+    void reset()
+    {
+        const std::scoped_lock lock(mutex);
+        translator.reset();
+    }
+
+    [[nodiscard]] std::size_t latency() const { return translator.latencyFrames(); }
+
+    [[nodiscard]] nb::dict meters() const
+    {
+        const TranslatorMeterReading reading = translator.meters().read();
+        nb::dict result;
+        std::vector<double> bands(reading.bandLevels.begin(),
+                                  reading.bandLevels.begin() + static_cast<std::ptrdiff_t>(reading.bands));
+        result["bands"] = bands;
+        result["events"] = reading.events;
+        result["output_peak"] = reading.outputPeak;
+        result["gain_reduction"] = reading.gainReduction;
+        result["over_threshold"] = reading.overThreshold;
+        return result;
+    }
+
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> savings() const
+    {
+        std::vector<std::pair<std::string, std::string>> list;
+        for (const TranslatorSaving& saving : translator.plan(current))
+            list.emplace_back(saving.what, saving.reason);
+        return list;
+    }
+
+private:
+    std::mutex mutex;
+    Translator translator;
+    TranslatorParams current;
+};
+
+std::vector<std::pair<std::string, nb::dict>> presets()
+{
+    std::vector<std::pair<std::string, nb::dict>> list;
+    for (const TranslatorPreset& preset : translatorPresets())
+        list.emplace_back(preset.name, dictOf(preset.params));
+    return list;
+}
+} // namespace
+
+void bindTranslator(nb::module_& module)
+{
+    nb::class_<TranslatorHandle>(module, "TranslatorHandle")
+        .def(nb::init<double, const ProfileHandle*, std::size_t, double, double>(), "sample_rate"_a, "profile"_a.none(),
+             "bands"_a, "max_boost"_a, "strength"_a)
+        .def("process", &TranslatorHandle::process, "sound"_a)
+        .def("params", &TranslatorHandle::params)
+        .def("set_params", &TranslatorHandle::setParams, "changes"_a)
+        .def("reset", &TranslatorHandle::reset)
+        .def_prop_ro("latency", &TranslatorHandle::latency)
+        .def("meters", &TranslatorHandle::meters)
+        .def("savings", &TranslatorHandle::savings);
+    module.def("translator_presets", &presets);
+}
+
+} // namespace pacini::python

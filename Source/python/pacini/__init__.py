@@ -1,0 +1,80 @@
+"""Pacini: sound to touch. Analysis, clips and synthesis of haptic signals.
+
+>>> import pacini
+>>> clip = pacini.encode("door.wav")
+>>> drive = pacini.render(clip, profile="l5-wristband")
+>>> pacini.compare("door.wav", clip).match
+
+Sounds are files, or float32 and float64 arrays as (frames,) or (channels, frames). What goes wrong is a
+:class:`pacini.Error`, with its place.
+"""
+
+from __future__ import annotations
+
+import atexit as _atexit
+
+from . import _native, measure
+from ._clip import Band, Clip, NoiseBand, SimplifiedLane, Source
+from ._errors import Error
+from ._formats import Format, Loss, formats
+from ._profile import Profile
+from ._scene import Scene
+from ._simplify import SIMPLIFIERS, simplify
+from ._sound import (
+    Comparison,
+    Method,
+    RenderReport,
+    compare,
+    convert,
+    encode,
+    encode_files,
+    explain,
+    felt,
+    lint,
+    methods,
+    read,
+    read_audio,
+    render,
+    translate,
+    write_audio,
+)
+from ._translator import Translator
+
+__version__: str = _native.VERSION
+
+# Work that Ctrl+C has left to itself must not be there when the process takes its memory away.
+_atexit.register(_native.wait_for_abandoned_work)
+
+__all__ = [
+    "SIMPLIFIERS",
+    "Band",
+    "Clip",
+    "Comparison",
+    "Error",
+    "Format",
+    "Loss",
+    "Method",
+    "NoiseBand",
+    "Profile",
+    "RenderReport",
+    "Scene",
+    "SimplifiedLane",
+    "Source",
+    "Translator",
+    "compare",
+    "convert",
+    "encode",
+    "encode_files",
+    "explain",
+    "felt",
+    "formats",
+    "lint",
+    "measure",
+    "methods",
+    "read",
+    "read_audio",
+    "render",
+    "simplify",
+    "translate",
+    "write_audio",
+]

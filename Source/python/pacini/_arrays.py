@@ -1,0 +1,81 @@
+"""Arrays of sound and of points, as the native module takes them."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import Error
+
+FloatArray = npt.NDArray[np.floating[Any]]
+Points = npt.NDArray[np.void]
+PathLike = Union[str, "os.PathLike[str]"]
+
+AMPLITUDE = np.dtype([("time", np.float64), ("amplitude", np.float64)])
+FREQUENCY = np.dtype([("time", np.float64), ("frequency", np.float64)])
+TRANSIENT = np.dtype([("time", np.float64), ("amplitude", np.float64), ("sharpness", np.float64)])
+
+
+def is_path(value: object) -> bool:
+    return isinstance(value, (str, os.PathLike))
+
+
+def as_sound(samples: object, axis: int) -> FloatArray:
+    """A view as (frames,) or (channels, frames); `axis` is the one that the frames are on. Never a copy of an array."""
+    array = np.asarray(samples)
+    if array.dtype not in (np.float32, np.float64) or not array.dtype.isnative:
+        raise Error(f"has samples of {array.dtype}; give float32 or float64, full scale 1", "sound")
+    if array.ndim not in (1, 2):
+        raise Error(f"has {array.ndim} dimensions; give (frames,) or (channels, frames)", "sound")
+    if not -array.ndim <= axis < array.ndim:
+        raise Error(f"must be one of the {array.ndim} axes of the sound", "axis")
+    if any(stride % array.itemsize for stride in array.strides):
+        array = array.copy()  # a field of a record: samples are not whole steps apart
+    return np.moveaxis(array, axis, -1)
+
+
+def as_rate(rate: object, where: str = "sample_rate") -> int:
+    """A whole sample rate in Hz."""
+    if rate is None:
+        raise Error("is needed for sounds in arrays, in Hz", where)
+    try:
+        number = float(rate)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise Error("must be a number of Hz", where) from None
+    if not number.is_integer() or not 0 < number < 1e9:
+        raise Error("must be a whole number of Hz", where)
+    return int(number)
+
+
+def points_of(rows: npt.NDArray[np.float64], dtype: np.dtype[np.void]) -> Points:
+    """Rows of the native module as a structured array, which looks into the same memory."""
+    if len(rows) == 0:
+        points = np.empty(0, dtype)
+        points.flags.writeable = False
+        return points
+    return rows.view(dtype)[:, 0]
+
+
+def rows_of(points: object, dtype: np.dtype[np.void], where: str) -> npt.NDArray[np.float64]:
+    """Points of a structured array, or rows of plain numbers, as the native module takes them."""
+    assert dtype.names is not None
+    columns = len(dtype.names)
+    try:
+        array = np.asarray(points)
+        if array.dtype.names is not None:
+            if array.ndim != 1 or any(name not in array.dtype.names for name in dtype.names):
+                raise Error(f"must have the fields {', '.join(dtype.names)}", where)
+            return np.stack([array[name].astype(np.float64) for name in dtype.names], axis=1)
+        rows = np.array(points, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        if isinstance(error, Error):
+            raise
+        raise Error(f"must be points of {', '.join(dtype.names)}", where) from None
+    if rows.size == 0:
+        return np.empty((0, columns))
+    if rows.ndim != 2 or rows.shape[1] != columns:
+        raise Error(f"must be points of {', '.join(dtype.names)}", where)
+    return rows

@@ -1,0 +1,456 @@
+"""Haptic clips."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._arrays import AMPLITUDE, FREQUENCY, TRANSIENT, PathLike, Points, points_of, rows_of
+from ._errors import Error
+from ._formats import Loss, export_options, format_for, losses_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def _no_points(dtype: np.dtype[np.void]) -> Any:
+    return field(default_factory=lambda: np.empty(0, dtype))
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """A frequency band: its edges and centre in Hz, its amplitude (1 is full drive) and pitch (Hz) over time.
+
+    Priority 0 is kept longest when an actuator has too few voices. A new one with another amplitude is
+    ``dataclasses.replace(band, amplitude=...)``.
+    """
+
+    low: float
+    centre: float
+    high: float
+    priority: int = 0
+    amplitude: Points = _no_points(AMPLITUDE)
+    pitch: Points = _no_points(FREQUENCY)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Band):
+            return NotImplemented
+        return (
+            (self.low, self.centre, self.high, self.priority) == (other.low, other.centre, other.high, other.priority)
+            and np.array_equal(rows_of(self.amplitude, AMPLITUDE, ""), rows_of(other.amplitude, AMPLITUDE, ""))
+            and np.array_equal(rows_of(self.pitch, FREQUENCY, ""), rows_of(other.pitch, FREQUENCY, ""))
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseBand:
+    """A band of residual noise: its edges in Hz and its RMS amplitude over time."""
+
+    low: float
+    high: float
+    amplitude: Points = _no_points(AMPLITUDE)
+
+
+@dataclass(frozen=True)
+class Source:
+    """The sound that a clip was made from; 0 is unknown."""
+
+    file: str = ""
+    sample_rate: float = 0.0
+    channels: int = 0
+
+
+@dataclass(frozen=True)
+class SimplifiedLane:
+    """What simplification did to one curve; errors in its unit."""
+
+    kind: str
+    band: int
+    before: int
+    after: int
+    rms_error: float
+    max_error: float
+
+
+EncoderValue = Union[bool, float, str]
+
+
+class Clip:
+    """What a sound feels like, as a few curves and events.
+
+    Curves are structured arrays of the fields time and amplitude or frequency, transients of time, amplitude and
+    sharpness. What comes out looks into the clip without a copy and cannot be written to; change a copy and set it::
+
+        envelope = clip.envelope.copy()
+        envelope["amplitude"] *= 0.5
+        clip.envelope = envelope
+
+    Times are in s, frequencies in Hz, amplitudes linear with 1 as full drive. What is set is checked: a clip is always
+    valid.
+    """
+
+    __slots__ = ("_handle",)
+
+    def __init__(
+        self,
+        duration: float,
+        bands: Iterable[Band] = (),
+        *,
+        name: str = "",
+        envelope: object = (),
+        centroid: object = (),
+        transients: object = (),
+        noise: Iterable[NoiseBand] = (),
+        markers: Iterable[tuple[float, str]] = (),
+        source: Source = Source(),
+    ) -> None:
+        self._handle = _native.ClipHandle(_number(duration, "duration"))
+        self._edit(
+            name=str(name),
+            source=_source_tuple(source),
+            envelope=rows_of(envelope, AMPLITUDE, "envelope"),
+            centroid=rows_of(centroid, FREQUENCY, "centroid"),
+            bands=_band_tuples(bands),
+            noise=_noise_tuples(noise),
+            transients=rows_of(transients, TRANSIENT, "transients"),
+            markers=_marker_tuples(markers),
+        )
+
+    @classmethod
+    def _of(cls, handle: _native.ClipHandle) -> Clip:
+        clip = cls.__new__(cls)
+        clip._handle = handle
+        return clip
+
+    def _edit(self, **changes: Any) -> None:
+        self._handle = self._handle.edited(**changes)
+
+    # What it holds.
+
+    @property
+    def name(self) -> str:
+        return self._handle.name
+
+    @name.setter
+    def name(self, value: str) -> None:
+        self._edit(name=str(value))
+
+    @property
+    def duration(self) -> float:
+        """Length in s."""
+        return self._handle.duration
+
+    @duration.setter
+    def duration(self, value: float) -> None:
+        self._edit(duration=_number(value, "duration"))
+
+    @property
+    def source(self) -> Source:
+        """The sound that it was made from."""
+        return Source(*self._handle.source)
+
+    @source.setter
+    def source(self, value: Source) -> None:
+        self._edit(source=_source_tuple(value))
+
+    @property
+    def encoder(self) -> dict[str, EncoderValue]:
+        """The parameters of the encoder that made it."""
+        return dict(self._handle.encoder)
+
+    @property
+    def envelope(self) -> Points:
+        """Total amplitude, to which the sum of the bands is levelled where it is not empty."""
+        return points_of(self._handle.envelope, AMPLITUDE)
+
+    @envelope.setter
+    def envelope(self, points: object) -> None:
+        self._edit(envelope=rows_of(points, AMPLITUDE, "envelope"))
+
+    @property
+    def centroid(self) -> Points:
+        """Spectral centroid."""
+        return points_of(self._handle.centroid, FREQUENCY)
+
+    @centroid.setter
+    def centroid(self, points: object) -> None:
+        self._edit(centroid=rows_of(points, FREQUENCY, "centroid"))
+
+    @property
+    def bands(self) -> tuple[Band, ...]:
+        return tuple(
+            Band(low, centre, high, priority, points_of(amplitude, AMPLITUDE), points_of(pitch, FREQUENCY))
+            for low, centre, high, priority, amplitude, pitch in self._handle.bands
+        )
+
+    @bands.setter
+    def bands(self, bands: Iterable[Band]) -> None:
+        self._edit(bands=_band_tuples(bands))
+
+    @property
+    def noise(self) -> tuple[NoiseBand, ...]:
+        return tuple(NoiseBand(low, high, points_of(a, AMPLITUDE)) for low, high, a in self._handle.noise)
+
+    @noise.setter
+    def noise(self, noise: Iterable[NoiseBand]) -> None:
+        self._edit(noise=_noise_tuples(noise))
+
+    @property
+    def transients(self) -> Points:
+        """Short events: when, how strong, and how sharp they feel, 0 to 1."""
+        return points_of(self._handle.transients, TRANSIENT)
+
+    @transients.setter
+    def transients(self, points: object) -> None:
+        self._edit(transients=rows_of(points, TRANSIENT, "transients"))
+
+    @property
+    def markers(self) -> list[tuple[float, str]]:
+        """Named points of time."""
+        return list(self._handle.markers)
+
+    @markers.setter
+    def markers(self, markers: Iterable[tuple[float, str]]) -> None:
+        self._edit(markers=_marker_tuples(markers))
+
+    @property
+    def breakpoints(self) -> int:
+        """Number of points of all curves."""
+        return self._handle.breakpoints
+
+    # Edits, each a new clip.
+
+    def copy(self) -> Clip:
+        return Clip._of(self._handle)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: object) -> Clip:
+        return Clip._of(self._handle)
+
+    def trimmed(self, start: float = 0.0, end: Optional[float] = None) -> Clip:
+        """The part from `start` to `end` in s; its time starts at 0."""
+        return Clip._of(self._handle.trimmed(float(start), self.duration if end is None else float(end)))
+
+    def without(self, start: float, end: float) -> Clip:
+        """The rest, moved up."""
+        return Clip._of(self._handle.without(float(start), float(end)))
+
+    def __getitem__(self, times: slice) -> Clip:
+        """``clip[0.2:1.5]`` is the part between these times in s; negative ones count from the end."""
+        if not isinstance(times, slice) or times.step is not None:
+            raise TypeError("a clip is sliced by times in s: clip[0.2:1.5]")
+        start, end = (
+            other if time is None else float(time) + (self.duration if time < 0 else 0.0)
+            for time, other in ((times.start, 0.0), (times.stop, self.duration))
+        )
+        return self.trimmed(start, max(start, end))
+
+    def __add__(self, other: Clip) -> Clip:
+        """The other clip behind this one."""
+        return Clip._of(self._handle.joined(other._handle)) if isinstance(other, Clip) else NotImplemented
+
+    def __mul__(self, passes: int) -> Clip:
+        """The clip so many times, one after the other."""
+        return Clip._of(self._handle.repeated(passes)) if isinstance(passes, int) else NotImplemented
+
+    def inserted(self, time: float, part: Clip) -> Clip:
+        """With `part` at `time`; what was behind moves back."""
+        return Clip._of(self._handle.inserted(float(time), part._handle))
+
+    def reversed(self) -> Clip:
+        return Clip._of(self._handle.reversed())
+
+    def transposed(self, semitones: float) -> Clip:
+        """Higher or lower by -96 to 96 semitones."""
+        return Clip._of(self._handle.transposed(float(semitones)))
+
+    def stretched(self, ratio: float) -> Clip:
+        """Longer (2 is twice as long) at the same pitch, 0.01 to 100."""
+        return Clip._of(self._handle.stretched(float(ratio)))
+
+    def simplified(
+        self,
+        count: Optional[int] = None,
+        error: Optional[float] = None,
+        *,
+        method: str = "lagrangian",
+        refit: bool = False,
+    ) -> Clip:
+        """Every curve with at most `count` points, or within `error` of what it was (in its unit), or both. The methods
+        are those of :func:`pacini.simplify`."""
+        return self.simplified_report(count, error, method=method, refit=refit)[0]
+
+    def simplified_report(
+        self,
+        count: Optional[int] = None,
+        error: Optional[float] = None,
+        *,
+        method: str = "lagrangian",
+        refit: bool = False,
+    ) -> tuple[Clip, list[SimplifiedLane]]:
+        """The same, and what it cost on each curve."""
+        handle, lanes = self._handle.simplified(method, _count(count), error, refit)
+        return Clip._of(handle), [SimplifiedLane(*lane) for lane in lanes]
+
+    # Files.
+
+    @classmethod
+    def load(cls, path: PathLike, *, strict: bool = False) -> Clip:
+        """Reads a clip of any format. What the reader lets pass is a warning, or an error if it is `strict`."""
+        handle, _, passed = _native.read_clip(os.fspath(path), strict)
+        for message in passed:
+            warnings.warn(f"{os.fspath(path)}: {message}", stacklevel=2)
+        return cls._of(handle)
+
+    def save(
+        self,
+        path: PathLike,
+        *,
+        format: Optional[str] = None,
+        quantise: Optional[int] = None,
+        overwrite: bool = True,
+        **options: Any,
+    ) -> list[Loss]:
+        """Writes the clip, in the format of the extension unless `format` names one of :func:`pacini.formats`, and
+        returns what that loses. The file is complete or not there. Options are those of the command, such as
+        ``points``, ``profile``, ``split`` and ``events``."""
+        name = format_for(path, format)
+        _, losses = self._handle.save(os.fspath(path), name, export_options(options), quantise or 0, overwrite)
+        return losses_of(losses)
+
+    def to_bytes(self, format: str = "packed", *, quantise: Optional[int] = None, **options: Any) -> bytes:
+        """The bytes of a file in a format that is one file."""
+        files, _ = self._handle.written(format, export_options(options), quantise or 0)
+        if len(files) != 1:
+            raise Error("makes several files; save it to a folder", "format")
+        return files[0][1]
+
+    @classmethod
+    def from_bytes(cls, data: bytes, *, extension: str = "", strict: bool = False) -> Clip:
+        """The clip in the bytes of a file; the extension counts where the content does not tell."""
+        handle, _, passed = _native.read_clip_bytes(bytes(data), extension, strict)
+        for message in passed:
+            warnings.warn(message, stacklevel=2)
+        return cls._of(handle)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All that is in the clip, as in its JSON file."""
+        content: dict[str, Any] = json.loads(self._handle.to_json())
+        return content
+
+    @classmethod
+    def from_dict(cls, content: dict[str, Any]) -> Clip:
+        """A clip of what :meth:`to_dict` gives."""
+        try:
+            text = json.dumps(content, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise Error(str(error), "clip", "invalidData") from None
+        return cls._of(_native.ClipHandle.from_json(text.encode()))
+
+    def lint(self, format: str, **options: Any) -> list[Loss]:
+        """What the format would lose."""
+        _, losses = self._handle.written(format, export_options(options), 0)
+        return losses_of(losses)
+
+    # As an object of Python.
+
+    def __eq__(self, other: object) -> bool:
+        return self._handle == other._handle if isinstance(other, Clip) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _clip_of_json, (self._handle.to_json(),)
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        return (
+            f"<pacini.Clip{name}: {self.duration:.3f} s, {len(self.bands)} bands, {self.breakpoints} breakpoints, "
+            f"{len(self.transients)} transients>"
+        )
+
+    # To look at and listen to.
+
+    def plot(self, ax: Optional[Axes] = None, **style: Any) -> Axes:
+        """Draws the bands over time by their pitch, as wide as they are strong, with transients as stems; with
+        matplotlib, into `ax` or a new figure."""
+        from ._display import plot_clip
+
+        return plot_clip(self, ax, **style)
+
+    def _repr_svg_(self) -> str:
+        from ._display import clip_svg
+
+        return clip_svg(self)
+
+    def _repr_html_(self) -> str:
+        from ._display import clip_html
+
+        return clip_html(self)
+
+
+def _clip_of_json(text: bytes) -> Clip:
+    return Clip._of(_native.ClipHandle.from_json(text))
+
+
+def _number(value: object, where: str) -> float:
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise Error("must be a number", where) from None
+
+
+def _count(count: Optional[int]) -> Optional[int]:
+    if count is None:
+        return None
+    if int(count) != count or count < 0:
+        raise Error("must be a whole number of points", "count")
+    return int(count)
+
+
+def _source_tuple(source: Source) -> tuple[str, float, int]:
+    return str(source.file), float(source.sample_rate), int(source.channels)
+
+
+_Rows = npt.NDArray[np.float64]
+
+
+def _band_tuples(bands: Iterable[Band]) -> list[tuple[float, float, float, int, _Rows, _Rows]]:
+    tuples = []
+    for i, band in enumerate(bands):
+        if not isinstance(band, Band):
+            raise Error("must be a Band", f"bands[{i}]")
+        tuples.append(
+            (
+                float(band.low),
+                float(band.centre),
+                float(band.high),
+                int(band.priority),
+                rows_of(band.amplitude, AMPLITUDE, f"bands[{i}].amplitude"),
+                rows_of(band.pitch, FREQUENCY, f"bands[{i}].pitch"),
+            )
+        )
+    return tuples
+
+
+def _noise_tuples(noise: Iterable[NoiseBand]) -> list[tuple[float, float, _Rows]]:
+    return [
+        (float(band.low), float(band.high), rows_of(band.amplitude, AMPLITUDE, f"noise[{i}].amplitude"))
+        for i, band in enumerate(noise)
+    ]
+
+
+def _marker_tuples(markers: Iterable[Sequence[Any]]) -> list[tuple[float, str]]:
+    try:
+        return [(float(time), str(name)) for time, name in markers]
+    except (TypeError, ValueError):
+        raise Error("must be pairs of a time and a name", "markers") from None

@@ -1,0 +1,116 @@
+"""Actuator profiles."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._arrays import PathLike, is_path
+from ._errors import Error
+
+
+class Profile:
+    """What an actuator can do, what it bears, and what flattens it. Never changes.
+
+    ``Profile("l5-wristband")`` comes with Pacini, see :meth:`names`; ``Profile("mine.json")`` is read from a file.
+    """
+
+    __slots__ = ("_handle",)
+
+    def __init__(self, name_or_path: PathLike, *, strict: bool = False) -> None:
+        text = os.fspath(name_or_path)
+        if os.path.exists(text):
+            self._handle, passed = _native.ProfileHandle.read(text, strict)
+            for message in passed:
+                warnings.warn(f"{text}: {message}", stacklevel=2)
+        else:
+            self._handle = _native.ProfileHandle.shipped(text)
+
+    @classmethod
+    def _of(cls, handle: _native.ProfileHandle) -> Profile:
+        profile = cls.__new__(cls)
+        profile._handle = handle
+        return profile
+
+    @staticmethod
+    def names() -> list[str]:
+        """The profiles that come with Pacini."""
+        return _native.profile_names()
+
+    @classmethod
+    def from_dict(cls, content: dict[str, Any]) -> Profile:
+        """A profile of what :meth:`to_dict` gives, which is what profile files hold."""
+        try:
+            text = json.dumps(content, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise Error(str(error), "profile", "invalidData") from None
+        return cls._of(_native.ProfileHandle.from_json(text))
+
+    def to_dict(self) -> dict[str, Any]:
+        """All that is in the profile, as in its file."""
+        content: dict[str, Any] = json.loads(self._handle.to_json())
+        return content
+
+    def save(self, path: PathLike) -> None:
+        """Writes a profile file; it is complete or not there."""
+        self._handle.save(os.fspath(path))
+
+    @property
+    def name(self) -> str:
+        return self._handle.name
+
+    @property
+    def measured(self) -> npt.NDArray[np.void]:
+        """The response that was measured, with the fields frequency (Hz) and level (dB); empty without one."""
+        frequency, level = _native.measured_response(self._handle)
+        points = np.empty(len(frequency), [("frequency", np.float64), ("level", np.float64)])
+        points["frequency"], points["level"] = frequency, level
+        return points
+
+    def equalizer_response(
+        self, frequencies: Sequence[float] | npt.NDArray[np.float64], sample_rate: float = 48000.0
+    ) -> npt.NDArray[np.float64]:
+        """The levels in dB of the profile's equaliser at these frequencies in Hz."""
+        return _native_array(
+            self._handle.equalizer_response([float(f) for f in np.asarray(frequencies).ravel()], float(sample_rate))
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return self._handle == other._handle if isinstance(other, Profile) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._handle.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _profile_of_json, (self._handle.to_json(),)
+
+    def __repr__(self) -> str:
+        content = self.to_dict()
+        return f"<pacini.Profile {self.name!r}: {content['technology']}, {content['resonance']['frequency']:g} Hz>"
+
+
+def _native_array(array: Any) -> npt.NDArray[np.float64]:
+    return np.asarray(array, np.float64)
+
+
+def _profile_of_json(text: str) -> Profile:
+    return Profile._of(_native.ProfileHandle.from_json(text))
+
+
+AnyProfile = Union[Profile, PathLike]
+
+
+def as_profile(profile: object) -> Profile:
+    """A profile, or the one of this name or path."""
+    if isinstance(profile, Profile):
+        return profile
+    if is_path(profile):
+        return Profile(profile)  # type: ignore[arg-type]
+    raise Error("must be a Profile, the name of one, or a file", "profile")

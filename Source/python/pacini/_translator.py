@@ -1,0 +1,91 @@
+"""The live translator, block by block."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._arrays import FloatArray, as_rate, as_sound
+from ._profile import AnyProfile, Profile, as_profile
+
+
+class Translator:
+    """Sound in, touch out, as the plugin does it: blocks of any length of mono sound become blocks of drive.
+
+    ``translator.params["rumble"]`` and the others are read and, by :meth:`set`, changed while it runs. The drive comes
+    :attr:`latency` frames after the sound. Pickling keeps set-up and parameters, not what it has heard.
+    """
+
+    def __init__(
+        self,
+        sample_rate: float = 48000,
+        *,
+        profile: Optional[AnyProfile] = None,
+        bands: int = 6,
+        max_boost: float = 6.0,
+        strength: float = _native.STANDARD_STRENGTH,
+        preset: Optional[str] = None,
+        **params: Any,
+    ) -> None:
+        self.sample_rate = as_rate(sample_rate)
+        self.profile: Optional[Profile] = None if profile is None else as_profile(profile)
+        self._setup = (bands, max_boost, strength)
+        self._handle = _native.TranslatorHandle(
+            float(self.sample_rate), None if self.profile is None else self.profile._handle, bands, max_boost, strength
+        )
+        if preset is not None:
+            self.set(**self.presets()[preset])
+        if params:
+            self.set(**params)
+        self._handle.reset()
+
+    @staticmethod
+    def presets() -> dict[str, dict[str, Any]]:
+        """Parameters by the names of the presets of the plugin."""
+        return dict(_native.translator_presets())
+
+    @property
+    def params(self) -> dict[str, Any]:
+        return self._handle.params()
+
+    def set(self, **params: Any) -> None:
+        """Changes parameters smoothly; right after :meth:`reset` at once."""
+        self._handle.set_params(params)
+
+    def process(self, block: FloatArray) -> npt.NDArray[np.float32]:
+        """The next block of drive, as long as this block of sound."""
+        return np.asarray(self._handle.process(as_sound(block, -1)), np.float32)
+
+    __call__ = process
+
+    def reset(self) -> None:
+        """Forgets what it has heard."""
+        self._handle.reset()
+
+    @property
+    def latency(self) -> int:
+        """Frames by which the drive is later than the sound."""
+        return self._handle.latency
+
+    @property
+    def meters(self) -> dict[str, Any]:
+        """Levels of the last block."""
+        return self._handle.meters()
+
+    @property
+    def savings(self) -> list[tuple[str, str]]:
+        """What it does without, and why."""
+        return self._handle.savings()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made, (self.sample_rate, self.profile, self._setup, self.params)
+
+
+def _made(
+    rate: float, profile: Optional[Profile], setup: tuple[int, float, float], params: dict[str, Any]
+) -> Translator:
+    bands, max_boost, strength = setup
+    return Translator(rate, profile=profile, bands=bands, max_boost=max_boost, strength=strength, **params)

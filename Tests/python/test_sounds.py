@@ -1,0 +1,246 @@
+"""Sounds in arrays of every kind, good and bad; threads, processes and Ctrl+C."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pacini
+from sounds import DEMO, FolderTest, knocks
+
+RATE = 48000
+
+
+def encoded_bytes(seed):
+    return pacini.encode(knocks(seed=seed), RATE).to_bytes()
+
+
+class Arrays(FolderTest):
+    def test_every_layout_of_one_sound_makes_one_clip(self):
+        mono = knocks()
+        stereo = np.stack([mono, 0.5 * mono])
+        wanted = pacini.encode(stereo, RATE)
+        frames = np.ascontiguousarray(stereo.T)
+        wide = np.zeros((4, 2 * len(mono)), np.float32)
+        wide[::2, ::2] = stereo
+        fields = np.zeros(len(mono), [("flag", "i1"), ("left", "f4")])
+        fields["left"] = mono
+        read_only = stereo.copy()
+        read_only.flags.writeable = False
+        for name, sound, axis in (
+            ("channels in C order", stereo, -1),
+            ("channels in Fortran order", np.asfortranarray(stereo), 1),
+            ("frames first", frames, 0),
+            ("float64", stereo.astype(np.float64), -1),
+            ("every second sample", wide[::2, ::2], -1),
+            ("backwards twice", stereo[:, ::-1].copy()[:, ::-1], -1),
+            ("read-only", read_only, -1),
+            ("a memory map", self._mapped(stereo), -1),
+        ):
+            with self.subTest(name):
+                self.assertEqual(pacini.encode(sound, RATE, axis=axis), wanted)
+                self.assertEqual(
+                    pacini.compare(sound, mono, RATE, axis=axis).values, pacini.compare(stereo, mono, RATE).values
+                ) if axis == -1 else None
+        self.assertEqual(pacini.encode(fields["left"], RATE), pacini.encode(mono, RATE))
+        self.assertEqual(pacini.encode(mono.tolist(), RATE), pacini.encode(mono, RATE))
+        self.assertEqual(pacini.encode(mono[np.newaxis], RATE), pacini.encode(mono, RATE))
+
+    def _mapped(self, sound):
+        np.save(self.folder / "sound.npy", sound)
+        return np.load(self.folder / "sound.npy", mmap_mode="r")
+
+    @unittest.skipIf(os.name == "nt", "no resource usage")
+    def test_samples_that_are_interleaved_are_not_copied(self):
+        script = (
+            "import numpy as np, pacini, resource\n"
+            "frames = np.full((48000 * 60, 8), 0.1, np.float32)\n"
+            "pacini.encode(frames[:48000], 48000, axis=0)\n"
+            "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+            "pacini.encode(frames, 48000, axis=0)\n"
+            "pacini.encode(frames.T, 48000)\n"
+            "grown = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)\n"
+            "print(grown / frames.nbytes)\n"
+        )
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertLess(float(done.stdout), 0.25, done.stderr)
+        made = pacini.render(pacini.Clip(1.0))
+        self.assertTrue(made.flags.c_contiguous and made.flags.writeable)
+
+    def test_bad_sounds_are_refused_with_their_place(self):
+        mono = knocks(0.2)
+        broken = np.stack([mono, mono])
+        broken[1, 300] = np.nan
+        self.refuses("sound[1, 300]", "notFinite", pacini.encode, broken, RATE)
+        self.refuses("sound[300]", "notFinite", pacini.encode, broken[1], RATE)
+        broken[1, 300] = np.inf
+        self.refuses("sound[1, 300]", "notFinite", pacini.encode, broken.astype(np.float64), RATE)
+        repaired = broken.copy()
+        repaired[1, 300] = 0
+        self.assertEqual(pacini.encode(broken, RATE, allow_nan=True), pacini.encode(repaired, RATE))
+        for wrong in (
+            mono.astype(np.int16),
+            mono.astype(np.float16),
+            mono.astype(complex),
+            mono.astype(object),
+            mono.astype(">f4"),
+            np.zeros((2, 2, 2), np.float32),
+            np.float32(1),
+            b"x",
+            None,
+            np.zeros((65, 10), np.float32),
+            np.zeros((0, 10), np.float32),
+        ):
+            self.refuses("sound", "invalidArgument", pacini.encode, wrong, RATE)
+        self.refuses("axis", "invalidArgument", pacini.encode, mono, RATE, axis=1)
+        self.refuses("sample_rate", "invalidArgument", pacini.encode, mono)
+        for rate in (0, -1, 100, 1e9, 44100.5, float("nan"), "fast"):
+            self.refuses("sample_rate", "invalidArgument", pacini.encode, mono, rate)
+        self.assertEqual(pacini.encode(np.zeros(0, np.float32), RATE).duration, 0.0)
+        self.assertEqual(pacini.encode(np.zeros(1, np.float32), RATE).breakpoints, 0)
+        self.refuses("bands", "invalidArgument", pacini.encode, mono, RATE, bands=99)
+        self.refuses("method", "invalidArgument", pacini.encode, mono, RATE, method="magic")
+        self.refuses("method", "invalidArgument", pacini.encode, mono, RATE, method="lowpass")
+        self.refuses("spacing", "invalidArgument", pacini.encode, mono, RATE, method="thesis", spacing="log")
+
+    def test_bad_files_are_refused_with_their_name(self):
+        missing = self.folder / "missing.wav"
+        self.refuses(str(missing), "io", pacini.encode, missing)
+        text = self.folder / "text.wav"
+        text.write_text("no sound")
+        self.refuses(str(text), "invalidData", pacini.encode, str(text))
+        self.refuses("sample_rate", "invalidArgument", pacini.encode, DEMO[0], 48000)
+        pacini.write_audio(self.folder / "a.wav", knocks(0.1), RATE)
+        self.assertEqual(pacini.read_audio(self.folder / "a.wav")[0].tobytes(), knocks(0.1).tobytes())
+        with open(self.folder / "a.wav", "rb") as closed:
+            pass
+        self.refuses("sound", "invalidArgument", pacini.encode, closed, RATE)
+        loud = np.array([0.0, 2.0], np.float32)
+        self.assertEqual(pacini.write_audio(self.folder / "b.wav", loud, RATE, encoding="pcm16"), 1)
+        self.refuses("encoding", "invalidArgument", pacini.write_audio, self.folder / "c.wav", loud, RATE, encoding="8")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.wav", "b.wav", "text.wav"])
+
+    def test_rendered_signals_have_the_type_that_is_asked_for(self):
+        clip = pacini.encode(knocks(0.3), RATE)
+        single, double = pacini.render(clip), pacini.render(clip, dtype=np.float64)
+        self.assertEqual((single.dtype, double.dtype, single.shape), (np.float32, np.float64, (14400,)))
+        np.testing.assert_array_equal(single, double.astype(np.float32))
+        self.refuses("dtype", "invalidArgument", pacini.render, clip, dtype=int)
+        self.refuses("sample_rate", "invalidArgument", pacini.render, clip, 10)
+        self.refuses("stretch", "invalidArgument", pacini.render, clip, stretch=0)
+        self.refuses("end", "invalidArgument", pacini.render, clip, start=0.2, end=0.1)
+        self.refuses("content", "invalidArgument", pacini.render, "clip.json")
+        report = pacini.explain(clip, profile="lra-175")
+        self.assertTrue(report.adaptations)
+
+    def test_the_translator_does_not_care_for_blocks(self):
+        sound = knocks()
+        translator = pacini.Translator(RATE, profile="l5-wristband", preset="Music")
+        whole = translator(sound)
+        translator.reset()
+        parts = [translator(block) for block in np.split(sound, [1, 100, 5000])]
+        np.testing.assert_array_equal(np.concatenate(parts), whole)
+        self.assertGreater(np.abs(whole).max(), 0.05)
+        self.assertTrue(0.001 < translator.latency / RATE < 0.0015)
+        self.assertEqual(len(translator.meters["bands"]), 6)
+        translator.set(bypass=True, rumble_muted=True)
+        self.assertTrue(translator.params["bypass"] and translator.params["rumble_muted"])
+        self.refuses("colour", "invalidArgument", translator.set, colour=1)
+        self.refuses("rumble", "invalidArgument", translator.set, rumble=100)
+        self.refuses("sound", "invalidArgument", translator, np.stack([sound, sound]))
+
+    def test_progress_is_told_and_may_stop_the_work(self):
+        shares = []
+        sound = knocks(120.0)
+        pacini.encode(sound, RATE, progress=shares.append)
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(shares and 0.0 < shares[0] and shares[-1] <= 1.0)
+
+        def stop(share):
+            raise KeyError("enough")
+
+        with self.assertRaises(KeyError):
+            pacini.encode(sound, RATE, progress=stop)
+        self.assertEqual(pacini.encode(knocks(), RATE).to_bytes(), encoded_bytes(1))
+
+
+class Concurrency(FolderTest):
+    def test_threads_get_what_one_gets(self):
+        wanted = [encoded_bytes(seed) for seed in range(8)]
+        with ThreadPoolExecutor(4) as pool:
+            self.assertEqual(list(pool.map(encoded_bytes, range(8))), wanted)
+        found = dict(pacini.encode_files([*DEMO, self.folder / "missing.wav"], threads=2))
+        self.assertIsInstance(found.pop(self.folder / "missing.wav"), pacini.Error)
+        self.assertEqual(found, {path: pacini.encode(path) for path in DEMO})
+
+    def test_the_lock_is_free_while_work_goes_on(self):
+        sound = knocks(60.0)
+        counted = 0
+        done = threading.Event()
+
+        def work():
+            pacini.encode(sound, RATE)
+            done.set()
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        longest = 0.0
+        last = time.perf_counter()
+        while not done.is_set():
+            time.sleep(0.001)
+            now = time.perf_counter()
+            longest, last, counted = max(longest, now - last), now, counted + 1
+        thread.join()
+        self.assertGreater(counted, 20)
+        self.assertLess(longest, 0.5)
+
+    def test_children_by_fork_and_by_spawn_get_the_same(self):
+        wanted = [encoded_bytes(seed) for seed in range(3)]
+        for method in ("fork", "spawn"):
+            with multiprocessing.get_context(method).Pool(2) as pool:
+                self.assertEqual(pool.map(encoded_bytes, range(3)), wanted, method)
+
+    @unittest.skipIf(os.name == "nt", "no signals")
+    def test_ctrl_c_stops_long_work_within_a_second_and_leaves_nothing(self):
+        for work in (
+            "pacini.encode(sound, 48000)",
+            "pacini.translate(sound[:5760000], 48000, method='percept')",
+            "pacini.compare(sound[:5760000], sound[:5760000], 48000)",
+            "pacini.render(pacini.Clip(3000.0, [pacini.Band(50, 100, 200, amplitude=[(0, 0.5)])]), leave_out=False)",
+            "[pacini.encode(sound[:48000], 48000) for _ in range(10000)]",
+            "pacini.write_audio('0.wav', sound, 48000); list(pacini.encode_files(['0.wav'] * 9))",
+        ):
+            script = (
+                "import numpy as np, pacini, sys, time\n"
+                "sound = np.random.default_rng(1).standard_normal(48000 * 600, dtype=np.float32)\n"
+                "print('ready', flush=True)\n"
+                "try:\n"
+                f"    {work}\n"
+                "    print('finished', flush=True)\n"
+                "except KeyboardInterrupt:\n"
+                "    print('stopped', flush=True)\n"
+            )
+            with (
+                self.subTest(work),
+                subprocess.Popen(
+                    [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=self.folder
+                ) as process,
+            ):
+                self.assertEqual(process.stdout.readline(), "ready\n")
+                time.sleep(0.7)
+                sent = time.perf_counter()
+                process.send_signal(signal.SIGINT)
+                self.assertEqual(process.stdout.readline(), "stopped\n")
+                self.assertLess(time.perf_counter() - sent, 1.0)
+                self.assertEqual(process.wait(120), 0)
+        self.assertTrue({path.name for path in self.folder.iterdir()} <= {"0.wav"})
+
+
+if __name__ == "__main__":
+    unittest.main()

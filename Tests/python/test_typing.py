@@ -1,0 +1,135 @@
+"""Types are right: of the package by mypy, of the native module against its stubs, and in code that uses them."""
+
+import ast
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from sounds import SOURCE, FolderTest
+
+PACKAGE = SOURCE / "Source/python/pacini"
+
+RIGHT = """
+import numpy as np
+import numpy.typing as npt
+import pacini
+
+clip: pacini.Clip = pacini.encode(np.zeros(100, np.float32), 48000, axis=0, bands=4)
+other: pacini.Clip = clip[0.1:0.2].transposed(3) + clip
+times: npt.NDArray[np.float64] = clip.envelope["time"]
+match: float | None = pacini.compare("a.wav", clip).match
+error = pacini.Error("is wrong", "there")
+where: str = error.where
+bands: tuple[pacini.Band, ...] = clip.bands
+profile: pacini.Profile | None = pacini.measure.fit(pacini.Profile("lra-175")).profile
+"""
+
+WRONG = """
+import pacini
+
+pacini.encode("a.wav", bands="many")
+clip: int = pacini.encode("a.wav")
+clip2 = pacini.encode("a.wav")
+clip2.nothing
+"""
+
+
+def parameters_in_stub(node):
+    return [argument.arg for argument in node.args.args]
+
+
+def parameters_of(function):
+    """The names of the parameters of a native function, from the signature that it carries."""
+    [(signature, *_)] = function.__nb_signature__
+    inside = signature[signature.index("(") + 1 :]
+    names, depth, start = [], 0, True
+    for match in re.finditer(r"[\[\](){}]|,|\w+", inside):
+        token = match.group()
+        if token in "[({":
+            depth += 1
+        elif token in "])}":
+            depth -= 1
+            if depth < 0:
+                break
+        elif token == ",":
+            start = start or depth == 0
+        elif start and depth == 0:
+            names.append(token)
+            start = False
+    return names
+
+
+def mypy(*arguments, folder):
+    return subprocess.run(
+        [sys.executable, "-m", "mypy", "--cache-dir", str(folder / "cache"), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+    )
+
+
+class Typing(FolderTest):
+    def test_the_package_is_typed_strictly(self):
+        done = mypy("--strict", PACKAGE, folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_code_that_uses_it_is_checked(self):
+        (self.folder / "right.py").write_text(RIGHT)
+        done = mypy("--strict", "right.py", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        (self.folder / "wrong.py").write_text(WRONG)
+        done = mypy("--strict", "wrong.py", folder=self.folder)
+        self.assertEqual(
+            [line.split(":")[1] for line in done.stdout.splitlines() if line.startswith("wrong.py:")],
+            ["4", "5", "7"],
+            done.stdout,
+        )
+
+    def test_the_stubs_are_those_of_the_native_module(self):
+        """By the names of everything and of all parameters."""
+        from pacini import _native
+
+        stub, module = {}, {}
+        for node in ast.parse((PACKAGE / "_native.pyi").read_text()).body:
+            if isinstance(node, ast.FunctionDef):
+                stub[node.name] = parameters_in_stub(node)
+            elif isinstance(node, ast.ClassDef):
+                for inner in node.body:
+                    if isinstance(inner, ast.FunctionDef) and inner.name != "__eq__":
+                        stub[f"{node.name}.{inner.name}"] = parameters_in_stub(inner)
+        for name, thing in vars(_native).items():
+            if isinstance(thing, type):
+                for inner, value in vars(thing).items():
+                    if isinstance(value, property):
+                        module[f"{name}.{inner}"] = ["self"]
+                    elif hasattr(value, "__nb_signature__") and inner != "__eq__":
+                        module[f"{name}.{inner}"] = parameters_of(value)
+            elif hasattr(thing, "__nb_signature__"):
+                module[name] = parameters_of(thing)
+        self.assertGreater(len(module), 70)
+        self.assertEqual(stub, module)
+
+    def test_ruff_finds_nothing(self):
+        done = subprocess.run(
+            [
+                sys.executable,
+                "-m",
+                "ruff",
+                "check",
+                "--no-cache",
+                "--config",
+                SOURCE / "pyproject.toml",
+                PACKAGE,
+                Path(__file__).parent,
+            ],
+            capture_output=True,
+            text=True,
+            cwd=SOURCE,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
