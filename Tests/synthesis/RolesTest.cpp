@@ -274,8 +274,8 @@ TEST_CASE("A role that is left out is a role at 0, and another keeps its share o
             for (std::size_t i = 0; i < y.size(); ++i)
                 REQUIRE(static_cast<double>(y[i]) == Approx(static_cast<double>(wanted[i])).margin(1e-6));
         }
-    // What of noise is in the sum, and what it is alone, are alike strong: where they beat, the mean that is levelled is
-    // up to 1 dB below the RMS value in each of two passes.
+    // What of noise is in the sum, and what it is alone, are alike strong: where they beat, the mean that is levelled
+    // is up to 1 dB below the RMS value in each of two passes.
     Clip clip = everything(true);
     clip.transients.clear();
     const auto whole = mixed(clip, {});
