@@ -56,7 +56,7 @@ TEST_CASE("Menus, buttons and pages are in the chosen language, and in English w
 
 TEST_CASE("Every language has a name of its own")
 {
-    CHECK(editor::languages() == juce::StringArray({"de", "ja"}));
+    CHECK(editor::languages().joinIntoString(" ") == "de ja");
     CHECK(editor::languageName("de") == "Deutsch");
     CHECK(editor::languageName("ja") == editor::toText("日本語"));
 }
@@ -96,18 +96,27 @@ TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tab
     const test::MarkedLanguage marked;
     test::EditorBench bench({test::shipped("lra-175")});
     juce::StringArray found;
+    // What things are called, units, and keys as the system calls them.
     const juce::StringArray names{"lra-175",
                                   "10 mm coin LRA, 175 Hz",
                                   "knock_wood_bridge",
-                                  "knock wood bridge",
                                   "kHz",
                                   "bit",
-                                  "Ctrl",
-                                  "Alt",
-                                  "Shift",
-                                  "Return",
-                                  "Deutsch",
-                                  "English",
+                                  "ctrl",
+                                  "shift",
+                                  "alt",
+                                  "spacebar",
+                                  "cursor left",
+                                  "cursor right",
+                                  "cursor up",
+                                  "cursor down",
+                                  "page up",
+                                  "page down",
+                                  "home",
+                                  "end",
+                                  "delete",
+                                  "return",
+                                  "escape",
                                   ".flac",
                                   ".json",
                                   ".wav",
@@ -119,10 +128,7 @@ TEST_CASE("No page, sheet or menu of the editor has a text that bypasses the tab
                                   ".java",
                                   ".tact",
                                   ".csv",
-                                  ".pacb",
-                                  ".raw",
-                                  "ppm",
-                                  "Axis"};
+                                  ".pacb"};
     test::addUnmarked(bench.view, names, found); // without a clip
     bench.openDemo("knock_wood_bridge");
     bench.view.doCommand(editor::addMarker);

@@ -73,7 +73,8 @@ inline void addUnmarked(juce::Component& root, const juce::StringArray& names, j
 {
     const auto look = [&](const juce::String& text)
     {
-        if (!unmarkedWords(text, names).isEmpty())
+        // A path of a file is no text.
+        if (!text.startsWithChar('/') && !unmarkedWords(text, names).isEmpty())
             found.addIfNotAlreadyThere(text);
     };
     look(root.getTitle());

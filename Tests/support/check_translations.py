@@ -51,8 +51,7 @@ LITERALS = {
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "names that a new thing gets in the project, which is the same file in every language": [
-        "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement",
-        "Simulated actuator", "Nothing connected", "Sensor, axis x", "Sensor, axis y", "Sensor, axis z"],
+        "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement"],
     "the command line and its log, which are English": [
         "Pacini: ", "Pacini: no sound device: ", "--fresh", "FILE", "TYPE", "CODE",
         "Pacini Editor: sounds become clips that can be reshaped, felt and exported.",

@@ -116,7 +116,7 @@ void nameMeters(InputMeters& meters, const MeasurementController& controller)
     {
         meters[i].setVisible(i < wired.size());
         if (i < wired.size())
-            meters[i].setName(toText(controller.ports().inputs[wired[i]]));
+            meters[i].setName(tr(toText(controller.ports().inputs[wired[i]])));
     }
 }
 

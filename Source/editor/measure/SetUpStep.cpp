@@ -23,7 +23,7 @@ void fill(juce::ComboBox& box, const std::vector<std::string>& names, const char
     if (noneText != nullptr)
         wanted.add(tr(noneText));
     for (const std::string& name : names)
-        wanted.add(toText(name));
+        wanted.add(tr(toText(name))); // of a simulation; what devices call theirs stays
     bool same = box.getNumItems() == wanted.size();
     for (int i = 0; same && i < wanted.size(); ++i)
         same = box.getItemText(i) == wanted[i];

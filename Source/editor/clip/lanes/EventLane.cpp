@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/EventLane.h"
 
+#include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
@@ -46,7 +47,7 @@ PlotLane::Style EventLane::style() const
 {
     const auto colour = paletteFor(*this).warning;
     if (shows == Shows::sharpness)
-        return {"Sharpness", juce::String(toText("0–100 %")), colour};
+        return {"Sharpness", toText("0–100 %"), colour};
     return {"Transients", counted(count(), "{0} event", "{0} events"), colour};
 }
 
