@@ -16,7 +16,8 @@ TEST_CASE("A shard is read as it is written", "[cli]")
     REQUIRE(shard.ok());
     CHECK(shard->number == 3);
     CHECK(shard->count == 8);
-    for (const char* text : {"", "3", "/", "3/", "/8", "0/8", "9/8", "-1/8", "1/0", "1/8/2", "a/b", "1/1000001", "1.5/2"})
+    for (const char* text :
+         {"", "3", "/", "3/", "/8", "0/8", "9/8", "-1/8", "1/0", "1/8/2", "a/b", "1/1000001", "1.5/2"})
     {
         CAPTURE(text);
         CHECK_FALSE(parseShard(text).ok());
@@ -51,7 +52,8 @@ TEST_CASE("Every file is in exactly one shard, and shards are as even as the lar
                 loads.push_back(load);
             }
             CHECK(std::all_of(times.begin(), times.end(), [](unsigned n) { return n == 1; }));
-            // Graham (1969): no division is better than the mean and the largest file, and this one is within 4/3 of it.
+            // Graham (1969): no division is better than the mean and the largest file, and this one is within 4/3 of
+            // it.
             const auto total = std::accumulate(loads.begin(), loads.end(), std::uint64_t(0));
             std::uint64_t largest = 0;
             for (const auto size : sizes)

@@ -81,7 +81,7 @@ private:
     {
         const auto number = random.next() % 1000;
         AudioReference sound;
-        sound.path = "/sounds/" + std::to_string(number) + ".wav"; // is nowhere
+        sound.path = "/sounds/" + std::to_string(number) + ".wav";   // is nowhere
         sound.hash = std::to_string(1'000'000'000'000'000 + number); // 16 digits
         sound.embedded = std::make_shared<const std::string>("RIFF" + std::to_string(number));
         (void)document.addSound(sound, {}, fileClip(number));

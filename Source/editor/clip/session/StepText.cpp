@@ -28,8 +28,8 @@ Words wordsOf(SelectionStep step)
         return {"Scale point", "Scale {0} points", "Scale transient", "Scale {0} transients",
                 "Scale {0} points and transients"};
     case SelectionStep::setValue:
-        return {"Set value of point", "Set value of {0} points", "Set value of transient", "Set value of {0} transients",
-                "Set value of {0} points and transients"};
+        return {"Set value of point", "Set value of {0} points", "Set value of transient",
+                "Set value of {0} transients", "Set value of {0} points and transients"};
     case SelectionStep::setSharpness:
         return {"Set sharpness of point", "Set sharpness of {0} points", "Set sharpness of transient",
                 "Set sharpness of {0} transients", "Set sharpness of {0} points and transients"};
