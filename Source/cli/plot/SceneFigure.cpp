@@ -22,8 +22,6 @@ namespace pacini::plot
 
 namespace
 {
-using cli::SceneTimeline;
-using cli::TimedPlay;
 
 constexpr double barHeight = 0.86;      // of the distance between lanes
 constexpr std::size_t maxLanes = 32;    // more are too low to be read
