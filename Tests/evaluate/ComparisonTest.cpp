@@ -17,7 +17,7 @@ namespace
 {
 constexpr int rate = 8000;
 
-std::vector<float> tone(double frequency, double seconds)
+std::vector<float> toneAt(double frequency, double seconds)
 {
     std::vector<float> samples(static_cast<std::size_t>(seconds * rate));
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -45,8 +45,8 @@ std::vector<double> figuresOf(const Comparison& comparison)
 
 TEST_CASE("a comparison does not depend on those before it", "[comparison]")
 {
-    const auto a = tone(120.0, 1.0);
-    const auto b = tone(200.0, 1.5);
+    const auto a = toneAt(120.0, 1.0);
+    const auto b = toneAt(200.0, 1.5);
     Comparer fresh, used;
     (void)compared(used, b, b);
     (void)compared(used, std::vector<float>(100), a);
@@ -62,13 +62,13 @@ TEST_CASE("a comparison does not depend on those before it", "[comparison]")
 
 TEST_CASE("a sound is like itself", "[comparison]")
 {
-    const auto sound = tone(120.0, 1.0);
+    const auto sound = toneAt(120.0, 1.0);
     Comparer comparer;
     const Comparison itself = compared(comparer, sound, sound);
     CHECK(itself.hts.score == itself.ceiling);
     CHECK(itself.htsFidelity.score > 99.0);
     CHECK(itself.measures.logSpectralDistance < 0.01);
-    const Comparison other = compared(comparer, sound, tone(400.0, 1.0));
+    const Comparison other = compared(comparer, sound, toneAt(400.0, 1.0));
     CHECK(other.htsFidelity.score < itself.htsFidelity.score);
     CHECK(other.measures.logSpectralDistance > 3.0);
 }
@@ -76,7 +76,7 @@ TEST_CASE("a sound is like itself", "[comparison]")
 TEST_CASE("what says nothing has no figure", "[comparison]")
 {
     Comparer comparer;
-    const auto sound = tone(120.0, 0.5);
+    const auto sound = toneAt(120.0, 0.5);
     Comparison silent = compared(comparer, std::vector<float>(sound.size()), sound);
     std::set<std::string_view> keys;
     for (const ComparisonFigure& figure : comparisonFigures)
@@ -93,7 +93,7 @@ TEST_CASE("what says nothing has no figure", "[comparison]")
 TEST_CASE("rates that nothing is compared at are errors", "[comparison]")
 {
     Comparer comparer;
-    const auto result = comparer.setReference(tone(100.0, 0.1), 1000);
+    const auto result = comparer.setReference(toneAt(100.0, 0.1), 1000);
     REQUIRE_FALSE(result);
     CHECK(result.error().code == ErrorCode::invalidArgument);
 }
