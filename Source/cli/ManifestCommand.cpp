@@ -143,6 +143,7 @@ public:
         auto* command = app.add_subcommand("check", "Say which files failed, are missing or were changed since");
         addOption(*command, "inputs", inputs, "Manifests; the outputs are where they were from there", "MANIFEST")
             ->required();
+        command->footer("Example:\n  pacini manifest check clips/run.manifest.json");
         return command;
     }
 
@@ -193,7 +194,8 @@ public:
             "retry", "Run the command again that the manifest is of, for the files that failed; from the same folder");
         addOption(*command, "input", input, "Manifest of encode, render or compare, before all options", "MANIFEST")
             ->required();
-        command->footer("Options after the manifest are those of the command, such as -j 2.");
+        command->footer("Options after the manifest are those of the command.\n\nExample:\n"
+                        "  pacini manifest retry clips/run.manifest.json -j 2");
         command->allow_extras();
         return command;
     }
@@ -226,8 +228,8 @@ public:
         for (const auto& step : steps)
             declared.push_back(step->declare(*command));
         command->footer(
-            "A set of sounds on eight machines that see the same folders:\n"
-            "  pacini encode sounds/ -o clips/ --format packed --shard 3/8 --manifest clips/run.manifest.json\n"
+            "encode, render and compare write a manifest with --manifest, convert of a folder always does. After\n"
+            "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
             "  pacini manifest merge clips/run.manifest.*-of-8.json -o clips/run.manifest.json\n"
             "  pacini manifest check clips/run.manifest.json\n"
             "  pacini manifest retry clips/run.manifest.json\n"

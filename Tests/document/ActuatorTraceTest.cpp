@@ -143,7 +143,7 @@ TEST_CASE("Bands that share a voice, and those that are too weak to matter, are 
     CHECK(made->sources[0].whole == Loss::none);
     CHECK(made->sources[1].whole == Loss::noVoice);
     CHECK(made->sources[2].whole == Loss::none);
-    CHECK(made->textOf(made->sources[1], 100).find("voice") != std::string::npos);
+    CHECK(made->textOf(made->sources[1], 100).find("neighbouring band") != std::string::npos);
 
     profile.polyphony = Profile::unlimitedPolyphony;
     clip.bands[1].amplitude = {{0.0, 0.00015}, {1.0, 0.00015}}; // 70 dB below the rest

@@ -275,7 +275,8 @@ TEST_CASE("Switching between clip and version A while playing makes no gap")
         float most = 0.0f;
         for (int i = 0; i < 2; ++i) // two periods of 100 Hz
         {
-            session.player.process(block, {});
+            const std::span<float> haptic(block);
+            session.player.process(std::span(&haptic, 1), {});
             for (const float sample : block)
                 most = std::max(most, std::abs(sample));
         }
@@ -332,7 +333,9 @@ TEST_CASE("What was copied from one clip is pasted into another, and a single la
         CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(from.envelope, start + time - 0.1)));
     session.model.undo();
     session.clipSelection.paste(session.transport.playhead(), Lane{LaneKind::amplitude, 1});
-    CHECK(bench.clip().envelope == before.envelope);
+    // The clip became longer for it; other lanes end as they did.
+    for (double time = 0.0; time <= before.duration; time += 0.01)
+        CHECK(valueAt(bench.clip().envelope, time) == Approx(valueAt(before.envelope, time)));
     CHECK(valueAt(bench.clip().bands[1].amplitude, 0.2) == Approx(valueAt(from.envelope, start + 0.1)));
     CHECK_FALSE(selectedIn(session.clipSelection.selected(), {LaneKind::amplitude, 1}).empty());
 }

@@ -278,7 +278,7 @@ TEST_CASE("A sweep can be saved and its recording opened", "[measure]")
     REQUIRE(bench.controller->measurement().placements().size() == 1);
     CHECK(bench.controller->measurement().placements()[0]->name == "anna");
     bench.controller->readRecording(bench.folder / "nobody.wav", false);
-    CHECK(bench.controller->sweepProblem().find("nobody.wav was not read") == 0);
+    CHECK(bench.controller->sweepProblem().find("Cannot read nobody.wav") == 0);
 }
 
 TEST_CASE("Nothing on the measure page is cut off or overlaps, everything has a name and a hint", "[measure]")

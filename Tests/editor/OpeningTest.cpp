@@ -196,7 +196,7 @@ TEST_CASE("A project without its sound says so once, can be edited, and finds th
     writeSound(folder / "other.wav", 1.0, 99);
     session.sounds.findSounds(folder / "other.wav");
     REQUIRE(pumpUntil([&] { return !messages.titles.empty(); }));
-    CHECK(messages.titles[0] == "other.wav is another sound");
+    CHECK(messages.titles[0] == "other.wav is a different sound");
     CHECK(session.sounds.isMissing(source));
 
     session.sounds.findSounds(folder / "elsewhere/renamed.wav");

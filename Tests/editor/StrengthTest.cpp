@@ -61,7 +61,7 @@ struct StrengthBench : EditorBench
         std::vector<float> all(frames);
         const auto next = [&](std::span<float> piece)
         {
-            session.player.process(piece, {});
+            session.player.process(std::span(&piece, 1), {});
             return std::any_of(piece.begin(), piece.end(), [](float v) { return v != 0.0f; });
         };
         REQUIRE(pumpUntil([&] { return next(std::span(all).first(512)); }));
@@ -71,7 +71,8 @@ struct StrengthBench : EditorBench
         for (int i = 0; i < 10; ++i) // it fades
         {
             std::vector<float> rest(512);
-            session.player.process(rest, {});
+            const std::span<float> haptic(rest);
+            session.player.process(std::span(&haptic, 1), {});
         }
         return all;
     }
@@ -158,7 +159,7 @@ TEST_CASE("The export starts from the format, rate and folder of the last one")
     OpenSheet again(bench);
     CHECK(exportFormats()[static_cast<std::size_t>(again.format.getSelectedId() - 1)].name == "wav");
     CHECK(get<juce::ComboBox>(again.sheet, "Sample rate").getSelectedId() == 8000);
-    CHECK(get<juce::TextEditor>(again.sheet, "File or folder to write")
+    CHECK(get<juce::TextEditor>(again.sheet, "Destination file or folder")
               .getText()
               .startsWith(juce::String(folder.path().string())));
     again.choose("ahap");

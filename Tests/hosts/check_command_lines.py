@@ -18,7 +18,7 @@ def answer(program, *arguments):
         environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
         done = subprocess.run([program, *arguments], env=dict(environment, HOME=home), capture_output=True, text=True,
                               timeout=60)
-        check(f"{program} {' '.join(arguments)} writes no settings", os.listdir(home) == [])
+        check(f"{program} {' '.join(arguments)} writes no settings", set(os.listdir(home)) <= {".cache"})  # of the desktop, which JUCE asks
     return done.returncode, done.stdout, done.stderr
 
 

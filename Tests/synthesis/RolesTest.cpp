@@ -17,7 +17,7 @@ using namespace pacini;
 
 namespace
 {
-constexpr double fs = 8000.0;
+constexpr double roleRate = 8000.0;
 
 /// Tones and noise below and above 200 Hz, and events.
 Clip everything(bool envelope)
@@ -43,7 +43,7 @@ Clip tonesOf(Clip clip)
 DecoderParams apart()
 {
     DecoderParams params;
-    params.sampleRate = fs;
+    params.sampleRate = roleRate;
     params.apart = true;
     return params;
 }
@@ -319,7 +319,7 @@ TEST_CASE("A role that comes back where another is levelled with it neither clic
         const auto y = mixed(clip, ramps);
         CHECK(largestStep(y) < 1.3 * usual);
         const auto z = mixed(clip, levels);
-        const std::size_t late = 5000 + static_cast<std::size_t>(0.040 * fs) + 160;
+        const std::size_t late = 5000 + static_cast<std::size_t>(0.040 * roleRate) + 160;
         double error = 0.0;
         for (std::size_t i = late; i < z.size(); ++i)
             error = std::max(error, std::abs(static_cast<double>(z[i]) - static_cast<double>(whole[i])));

@@ -18,7 +18,7 @@ using test::Channels;
 
 namespace
 {
-constexpr double fs = 8000.0;
+constexpr double sceneRate = 8000.0;
 
 Clip mixture(std::uint64_t seed, bool envelope)
 {
@@ -37,7 +37,7 @@ Clip mixture(std::uint64_t seed, bool envelope)
 RenderPlan planned(const Scene& scene, bool leaveOut = true, double tolerance = -60.0)
 {
     CompileParams params;
-    params.sampleRate = fs;
+    params.sampleRate = sceneRate;
     params.leaveOut = leaveOut;
     params.tolerance = tolerance;
     const auto plan = compilePlan(scene, nullptr, params);
@@ -49,7 +49,7 @@ RenderPlan planned(const Scene& scene, bool leaveOut = true, double tolerance = 
 Channels rendered(const RenderPlan& plan, std::size_t block = 4096, bool protect = false)
 {
     ScenePlayerParams params;
-    params.sampleRate = fs;
+    params.sampleRate = sceneRate;
     params.protect = protect;
     ScenePlayer player(plan, params);
     return test::renderChannels(player, player.actuators(), block);
@@ -96,7 +96,7 @@ TEST_CASE("Levels of roles in a scene are exact to the frame and do not depend o
         for (std::size_t c = 0; c < 2; ++c)
             for (std::size_t i = 0; i < whole[c].size(); ++i)
             {
-                const double way = std::clamp((static_cast<double>(i) / fs - 0.2) / 0.3, 0.0, 1.0);
+                const double way = std::clamp((static_cast<double>(i) / sceneRate - 0.2) / 0.3, 0.0, 1.0);
                 const double wanted = static_cast<double>(whole[c][i]) - way * static_cast<double>(events[c][i]) -
                                       (i < 4800 ? 0.0 : static_cast<double>(noise[c][i]));
                 REQUIRE(static_cast<double>(changed[c][i]) == Approx(wanted).margin(3e-6));
@@ -125,7 +125,7 @@ TEST_CASE("A role that is muted throughout is left out of the plan, a play of mu
         CHECK((plan.leftOut[1] == LeftOut{"plays[0].events", "is muted", nothing}));
         CHECK((plan.leftOut[2] == LeftOut{"plays[1].noise", "is muted", nothing}));
         ScenePlayerParams params;
-        params.sampleRate = fs;
+        params.sampleRate = sceneRate;
         const ScenePlayer player(plan, params);
         REQUIRE(player.decodedPlays().size() == 2);
         CHECK(player.decodedPlays()[0].decoder.carriers == 0);

@@ -77,8 +77,9 @@ struct RenderOptions
     void set(double rate, double tolerance, bool leaveOut, bool adapt, const std::optional<std::string>& mapping,
              double maxBoost, double strength, bool protectIt)
     {
-        compile.sampleRate = rate;
-        compile.tolerance = inRange("tolerance", tolerance, -200.0, 0.0, "must be -200 to 0 dB");
+        compile.sampleRate =
+            inRange("sample_rate", rate, limits::lowestRate, limits::highestRate, "must be 2000 to 768000 Hz");
+        compile.tolerance = inRange("tolerance", tolerance, -300.0, 0.0, "must be -300 to 0 dB");
         compile.leaveOut = leaveOut;
         compile.adapt = adapt;
         compile.adaptation.mapping = chosen<FrequencyMapping>(mapping, "mapping",

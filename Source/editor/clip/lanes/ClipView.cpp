@@ -204,6 +204,7 @@ void ClipView::rebuild()
             {
                 marquee(from, event, over);
             };
+            translateTexts(*lane); // made after those of the window were
             rows.addAndMakeVisible(*lane);
             lanes.push_back(std::move(lane));
         };

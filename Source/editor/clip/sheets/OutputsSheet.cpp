@@ -37,6 +37,8 @@ OutputsSheet::OutputsSheet(HapticOutputs& hapticOutputs, const Actuators& profil
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
         prepare(i);
+    addButton.setTitle("Add output");
+    removeButton.setTitle("Remove last output");
     prepareButton(addButton, "Adds an output on the next channel of the device", [this] { outputs.add(); });
     prepareButton(removeButton, "Removes the last output", [this] { outputs.removeLast(); });
     note.setFont(smallFont());
