@@ -20,12 +20,13 @@ def _tqdm() -> Any:
 
 @contextmanager
 def shown(progress: Progress, label: str) -> Iterator[Optional[Callable[[float], object]]]:
-    """What to call with the share that is done: `progress` itself, or for True a bar."""
+    """What to call with the share that is done, in the end 1: `progress` itself, or for True a bar."""
     if progress is None or progress is False:
         yield None
         return
     if progress is not True:
         yield progress
+        progress(1.0)  # what is done within a tenth of a second tells nothing before
         return
     tqdm = _tqdm()
     if tqdm is None:
