@@ -21,7 +21,7 @@ std::filesystem::path demoFolder()
     return sourceFolder() / "Resources/demo";
 }
 
-int addDemo(Document& document, const std::string& file, const std::string& name)
+int addDemo(Document& document, const std::string& file)
 {
     auto sound = describeAudio(demoFolder() / file).value();
     Clip clip = analyse(sound.audio, {}, sound.reference).value();
@@ -40,9 +40,9 @@ EditScope wholeClip(const Document& document, int id)
 TEST_CASE("Make the sample project", "[.make-sample]")
 {
     Document document;
-    const int knock = addDemo(document, "knock_wood_bridge.flac", "knock");
-    const int boom = addDemo(document, "impact_boom.flac", "boom");
-    const int guitar = addDemo(document, "pluck_guitar_harmonics.flac", "guitar");
+    const int knock = addDemo(document, "knock_wood_bridge.flac");
+    const int boom = addDemo(document, "impact_boom.flac");
+    const int guitar = addDemo(document, "pluck_guitar_harmonics.flac");
     REQUIRE(document.edit(knock, "Markers", MarkersEdit{{{0.0, "First knock"}, {0.25, "Second knock"}}}));
     REQUIRE(document.edit(boom, "Gain", GainEdit{wholeClip(document, boom), -3.0}));
     REQUIRE(
