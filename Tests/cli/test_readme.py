@@ -83,7 +83,8 @@ FAILING = {"pacini lint clips/ --target haptic --max-error 0.1": (1, "exits with
 
 # What a reader of the document has made before, by commands of the others.
 BEFORE = {PAGES + "formats.md": ["pacini encode door.wav", "pacini convert door.json door.pacb",
-                                        "pacini encode sounds/ -o clips/ --format packed -j 8"]}
+                                        "pacini encode sounds/ -o clips/ --format packed -j 8"],
+          PAGES + "datasets.md": ["pacini encode sounds/ -o clips/ --format packed --manifest clips/run.manifest.json"]}
 
 
 def hits(*times, seconds, frequency=180.0, seed=1):
