@@ -133,7 +133,7 @@ def main():
         screen.keys("Down", "Down", "Down", "Return")
         time.sleep(0.5)
         screen.focus()
-        fitted = screen.export(folder / "fitted.wav", rendered=True)
+        fitted = screen.export(folder / "fitted.wav")  # the format of the last export is chosen already
         check("another actuator gives another drive signal",
               plain.exists() and fitted.exists() and plain.read_bytes() != fitted.read_bytes())
         check("the program still runs", app.poll() is None)
