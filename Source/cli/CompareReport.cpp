@@ -2,11 +2,17 @@
 
 #include "cli/Console.h"
 
+#include <pacini/evaluate/ComparisonReport.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace pacini::cli
 {
@@ -81,38 +87,28 @@ Json orNull(const std::optional<Value>& value)
     return value ? Json(*value) : Json(nullptr);
 }
 
-Json toJson(const EventScore& score)
+/// Sink of a report that fills an object.
+struct JsonSink
 {
-    return {{"f1", score.f},
-            {"hits", score.truePositives},
-            {"spurious", score.falsePositives},
-            {"missed", score.falseNegatives}};
-}
+    Json& json;
 
-Json toJson(const HtsScore& score)
-{
-    return {{"wide", score.wide}, {"band", score.band}, {"spectrum", score.spectrum}, {"event", score.event}};
-}
-
-Json toJson(const MatchParts& parts)
-{
-    return {{"attacks", parts.attacks},       {"envelope", parts.envelope}, {"roughness", parts.roughness},
-            {"brightness", parts.brightness}, {"movement", parts.movement}, {"silence", parts.silence}};
-}
-
-Json toJson(const FeltFigures& figures)
-{
-    const FeltImpression impression = feltImpression(figures);
-    return {{"strength", impression.strength},
-            {"tempo", impression.tempo},
-            {"roughness", impression.roughness},
-            {"parts",
-             {{"level", figures.level},
-              {"meanLevel", figures.meanLevel},
-              {"octave", figures.octave},
-              {"pulses", figures.pulses},
-              {"fluctuation", figures.fluctuation}}}};
-}
+    template <typename Value>
+    void value(std::string_view key, const Value& value)
+    {
+        json[std::string(key)] = value;
+    }
+    template <typename Value>
+    void value(std::string_view key, const std::optional<Value>& value)
+    {
+        json[std::string(key)] = orNull(value);
+    }
+    void none(std::string_view key) { json[std::string(key)] = nullptr; }
+    void group(std::string_view key, auto&& fill)
+    {
+        JsonSink inner{json[std::string(key)]};
+        fill(inner);
+    }
+};
 
 /// Sums over what was done.
 struct Totals
@@ -190,24 +186,9 @@ std::string compareTable(const std::vector<CompareTask>& tasks)
 nlohmann::ordered_json pairJson(const CompareTask& task)
 {
     const CompareResult& r = *task.result;
-    Json json{{"reference", task.pair.reference.string()},
-              {"candidate", task.pair.candidate.string()},
-              {"duration", r.duration},
-              {"candidateDuration", r.candidateDuration}};
-    for (const ComparisonFigure& figure : comparisonFigures)
-        json[std::string(figure.key)] = orNull(figure.value(r));
-    json["matchLag"] = r.match ? Json(r.matchLag) : Json(nullptr);
-    json["matchAligned"] = r.aligned;
-    json["matchParts"] = r.match ? toJson(*r.match) : Json(nullptr);
-    json["impression"] = toJson(r.impression);
-    json["htsParts"] = toJson(r.hts);
-    json["htsFParts"] = toJson(r.htsFidelity);
-    json["lag"] = orNull(r.measures.lag);
-    json["gain"] = orNull(r.measures.gain);
-    json["outOfBand"] = orNull(r.measures.outOfBand);
-    json["notFinite"] = r.notFinite;
-    json["silentReference"] = r.measures.silentReference;
-    json["events"] = r.events ? toJson(*r.events) : Json(nullptr);
+    Json json{{"reference", task.pair.reference.string()}, {"candidate", task.pair.candidate.string()}};
+    JsonSink sink{json};
+    reportComparison(r, sink);
     json["seconds"] = r.seconds;
     json["timesRealTime"] = r.seconds > 0.0 ? r.duration / r.seconds : 0.0;
     return json;
@@ -219,8 +200,11 @@ nlohmann::ordered_json compareJson(const std::vector<CompareTask>& tasks)
     Json report{{"files", Json::array()}, {"mean", Json::object()}};
     for (const ComparisonFigure& figure : comparisonFigures)
         report["mean"][std::string(figure.key)] = orNull(mean(tasks, figure));
-    const auto events = pooledEvents(tasks);
-    report["events"] = events ? toJson(*events) : Json(nullptr);
+    JsonSink sink{report};
+    if (const auto events = pooledEvents(tasks))
+        sink.group("events", [&](auto& counts) { reportEvents(*events, counts); });
+    else
+        sink.none("events");
     report["duration"] = totals.duration;
     report["seconds"] = totals.seconds;
     report["timesRealTime"] = totals.timesRealTime();

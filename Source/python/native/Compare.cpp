@@ -2,7 +2,7 @@
 
 #include "python/native/Support.h"
 
-#include <pacini/evaluate/Comparison.h>
+#include <pacini/evaluate/ComparisonReport.h>
 #include <pacini/filters/Resampler.h>
 
 #include <nanobind/stl/optional.h>
@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,82 +22,26 @@ namespace pacini::python
 
 namespace
 {
-nb::object orNone(const auto& value)
+/// Sink of a report that fills a dictionary.
+struct DictSink
 {
-    return value ? nb::cast(*value) : nb::none();
-}
+    nb::dict dict;
 
-nb::dict eventsOf(const EventScore& score)
-{
-    nb::dict result;
-    result["f1"] = score.f;
-    result["hits"] = score.truePositives;
-    result["spurious"] = score.falsePositives;
-    result["missed"] = score.falseNegatives;
-    return result;
-}
+    static nb::str key(std::string_view name) { return nb::str(name.data(), name.size()); }
 
-nb::dict partsOf(const HtsScore& score)
-{
-    nb::dict result;
-    result["wide"] = score.wide;
-    result["band"] = score.band;
-    result["spectrum"] = score.spectrum;
-    result["event"] = score.event;
-    return result;
-}
-
-nb::dict partsOf(const MatchParts& parts)
-{
-    nb::dict result;
-    result["attacks"] = parts.attacks;
-    result["envelope"] = parts.envelope;
-    result["roughness"] = parts.roughness;
-    result["brightness"] = parts.brightness;
-    result["movement"] = parts.movement;
-    result["silence"] = parts.silence;
-    return result;
-}
-
-nb::dict impressionOf(const FeltFigures& figures)
-{
-    const FeltImpression impression = feltImpression(figures);
-    nb::dict parts;
-    parts["level"] = figures.level;
-    parts["meanLevel"] = figures.meanLevel;
-    parts["octave"] = figures.octave;
-    parts["pulses"] = figures.pulses;
-    parts["fluctuation"] = figures.fluctuation;
-    nb::dict result;
-    result["strength"] = impression.strength;
-    result["tempo"] = impression.tempo;
-    result["roughness"] = impression.roughness;
-    result["parts"] = parts;
-    return result;
-}
-
-/// The keys of `pacini compare --json`.
-nb::dict dictOf(const Comparison& comparison)
-{
-    nb::dict result;
-    result["duration"] = comparison.duration;
-    result["candidateDuration"] = comparison.candidateDuration;
-    for (const ComparisonFigure& figure : comparisonFigures)
-        result[nb::str(figure.key.data(), figure.key.size())] = orNone(figure.value(comparison));
-    result["matchLag"] = comparison.match ? nb::cast(comparison.matchLag) : nb::none();
-    result["matchAligned"] = comparison.aligned;
-    result["matchParts"] = comparison.match ? nb::object(partsOf(*comparison.match)) : nb::none();
-    result["impression"] = impressionOf(comparison.impression);
-    result["htsParts"] = partsOf(comparison.hts);
-    result["htsFParts"] = partsOf(comparison.htsFidelity);
-    result["lag"] = orNone(comparison.measures.lag);
-    result["gain"] = orNone(comparison.measures.gain);
-    result["outOfBand"] = orNone(comparison.measures.outOfBand);
-    result["notFinite"] = comparison.notFinite;
-    result["silentReference"] = comparison.measures.silentReference;
-    result["events"] = comparison.events ? nb::object(eventsOf(*comparison.events)) : nb::none();
-    return result;
-}
+    template <typename Value>
+    void value(std::string_view name, const Value& value)
+    {
+        dict[key(name)] = value;
+    }
+    void none(std::string_view name) { dict[key(name)] = nb::none(); }
+    void group(std::string_view name, auto&& fill)
+    {
+        DictSink inner;
+        fill(inner);
+        dict[key(name)] = inner.dict;
+    }
+};
 
 void checkRate(const char* where, int rate)
 {
@@ -155,7 +100,9 @@ nb::dict compareSounds(const SoundArray& reference, int referenceRate, const Sou
             return comparison;
         });
     kept = std::move(comparer);
-    return dictOf(take(std::move(compared)));
+    DictSink sink;
+    reportComparison(take(std::move(compared)), sink);
+    return sink.dict;
 }
 } // namespace
 
