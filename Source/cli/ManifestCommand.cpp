@@ -205,9 +205,13 @@ public:
         const auto manifest = openManifest(console, input);
         if (!manifest)
             return Exit::failed;
-        return console.fail(input, {ErrorCode::invalidData, "",
-                                    "is of a conversion; convert again: what failed is tried anew, the rest is up to "
-                                    "date"});
+        return console.fail(
+            input, {ErrorCode::invalidData, "",
+                    manifest->command.empty()
+                        ? std::string("is of a conversion; convert again: what failed is tried anew, the rest is up to "
+                                      "date")
+                        : fmt::format("is of pacini {}; only encode, render and compare can be retried",
+                                      printable(manifest->command))});
     }
 
 private:
