@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace pacini
 {
@@ -14,23 +16,29 @@ namespace
 constexpr double shareOfReading = 0.9;
 } // namespace
 
-Result<Clip> analyse(const AudioData& audio, const EncoderParams& params, const AudioReference& reference,
+Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params, const AudioReference& reference,
                      const GoOn& goOn)
 {
     if (auto valid = validate(params); !valid)
         return valid.error();
-    if (audio.channels < 1 || audio.sampleRate < limits::lowestSampleRate)
+    if (audio.channels() < 1 || audio.rate() < limits::lowestSampleRate)
         return Error{ErrorCode::invalidData, "", "is not a sound that can be analysed"};
     Encoder encoder(params);
-    SoundParts parts(audio.samples, audio.channels);
-    const auto size = static_cast<double>(std::max<std::size_t>(1, audio.samples.size()));
+    const auto channels = static_cast<std::size_t>(audio.channels());
+    std::vector<float> part(soundPartLength(channels));
+    std::size_t done = 0; // frames
     const auto next = [&]() -> SoundPart
     {
-        if (goOn && !goOn(shareOfReading * (1.0 - static_cast<double>(parts.samplesLeft()) / size)))
+        const auto all = static_cast<double>(std::max<std::size_t>(1, audio.frames()));
+        if (goOn && !goOn(shareOfReading * static_cast<double>(done) / all))
             return Error{ErrorCode::invalidData, "", "was cancelled"};
-        return parts();
+        const std::size_t frames = std::min(part.size() / channels, audio.frames() - done);
+        const auto filled = std::span(part).first(frames * channels);
+        audio.read(done, filled);
+        done += frames;
+        return std::span<const float>(filled);
     };
-    auto clip = encodeSound(encoder, {audio.sampleRate, audio.channels}, next);
+    auto clip = encodeSound(encoder, {audio.rate(), audio.channels()}, next);
     if (clip)
     {
         clip->source.file = reference.path.filename().string();

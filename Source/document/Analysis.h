@@ -3,6 +3,7 @@
 // Analysis of a sound for the editor: sound -> clip, as `pacini encode` makes it.
 
 #include "document/AudioReference.h"
+#include "io/StoredAudio.h"
 
 #include <pacini/analysis/Encoder.h>
 
@@ -17,7 +18,7 @@ using GoOn = std::function<bool(double done)>;
 /// The clip of a sound on the grids of `params.quantise` bits, named after its file. Errors: those of validate(params);
 /// invalidData for a sound without channels, and when `goOn` has said no. Takes about a hundredth of the sound's
 /// duration. [worker]
-[[nodiscard]] Result<Clip> analyse(const AudioData& audio, const EncoderParams& params, const AudioReference& reference,
-                                   const GoOn& goOn = {});
+[[nodiscard]] Result<Clip> analyse(const StoredAudio& audio, const EncoderParams& params,
+                                   const AudioReference& reference, const GoOn& goOn = {});
 
 } // namespace pacini

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -18,13 +21,57 @@ namespace
 {
 constexpr std::size_t largestSound = std::size_t(4) << 30;
 
+/// FNV-1a with 64 bits of bytes that come in parts.
+class ContentHash
+{
+public:
+    void add(std::string_view bytes) noexcept
+    {
+        for (const char c : bytes)
+        {
+            hash ^= static_cast<unsigned char>(c);
+            hash *= 0x100000001B3ull;
+        }
+    }
+    [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash); }
+
+private:
+    std::uint64_t hash = 0xCBF29CE484222325ull;
+};
+
+/// Hash and size of a file, which is never in memory as a whole: it may be much larger than its sound.
+struct FileContent
+{
+    std::uint64_t bytes = 0;
+    std::string hash;
+};
+
+Result<FileContent> contentOf(const fs::path& path)
+{
+    const auto file = openRewindable(path);
+    if (!file)
+        return file.error();
+    ContentHash hash;
+    FileContent content;
+    std::vector<char> part(std::size_t(1) << 16);
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), file->get()))
+    {
+        hash.add({part.data(), got});
+        content.bytes += got;
+    }
+    if (std::ferror(file->get()) != 0)
+        return fileError(errno);
+    content.hash = hash.text();
+    return content;
+}
+
 bool sameContent(const fs::path& path, const AudioReference& reference)
 {
     std::error_code error;
     if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != reference.bytes || error)
         return false;
-    const auto bytes = readWholeFile(path, largestSound);
-    return bytes && contentHash(*bytes) == reference.hash;
+    const auto content = contentOf(path);
+    return content && content->hash == reference.hash;
 }
 
 /// A folder and those directly inside it.
@@ -43,34 +90,34 @@ std::vector<fs::path> withSubfolders(const fs::path& folder)
 
 std::string contentHash(std::string_view bytes)
 {
-    std::uint64_t hash = 0xCBF29CE484222325ull;
-    for (const char c : bytes)
-    {
-        hash ^= static_cast<unsigned char>(c);
-        hash *= 0x100000001B3ull;
-    }
-    return fmt::format("{:016x}", hash);
+    ContentHash hash;
+    hash.add(bytes);
+    return hash.text();
 }
 
 Result<DescribedAudio> describeAudio(const fs::path& path, bool embed)
 {
-    auto bytes = readWholeFile(path, largestSound);
-    if (!bytes)
-        return bytes.error();
-    auto audio = readAudio(path);
+    auto content = contentOf(path);
+    if (!content)
+        return content.error();
+    auto audio = StoredAudio::read(path);
     if (!audio)
         return audio.error();
     DescribedAudio described;
     std::error_code error;
     described.reference.path = fs::absolute(path, error).lexically_normal();
-    described.reference.bytes = bytes->size();
-    described.reference.hash = contentHash(*bytes);
-    described.reference.sampleRate = audio->sampleRate;
-    described.reference.channels = audio->channels;
-    described.reference.duration =
-        static_cast<double>(audio->samples.size() / static_cast<std::size_t>(audio->channels)) / audio->sampleRate;
+    described.reference.bytes = content->bytes;
+    described.reference.hash = std::move(content->hash);
+    described.reference.sampleRate = audio->rate();
+    described.reference.channels = audio->channels();
+    described.reference.duration = audio->duration();
     if (embed)
+    {
+        auto bytes = readWholeFile(path, largestSound);
+        if (!bytes)
+            return bytes.error();
         described.reference.embedded = std::make_shared<const std::string>(std::move(*bytes));
+    }
     described.audio = std::move(*audio);
     return described;
 }
@@ -111,18 +158,18 @@ std::vector<AudioReference> foundBy(const fs::path& chosen, std::span<const Audi
     return found;
 }
 
-Result<AudioData> loadAudio(const AudioReference& reference, std::span<const fs::path> folders,
-                            const fs::path& temporaryFolder)
+Result<StoredAudio> loadAudio(const AudioReference& reference, std::span<const fs::path> folders,
+                              const fs::path& temporaryFolder)
 {
     if (!reference.embedded)
     {
         const auto found = locateAudio(reference, folders);
-        return found ? readAudio(found->path) : Result<AudioData>(found.error());
+        return found ? StoredAudio::read(found->path) : Result<StoredAudio>(found.error());
     }
     const fs::path file = temporaryFolder / (".sound-" + reference.hash + reference.path.extension().string());
     if (auto written = writeFileAtomically(file, std::string_view(*reference.embedded)); !written)
         return written.error();
-    auto audio = readAudio(file);
+    auto audio = StoredAudio::read(file);
     std::error_code ignored;
     fs::remove(file, ignored);
     return audio;

@@ -2,7 +2,7 @@
 
 // References to the sounds that a project is made from: recognised when they have moved, embedded on request.
 
-#include "io/AudioReader.h"
+#include "io/StoredAudio.h"
 
 #include <pacini/foundation/Result.h>
 
@@ -46,7 +46,7 @@ struct AudioReference
 struct DescribedAudio
 {
     AudioReference reference;
-    AudioData audio;
+    StoredAudio audio;
 };
 [[nodiscard]] Result<DescribedAudio> describeAudio(const std::filesystem::path& path, bool embed = false);
 
@@ -70,8 +70,8 @@ struct LocatedAudio
 
 /// The samples of a sound: the embedded copy where there is one, else the file as locateAudio() finds it. An embedded
 /// copy passes through a temporary file in `temporaryFolder`.
-[[nodiscard]] Result<AudioData> loadAudio(const AudioReference& reference,
-                                          std::span<const std::filesystem::path> folders,
-                                          const std::filesystem::path& temporaryFolder);
+[[nodiscard]] Result<StoredAudio> loadAudio(const AudioReference& reference,
+                                            std::span<const std::filesystem::path> folders,
+                                            const std::filesystem::path& temporaryFolder);
 
 } // namespace pacini

@@ -10,7 +10,6 @@ void ClipPlayer::prepare(double sampleRate)
 {
     if (engine && rate == sampleRate)
         return;
-    stopResampling();
     worker.reset();
     rate = sampleRate;
     engine = std::make_unique<PreviewEngine>(rate);
@@ -18,7 +17,7 @@ void ClipPlayer::prepare(double sampleRate)
     engine->set(playback);
     engine->setRow(row);
     engine->setControls(controls);
-    resample();
+    engine->setSource(PreviewSource::of(sound, static_cast<int>(std::lround(rate))));
 }
 
 void ClipPlayer::set(Playback wanted)
@@ -42,38 +41,13 @@ void ClipPlayer::setControls(const PlayControls& wanted)
     worker->wake();
 }
 
-void ClipPlayer::setSound(std::shared_ptr<const AudioData> wanted)
+void ClipPlayer::setSound(std::shared_ptr<const StoredAudio> wanted)
 {
     if (sound == wanted)
         return;
-    stopResampling();
     sound = std::move(wanted);
-    engine->setSource(nullptr);
-    resample();
-}
-
-void ClipPlayer::resample()
-{
-    if (!sound)
-        return;
-    resampling = std::thread(
-        [this, from = sound, to = static_cast<int>(std::lround(rate))]
-        {
-            auto made = PreviewSource::of(*from, to, &noLongerWanted);
-            if (!made)
-                return;
-            engine->setSource(std::move(made));
-            worker->wake();
-        });
-}
-
-void ClipPlayer::stopResampling()
-{
-    if (!resampling.joinable())
-        return;
-    noLongerWanted = true;
-    resampling.join();
-    noLongerWanted = false;
+    engine->setSource(PreviewSource::of(sound, static_cast<int>(std::lround(rate))));
+    worker->wake();
 }
 
 void ClipPlayer::stop()

@@ -5,11 +5,9 @@
 #include "document/PreviewEngine.h"
 #include "document/PreviewWorker.h"
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <span>
-#include <thread>
 
 namespace pacini
 {
@@ -19,7 +17,6 @@ class ClipPlayer
 {
 public:
     ClipPlayer() { prepare(48000.0); }
-    ~ClipPlayer() { stopResampling(); }
 
     /// To be called while process() is not, and on the thread that calls everything else here. Stops playing.
     void prepare(double sampleRate);
@@ -34,8 +31,8 @@ public:
     /// See PreviewEngine::setRow() and setControls().
     void setRow(PreviewRow row);
     void setControls(const PlayControls& controls);
-    /// The sound beside the clip; null: none. It is heard when it has been resampled, on a thread of its own.
-    void setSound(std::shared_ptr<const AudioData> sound);
+    /// The sound beside the clip; null: none.
+    void setSound(std::shared_ptr<const StoredAudio> sound);
 
     void play(double time);
     void stop();
@@ -46,18 +43,13 @@ public:
     [[nodiscard]] std::optional<Error> lastError() const { return worker->lastError(); }
 
 private:
-    void resample();
-    void stopResampling();
-
     double rate = 0.0;
     Playback playback;
     PreviewRow row;
     PlayControls controls;
-    std::shared_ptr<const AudioData> sound;
+    std::shared_ptr<const StoredAudio> sound;
     std::unique_ptr<PreviewEngine> engine;
     std::unique_ptr<PreviewWorker> worker; // ends before the engine
-    std::atomic<bool> noLongerWanted{false};
-    std::thread resampling; // ends before the worker
 };
 
 } // namespace pacini

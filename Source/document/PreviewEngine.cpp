@@ -464,6 +464,7 @@ void PreviewEngine::usePlay() noexcept
     if (leaving == nullptr || leaving->content.id != current->content.id ||
         leaving->content.stage != current->content.stage)
         sound = {};
+    sound.forgetSource();
     faded = 0;
 }
 

@@ -8,6 +8,7 @@
 #include <pacini/runtime/Engine.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -66,12 +67,16 @@ public:
     /// As it is put out.
     [[nodiscard]] double heard() const noexcept { return played - static_cast<double>(latency) * step; }
 
+    /// Another sound is beside the play from now on.
+    void forgetSource() noexcept { held = {}; }
+
     /// Adds the sound of the last `gains.size()` frames to `out[c][at ...]`.
     void add(const PreviewPlay& play, double fs, std::span<const std::span<float>> out, std::size_t at,
-             std::span<const float> gains) const noexcept
+             std::span<const float> gains) noexcept
     {
-        if (!begun() || !play.source || play.source->channels.empty())
+        if (!begun() || !play.source || play.source->channels() == 0)
             return;
+        const std::size_t channels = play.source->channels();
         const double joint = std::max(1.0, jointSeconds * fs);
         for (std::size_t i = 0; i < gains.size(); ++i)
         {
@@ -90,11 +95,11 @@ public:
                 gain *= std::min(
                     {1.0, std::max(0.0, (play.way.loopTo - place) * fs - 1.0) / joint, jumped ? since / joint : 1.0});
             }
+            std::array<double, 2> samples{};
+            for (std::size_t c = 0; c < channels; ++c)
+                samples[c] = read(*play.source, c, place * fs);
             for (std::size_t c = 0; c < out.size(); ++c)
-            {
-                const auto& samples = play.source->channels[std::min(c, play.source->channels.size() - 1)];
-                out[c][at + i] += static_cast<float>(gain * read(samples, place * fs));
-            }
+                out[c][at + i] += static_cast<float>(gain * samples[std::min(c, channels - 1)]);
         }
     }
 
@@ -102,23 +107,39 @@ private:
     static constexpr double jointSeconds = 0.002; // over which the sound is faded where a loop jumps
 
     /// Between two samples at other speeds than 1; whole frames are read as they are.
-    static double read(std::span<const float> samples, double frame) noexcept
+    double read(const PreviewSource& source, std::size_t channel, double frame) noexcept
     {
         constexpr double whole = 1e-4;
-        if (frame < -whole || frame >= static_cast<double>(samples.size()))
+        if (frame < -whole || frame >= static_cast<double>(source.frames()))
             return 0.0;
         const auto i = static_cast<std::size_t>(std::max(0.0, frame + whole));
-        if (i >= samples.size())
+        if (i >= source.frames())
             return 0.0;
-        const double part = frame - static_cast<double>(i);
-        const auto here = static_cast<double>(samples[i]);
-        return part < whole || i + 1 >= samples.size() ? here
-                                                       : here + part * (static_cast<double>(samples[i + 1]) - here);
+        Held& part = held[channel];
+        if (i < part.from || i + 2 > part.to)
+        {
+            source.read(channel, i, part.samples);
+            part.from = i;
+            part.to = i + part.samples.size();
+        }
+        const double fraction = frame - static_cast<double>(i);
+        const auto here = static_cast<double>(part.samples[i - part.from]);
+        return fraction < whole || i + 1 >= source.frames()
+                   ? here
+                   : here + fraction * (static_cast<double>(part.samples[i + 1 - part.from]) - here);
     }
+
+    /// Frames [from, to) of a channel that have been read.
+    struct Held
+    {
+        std::size_t from = 0, to = 0;
+        std::array<float, 256> samples;
+    };
 
     double played = 0.0, step = 0.0;
     std::int64_t age = -1; // frames that have been mixed since the play began; -1: it waits
     std::size_t latency = 0;
+    std::array<Held, 2> held{};
 };
 
 } // namespace pacini

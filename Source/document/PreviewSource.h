@@ -2,51 +2,83 @@
 
 // Source sound of a clip at the device's rate, to be played beside the clip.
 
-#include "io/AudioReader.h"
+#include "io/StoredAudio.h"
 
 #include <pacini/filters/Resampler.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
+#include <utility>
 
 namespace pacini
 {
 
-/// A sound at the rate of the device: one or two channels (further ones are left out).
-struct PreviewSource
+/// A sound at the rate of the device: one or two channels (further ones are left out). It is resampled where it is
+/// read, so that it takes no memory beside the sound and is heard at once. Immutable.
+class PreviewSource
 {
-    std::vector<std::vector<float>> channels;
-
-    /// Resamples a sound; takes about a hundredth of its duration. Null once `stopped`. [worker]
-    [[nodiscard]] static std::shared_ptr<const PreviewSource> of(const AudioData& audio, int sampleRate,
-                                                                 const std::atomic<bool>* stopped = nullptr)
+public:
+    /// Designs the filter between both rates in Hz. Null of null.
+    [[nodiscard]] static std::shared_ptr<const PreviewSource> of(std::shared_ptr<const StoredAudio> audio,
+                                                                 int deviceRate)
     {
-        constexpr std::size_t pieceFrames = 1 << 16; // some milliseconds of work
-        auto source = std::make_shared<PreviewSource>();
-        const auto count = static_cast<std::size_t>(std::max(audio.channels, 1));
-        const std::size_t frames = audio.samples.size() / count;
-        const Resampler<float> resampler(std::max(audio.sampleRate, 1), sampleRate);
-        for (std::size_t c = 0; c < std::min<std::size_t>(count, 2); ++c)
-        {
-            std::vector<float> channel(frames);
-            for (std::size_t i = 0; i < frames; ++i)
-                channel[i] = audio.samples[i * count + c];
-            std::vector<float> converted(resampler.outputFrames(frames));
-            for (std::size_t done = 0; done < converted.size(); done += pieceFrames)
-            {
-                if (stopped != nullptr && *stopped)
-                    return nullptr;
-                resampler.process(channel, 0, done,
-                                  std::span(converted).subspan(done, std::min(pieceFrames, converted.size() - done)));
-            }
-            source->channels.push_back(std::move(converted));
-        }
-        return source;
+        if (!audio)
+            return nullptr;
+        return std::make_shared<const PreviewSource>(std::move(audio), deviceRate);
     }
+
+    PreviewSource(std::shared_ptr<const StoredAudio> audio, int deviceRate)
+        : sound(std::move(audio)),
+          resampler(std::max(sound->rate(), 1), deviceRate),
+          count(resampler.outputFrames(sound->frames()))
+    {
+    }
+
+    [[nodiscard]] std::size_t channels() const noexcept
+    {
+        return static_cast<std::size_t>(std::clamp(sound->channels(), 0, 2));
+    }
+    [[nodiscard]] std::size_t frames() const noexcept { return count; }
+
+    /// Frames from `first` on; 0 where there are none. [audio]
+    void read(std::size_t channel, std::size_t first, std::span<float> out) const noexcept
+    {
+        while (!out.empty())
+        {
+            if (first >= count)
+            {
+                std::ranges::fill(out, 0.0f);
+                return;
+            }
+            std::size_t n = std::min(out.size(), count - first);
+            const std::int64_t from = resampler.firstInput(first);
+            const auto inputs = [&]
+            {
+                return static_cast<std::size_t>(resampler.lastInput(first + n - 1) - from + 1);
+            };
+            while (n > 1 && inputs() > window)
+                n /= 2;
+            std::array<float, window> input;
+            const auto needed = std::span(input).first(std::min(inputs(), window));
+            sound->readChannel(channel, from, needed);
+            resampler.process(needed, from, first, out.first(n));
+            out = out.subspan(n);
+            first += n;
+        }
+    }
+
+private:
+    /// Input frames that are held at a time: at least those of one output, at every pair of rates.
+    static constexpr std::size_t window = 8192;
+    static_assert(window > 21 * (limits::highestSampleRate / lowestResamplerRate + 1));
+
+    std::shared_ptr<const StoredAudio> sound;
+    Resampler<float> resampler;
+    std::size_t count;
 };
 
 } // namespace pacini

@@ -272,6 +272,11 @@ std::uint64_t AudioReader::replacedSamples() const noexcept
     return state->replaced;
 }
 
+Error tooManyFrames(std::uint64_t maximumFrames)
+{
+    return {ErrorCode::tooLarge, "", fmt::format("is longer than {} frames; cut it into parts", maximumFrames)};
+}
+
 Result<AudioData> readAudio(const fs::path& path, AudioReadOptions options, std::uint64_t maximumFrames)
 {
     auto opened = AudioReader::open(path, options);
@@ -293,8 +298,7 @@ Result<AudioData> readAudio(const fs::path& path, AudioReadOptions options, std:
     if (!done)
         return done.error();
     if (!fits)
-        return Error{ErrorCode::tooLarge, "",
-                     fmt::format("is longer than {} frames; cut it into parts", maximumFrames)};
+        return tooManyFrames(maximumFrames);
     audio.replacedSamples = reader.replacedSamples();
     return audio;
 }

@@ -98,8 +98,16 @@ struct AudioData
     std::uint64_t replacedSamples = 0;
 };
 
-/// Reads a whole file. Errors as in AudioReader, and tooLarge for more than `maximumFrames` (default: 24 h at 48 kHz).
+namespace limits
+{
+inline constexpr std::uint64_t audioFrames = 24ull * 3600 * 48000; ///< in memory: 24 h at 48 kHz
+} // namespace limits
+
+/// The Error (tooLarge) for a file that is longer than `maximumFrames`.
+[[nodiscard]] Error tooManyFrames(std::uint64_t maximumFrames);
+
+/// Reads a whole file. Errors as in AudioReader, and tooLarge for more than `maximumFrames`.
 [[nodiscard]] Result<AudioData> readAudio(const std::filesystem::path& path, AudioReadOptions options = {},
-                                          std::uint64_t maximumFrames = 24ull * 3600 * 48000);
+                                          std::uint64_t maximumFrames = limits::audioFrames);
 
 } // namespace pacini

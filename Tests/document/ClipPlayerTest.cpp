@@ -32,13 +32,13 @@ Playback playbackOf(std::shared_ptr<const Clip> clip)
     return playback;
 }
 
-std::shared_ptr<const AudioData> constantSound(double duration, float level)
+std::shared_ptr<const StoredAudio> constantSound(double duration, float level)
 {
     AudioData audio;
     audio.sampleRate = 22050;
     audio.channels = 1;
     audio.samples.assign(static_cast<std::size_t>(22050.0 * duration), level);
-    return std::make_shared<const AudioData>(std::move(audio));
+    return std::make_shared<const StoredAudio>(audio);
 }
 
 struct Heard
@@ -118,7 +118,7 @@ TEST_CASE("Actuator and strength stay when the device changes its rate")
     CHECK(loudest(1.0) > 1.5f * loudest(0.0));
 }
 
-TEST_CASE("Another sound, or none, takes the place of one that is still being resampled")
+TEST_CASE("Another sound takes the place of the one that is played")
 {
     ClipPlayer player;
     player.set(playbackOf(tone(100.0)));
@@ -131,8 +131,16 @@ TEST_CASE("Another sound, or none, takes the place of one that is still being re
         player.process(std::span(&haptic, 1), sound);
     };
     CHECK(listen(process, both).sound == Approx(0.25f).margin(0.01));
-    const std::atomic<bool> stopped{true};
-    CHECK(PreviewSource::of(*constantSound(1.0, 0.5f), 48000, &stopped) == nullptr);
+    player.setSound(nullptr);
+    const auto blocks = [](int count)
+    {
+        return [count](const Heard&) mutable
+        {
+            return count-- == 0;
+        };
+    };
+    static_cast<void>(listen(process, blocks(100))); // it fades out
+    CHECK(listen(process, blocks(20)).sound == 0.0f);
 }
 
 TEST_CASE("A project in a plugin is kept for the host though no editor was ever opened")

@@ -17,7 +17,7 @@ using namespace pacini;
 namespace
 {
 /// Clicks with a decaying tone, at the given times.
-AudioData clicks(const std::vector<double>& times, double duration, float noise = 0.0f)
+StoredAudio clicks(const std::vector<double>& times, double duration, float noise = 0.0f)
 {
     AudioData audio;
     audio.sampleRate = 48000;
@@ -35,7 +35,7 @@ AudioData clicks(const std::vector<double>& times, double duration, float noise 
                 audio.samples[at] +=
                     static_cast<float>(0.6 * std::exp(-t / 0.03) * std::sin(2.0 * std::numbers::pi * 180.0 * t));
         }
-    return audio;
+    return StoredAudio(audio);
 }
 
 const std::vector<double> times = {0.3, 0.9, 1.4, 2.1, 2.9, 3.3};

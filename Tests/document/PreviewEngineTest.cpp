@@ -316,7 +316,7 @@ TEST_CASE("A loop goes round and round, clip and sound together")
     playback.loop = TimeRange{0.5, 1.0};
     playback.source = true;
     engine.set(playback);
-    engine.setSource(PreviewSource::of(audio, 48000));
+    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
     engine.play(0.25);
     REQUIRE(engine.service());
     std::vector<float> haptic(40 * 48000), sound(haptic.size());
@@ -350,7 +350,7 @@ TEST_CASE("Source and drive signal are switched without a jump")
     PreviewEngine engine(fs);
     Playback playback = playbackOf(tone(2.0, 0.5));
     engine.set(playback);
-    engine.setSource(PreviewSource::of(audio, 48000));
+    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
     engine.play(0.0);
     REQUIRE(engine.service());
     std::vector<float> haptic(9600), left(9600), right(9600);
@@ -551,7 +551,7 @@ TEST_CASE("Another actuator is faded to where the clip is, sound and touch toget
     Playback playback = playbackOf(std::make_shared<const Clip>(clip));
     playback.source = true;
     engine.set(playback);
-    engine.setSource(PreviewSource::of(audio, 48000));
+    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
     engine.play(0.0);
     REQUIRE(engine.service());
     std::vector<float> drive, sound;

@@ -11,7 +11,7 @@ using namespace pacini;
 
 namespace
 {
-AudioData tone(double duration)
+StoredAudio tone(double duration)
 {
     AudioData audio;
     audio.sampleRate = 48000;
@@ -20,7 +20,7 @@ AudioData tone(double duration)
     for (std::size_t i = 0; i < audio.samples.size(); ++i)
         audio.samples[i] =
             static_cast<float>(0.5 * std::sin(2.0 * std::numbers::pi * 200.0 * static_cast<double>(i / 2) / 48000.0));
-    return audio;
+    return StoredAudio(audio);
 }
 
 std::string titleOf(EditOperation operation)
@@ -31,7 +31,7 @@ std::string titleOf(EditOperation operation)
 
 TEST_CASE("An analysis tells its progress from 0 upwards and gives the same clip as one that is not asked")
 {
-    const AudioData audio = tone(6.0);
+    const StoredAudio audio = tone(6.0);
     std::vector<double> told;
     const auto watched = analyse(audio, {}, {},
                                  [&](double done)
@@ -50,7 +50,7 @@ TEST_CASE("An analysis tells its progress from 0 upwards and gives the same clip
 
 TEST_CASE("An analysis that is stopped ends there, whenever that is")
 {
-    const AudioData audio = tone(6.0);
+    const StoredAudio audio = tone(6.0);
     for (const int last : {0, 1, 3})
     {
         int asked = 0;

@@ -78,7 +78,7 @@ std::shared_ptr<const editor::Sound> longSound()
     audio.samples.resize(600 * 8000);
     for (float& sample : audio.samples)
         sample = static_cast<float>(random.uniform(-0.5, 0.5));
-    return std::make_shared<const editor::Sound>(std::move(audio));
+    return std::make_shared<const editor::Sound>(StoredAudio(audio));
 }
 
 void addLong(editor::Session& session)
@@ -212,7 +212,7 @@ TEST_CASE("Scrolling and zooming ten minutes with 50 000 breakpoints, a spectrog
     {
         const auto sound = bench.session.sounds.soundOfClip();
         const SpectrumRows rows;
-        SpectrumAnalyzer analyser(sound->mono, static_cast<double>(sound->audio.sampleRate), rows);
+        SpectrumAnalyzer analyser(sound->mono, static_cast<double>(sound->audio.rate()), rows);
         Spectrogram spectrogram(600.0, rows);
         const auto start = Clock::now();
         std::size_t tiles = 0;

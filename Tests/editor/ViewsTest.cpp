@@ -65,7 +65,7 @@ editor::Imported toneFrom2s()
     for (std::size_t i = 16000; i < audio.samples.size(); ++i)
         audio.samples[i] =
             static_cast<float>(0.5 * std::sin(2.0 * 3.14159265358979 * 100.0 * static_cast<double>(i) / 8000.0));
-    imported.sound = std::make_shared<const editor::Sound>(std::move(audio));
+    imported.sound = std::make_shared<const editor::Sound>(StoredAudio(audio));
     imported.reference.id = 1;
     imported.reference.path = "/tone.wav";
     imported.reference.duration = 4.0;

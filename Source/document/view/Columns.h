@@ -2,14 +2,18 @@
 
 // Column reduction of curves and sounds: the extremes in each column of pixels.
 
+#include "document/view/MonoSource.h"
 #include "document/view/TimeAxis.h"
 
 #include <pacini/clip/Curve.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -56,11 +60,11 @@ class WaveformPeaks
 {
 public:
     /// One channel. The samples must outlive this. [worker]
-    WaveformPeaks(std::span<const float> channel, double sampleRate) : samples(channel), fs(sampleRate)
+    WaveformPeaks(MonoSource channel, double sampleRate) : sound(std::move(channel)), fs(sampleRate)
     {
         std::vector<Column> level;
-        for (std::size_t i = 0; i < samples.size(); i += base)
-            level.push_back(ofSamples(i, std::min(i + base, samples.size())));
+        for (std::size_t i = 0; i < sound.frames(); i += base)
+            level.push_back(ofSamples(i, std::min(i + base, sound.frames())));
         while (level.size() > 1)
         {
             std::vector<Column> coarser;
@@ -80,7 +84,7 @@ public:
             const double to = axis.timeAt(static_cast<double>(i) + 1.0) * fs;
             const auto limit = [&](double frame)
             {
-                return static_cast<std::size_t>(std::clamp(frame, 0.0, static_cast<double>(samples.size())));
+                return static_cast<std::size_t>(std::clamp(frame, 0.0, static_cast<double>(sound.frames())));
             };
             const std::size_t begin = limit(from);
             const std::size_t end = std::max(limit(to), std::min(begin + 1, limit(to + 1.0)));
@@ -92,10 +96,13 @@ private:
     static constexpr std::size_t base = 64;
     static constexpr std::size_t ratio = 8;
 
+    /// Of at most 3 `base` frames, at least one.
     [[nodiscard]] Column ofSamples(std::size_t begin, std::size_t end) const
     {
-        const auto [low, high] = std::minmax_element(samples.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                     samples.begin() + static_cast<std::ptrdiff_t>(end));
+        std::array<float, 3 * base> buffer;
+        const std::span<float> samples = std::span(buffer).first(std::min(end - begin, buffer.size()));
+        sound.read(static_cast<std::int64_t>(begin), samples);
+        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
         return {*low, *high};
     }
 
@@ -138,7 +145,7 @@ private:
         return all;
     }
 
-    std::span<const float> samples;
+    MonoSource sound;
     double fs;
     std::vector<std::vector<Column>> levels;
 };

@@ -2,6 +2,8 @@
 
 // Spectrum of a sound at one time, on a logarithmic frequency axis.
 
+#include "document/view/MonoSource.h"
+
 #include <pacini/foundation/Fft.h>
 #include <pacini/foundation/Windows.h>
 
@@ -12,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pacini
@@ -59,8 +62,8 @@ class SpectrumAnalyzer
 {
 public:
     /// Of one channel, which must outlive this, at `sampleRate` Hz.
-    SpectrumAnalyzer(std::span<const float> channel, double sampleRate, const SpectrumRows& wanted)
-        : samples(channel), fs(sampleRate)
+    SpectrumAnalyzer(MonoSource channel, double sampleRate, const SpectrumRows& wanted)
+        : sound(std::move(channel)), fs(sampleRate)
     {
         for (const double seconds : windows)
         {
@@ -85,7 +88,7 @@ public:
         {
             if (part.rows.empty())
                 continue;
-            part.transform(samples, std::llround(time * fs));
+            part.transform(sound, std::llround(time * fs));
             for (const Row& row : part.rows)
                 sums[row.index] += row.share * SpectrumLevel::decibelsOf(part.strongest(row));
         }
@@ -132,17 +135,11 @@ private:
             scale = 4.0 / (sum * sum); // a sinusoid of amplitude 1 has power 1
         }
 
-        void transform(std::span<const float> sound, std::int64_t centre)
+        void transform(const MonoSource& sound, std::int64_t centre)
         {
-            const auto size = static_cast<std::int64_t>(frame.size());
-            const std::int64_t from = centre - size / 2;
-            const auto end = static_cast<std::int64_t>(sound.size());
-            for (std::int64_t i = 0; i < size; ++i)
-            {
-                const bool inside = from + i >= 0 && from + i < end;
-                const auto at = static_cast<std::size_t>(i);
-                frame[at] = inside ? window[at] * sound[static_cast<std::size_t>(from + i)] : 0.0f;
-            }
+            sound.read(centre - static_cast<std::int64_t>(frame.size() / 2), frame);
+            for (std::size_t i = 0; i < frame.size(); ++i)
+                frame[i] *= window[i];
             fft.forward(frame, spectrum);
             for (std::size_t k = 0; k < powers.size(); ++k)
                 powers[k] = scale * static_cast<double>(std::norm(spectrum[k]));
@@ -176,7 +173,7 @@ private:
         double scale = 1.0;
     };
 
-    std::span<const float> samples;
+    MonoSource sound;
     double fs;
     std::vector<Part> parts;
     std::vector<double> sums; ///< dB

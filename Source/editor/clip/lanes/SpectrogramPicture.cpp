@@ -38,11 +38,11 @@ void SpectrogramPicture::show(std::shared_ptr<const Sound> wanted, bool wholeSpe
     spectrogram.reset();
     stale = true;
     scale = SpectrumRows{};
-    if (!sound || sound->mono.empty())
+    if (!sound || sound->mono.frames() == 0)
         return;
-    const auto fs = static_cast<double>(sound->audio.sampleRate);
+    const auto fs = static_cast<double>(sound->audio.rate());
     scale.high = whole ? std::max(100.0, 0.5 * fs) : feltHigh;
-    spectrogram.emplace(static_cast<double>(sound->mono.size()) / fs, scale);
+    spectrogram.emplace(sound->audio.duration(), scale);
     column.resize(scale.count);
 }
 

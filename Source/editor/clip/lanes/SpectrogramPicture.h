@@ -43,7 +43,7 @@ private:
     struct Source
     {
         Source(std::shared_ptr<const Sound> from, const SpectrumRows& wanted)
-            : sound(std::move(from)), analyser(sound->mono, static_cast<double>(sound->audio.sampleRate), wanted)
+            : sound(std::move(from)), analyser(sound->mono, static_cast<double>(sound->audio.rate()), wanted)
         {
         }
         std::shared_ptr<const Sound> sound;

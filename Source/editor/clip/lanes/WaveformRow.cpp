@@ -187,8 +187,8 @@ void WaveformRow::paintHead(juce::Graphics& g, const Sound* sound)
     g.drawFittedText(tr("Sound"), head.removeFromTop(19), juce::Justification::centredLeft, 1);
     g.setColour(p.dim);
     g.setFont(smallFont());
-    g.drawFittedText(sound != nullptr ? tr("{0} kHz, {1} ch", {juce::String(sound->audio.sampleRate / 1000.0, 1),
-                                                               juce::String(sound->audio.channels)})
+    g.drawFittedText(sound != nullptr ? tr("{0} kHz, {1} ch", {juce::String(sound->audio.rate() / 1000.0, 1),
+                                                               juce::String(sound->audio.channels())})
                                       : tr("none"),
                      head, juce::Justification::centredLeft, 1);
 }

@@ -132,7 +132,7 @@ double EditorModel::duration() const
 {
     if (const auto now = clip())
         return now->duration;
-    return unanalysed ? unanalysed->duration() : 0.0;
+    return unanalysed ? unanalysed->audio.duration() : 0.0;
 }
 
 void EditorModel::show(int clipId)

@@ -6,11 +6,15 @@
 #include "document/Analysis.h"
 #include "document/AudioReference.h"
 #include "document/view/Columns.h"
+#include "document/view/MonoSource.h"
+#include "io/StoredAudio.h"
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace pacini::editor
@@ -20,42 +24,31 @@ namespace pacini::editor
 class Sound
 {
 public:
-    explicit Sound(AudioData data)
-        : audio(std::move(data)), mono(meanOf(audio)), peaks(mono, static_cast<double>(audio.sampleRate))
+    explicit Sound(StoredAudio stored)
+        : audio(std::move(stored)), mono(meanOf(audio)), peaks(mono, static_cast<double>(audio.rate()))
     {
     }
     Sound(const Sound&) = delete;
     Sound& operator=(const Sound&) = delete;
 
-    [[nodiscard]] double duration() const ///< s
-    {
-        return static_cast<double>(mono.size()) / static_cast<double>(audio.sampleRate);
-    }
-
-    const AudioData audio;
-    const std::vector<float> mono;
+    const StoredAudio audio;
+    const MonoSource mono; ///< of `audio`
     const WaveformPeaks peaks;
 
 private:
-    static std::vector<float> meanOf(const AudioData& data)
+    static MonoSource meanOf(const StoredAudio& audio)
     {
-        const auto channels = static_cast<std::size_t>(data.channels > 0 ? data.channels : 1);
-        std::vector<float> mean(data.samples.size() / channels);
-        for (std::size_t i = 0; i < mean.size(); ++i)
-        {
-            float sum = 0.0f;
-            for (std::size_t c = 0; c < channels; ++c)
-                sum += data.samples[i * channels + c];
-            mean[i] = sum / static_cast<float>(channels);
-        }
-        return mean;
+        return {audio.frames(), [&audio](std::int64_t first, std::span<float> out)
+                {
+                    audio.readMean(first, out);
+                }};
     }
 };
 
 /// The samples of a sound, which they keep alive; null of null.
-[[nodiscard]] inline std::shared_ptr<const AudioData> audioOf(const std::shared_ptr<const Sound>& sound)
+[[nodiscard]] inline std::shared_ptr<const StoredAudio> audioOf(const std::shared_ptr<const Sound>& sound)
 {
-    return sound ? std::shared_ptr<const AudioData>(sound, &sound->audio) : nullptr;
+    return sound ? std::shared_ptr<const StoredAudio>(sound, &sound->audio) : nullptr;
 }
 
 /// Content of an imported file: a sound with its analysis, or a clip.
