@@ -5,6 +5,7 @@
 #include "document/ItemEdits.h"
 #include "document/OperationCheck.h"
 #include "document/ProjectJson.h"
+#include "document/ProjectScene.h"
 #include "io/AtomicFile.h"
 #include "io/InputFile.h"
 
@@ -274,10 +275,16 @@ Result<int> Document::duplicateClip(int id, std::string name)
 
 Result<void> Document::removeClip(int id, std::string name)
 {
-    if (!clip(id))
-        return noSuchClip(id);
+    return removeClips(std::span(&id, 1), std::move(name));
+}
+
+Result<void> Document::removeClips(std::span<const int> ids, std::string name)
+{
+    for (const int id : ids)
+        if (!clip(id))
+            return noSuchClip(id);
     Project next = content;
-    std::erase_if(next.clips, [&](const auto& item) { return item->id == id; });
+    std::erase_if(next.clips, [&](const auto& item) { return std::ranges::find(ids, item->id) != ids.end(); });
     commit(std::move(name), std::move(next));
     return {};
 }
@@ -355,14 +362,33 @@ Result<void> Document::joinClip(int id, int other, std::string name)
     return {};
 }
 
-Result<void> Document::setGroup(int id, std::string group, std::string name)
+Result<void> Document::setGroup(std::span<const int> ids, const std::string& group, std::string name)
 {
-    const auto old = clip(id);
-    if (!old)
-        return noSuchClip(id);
-    ClipItem item = *old;
-    item.group = std::move(group);
-    return replaceItem(std::move(item), std::move(name));
+    Project next = content;
+    if (!group.empty() && std::find(next.groups.begin(), next.groups.end(), group) == next.groups.end())
+        next.groups.push_back(group);
+    for (const int id : ids)
+    {
+        const auto found =
+            std::find_if(next.clips.begin(), next.clips.end(), [id](const auto& item) { return item->id == id; });
+        if (found == next.clips.end())
+            return noSuchClip(id);
+        auto moved = std::make_shared<ClipItem>(**found);
+        moved->group = group;
+        *found = std::move(moved);
+    }
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
+Result<void> Document::setScene(ProjectScene scene, std::string name, Gesture gesture)
+{
+    if (auto valid = validate(scene); !valid)
+        return valid;
+    Project next = gesture != 0 && gesture == openGesture ? beforeGesture : content;
+    next.scene = std::move(scene);
+    commit(std::move(name), std::move(next), gesture);
+    return {};
 }
 
 Result<void> Document::setNotes(int id, std::string notes, std::string name)

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,6 +105,8 @@ public:
 
     Result<int> duplicateClip(int id, std::string name);
     Result<void> removeClip(int id, std::string name);
+    /// Several at once; invalidArgument, and none is removed, where there is no such clip.
+    Result<void> removeClips(std::span<const int> ids, std::string name);
 
     /// Splits a clip in two; the right part is a new clip behind it, whose id is returned.
     Result<int> splitClipAt(int id, double time, std::string name);
@@ -116,10 +119,18 @@ public:
     /// invalidArgument: there is no such clip, or both are one; else the errors of joinClips().
     Result<void> joinClip(int id, int other, std::string name);
 
-    Result<void> setGroup(int id, std::string group, std::string name);
+    /// Puts clips into a group, which is added when it is new, in their places; empty: out of theirs.
+    Result<void> setGroup(std::span<const int> ids, const std::string& group, std::string name);
+    Result<void> setGroup(int id, const std::string& group, std::string name)
+    {
+        return setGroup(std::span(&id, 1), group, std::move(name));
+    }
     Result<void> setNotes(int id, std::string notes, std::string name);
     void setProjectNotes(std::string notes, std::string name);
     void setGroups(std::vector<std::string> groups, std::string name);
+
+    /// Within a gesture, one step. Errors: those of validate(scene), then nothing is changed.
+    Result<void> setScene(ProjectScene scene, std::string name, Gesture gesture = 0);
 
     /// Gives a group another name; that of another group joins the two, an empty one leaves its clips without a group.
     void renameGroup(const std::string& from, const std::string& to, std::string name);

@@ -9,6 +9,8 @@
 #include <pacini/actuator/ActuatorFit.h>
 #include <pacini/actuator/Profile.h>
 #include <pacini/analysis/Encoder.h>
+#include <pacini/clip/Curve.h>
+#include <pacini/synthesis/Scene.h>
 
 #include <memory>
 #include <optional>
@@ -46,6 +48,39 @@ struct ProjectProfile
     return value >= 0.0 && value <= 1.0;
 }
 
+/// Breakpoint curve of one parameter of a scene's part, from its start on: levels, pan and delay glide between the
+/// points, the pitch steps at each.
+struct SceneCurve
+{
+    SceneParameter parameter = SceneParameter::pan;
+    Curve points; ///< s from the part's start; at least one
+    bool operator==(const SceneCurve&) const = default;
+};
+
+/// A clip of the project in the scene.
+struct ScenePart
+{
+    int clip = 0;  ///< its id; a part whose clip is gone stays, and is not played
+    int track = 0; ///< from 0: where it is shown
+    double start = 0.0;
+    double gain = 0.0; ///< dB
+    double pan = 0.5;
+    double transposition = 0.0; ///< semitones
+    double delay = 0.0;         ///< s
+    int priority = 0;           ///< 0 is kept longest
+    std::vector<SceneCurve> curves;
+    bool operator==(const ScenePart&) const = default;
+};
+
+/// Clips of the project on tracks, which play together; see sceneOf().
+struct ProjectScene
+{
+    int actuators = 1; ///< 1 to 16
+    PanLaw panLaw = PanLaw::constantPower;
+    std::vector<ScenePart> parts;
+    bool operator==(const ProjectScene&) const = default;
+};
+
 struct Project
 {
     std::string notes;
@@ -53,6 +88,7 @@ struct Project
     std::vector<std::shared_ptr<const ClipItem>> clips;
     std::vector<std::string> groups; ///< in the order in which they are shown
     ProjectProfile profile;
+    ProjectScene scene;
 
     [[nodiscard]] std::shared_ptr<const ClipItem> find(int id) const
     {
@@ -95,7 +131,8 @@ struct Project
     for (std::size_t i = 0; i < a.clips.size(); ++i)
         if (a.clips[i] != b.clips[i] && !(*a.clips[i] == *b.clips[i]))
             return false;
-    return a.notes == b.notes && a.sources == b.sources && a.groups == b.groups && a.profile == b.profile;
+    return a.notes == b.notes && a.sources == b.sources && a.groups == b.groups && a.profile == b.profile &&
+           a.scene == b.scene;
 }
 
 } // namespace pacini

@@ -6,6 +6,7 @@
 #include "document/ProjectJson.h"
 #include "io/Fields.h"
 #include "io/ProfileFields.h"
+#include "io/SceneFields.h"
 
 #include <array>
 #include <charconv>
@@ -233,6 +234,37 @@ void visitProfile(Chosen& chosen, Visitor& visitor)
         if (!chosen.name.empty() || chosen.embedded)
             chosen.strength = 0.0; // before there was such a field, actuators were played as flat as can be
     visitor.number("strength", chosen.strength, Need::usual);
+}
+
+template <typename Scene, typename Visitor>
+void visitScene(Scene& scene, Visitor& visitor)
+{
+    visitor.integer("actuators", scene.actuators, "must be a whole number");
+    visitor.choice("panLaw", scene.panLaw, sceneFields::panLaws, Need::usual);
+    visitor.list("parts", scene.parts, limits::plays, "parts",
+                 [&](auto& part)
+                 {
+                     visitor.integer("clipId", part.clip, "must be a whole number");
+                     visitor.integer("track", part.track, "must be a whole number");
+                     visitor.number("start", part.start, Need::usual);
+                     visitor.number("gain", part.gain, Need::usual);
+                     visitor.number("pan", part.pan, Need::usual);
+                     visitor.number("transposition", part.transposition, Need::usual);
+                     visitor.number("delay", part.delay, Need::usual);
+                     visitor.integer("priority", part.priority, "must be a whole number");
+                     visitor.list("curves", part.curves, most, "curves",
+                                  [&](auto& curve)
+                                  {
+                                      visitor.choice("parameter", curve.parameter, sceneFields::parameters,
+                                                     Need::required);
+                                      visitor.list("points", curve.points, limits::sceneChanges, "points",
+                                                   [&](auto& point)
+                                                   {
+                                                       visitor.number("time", point.time, Need::required);
+                                                       visitor.number("value", point.value, Need::required);
+                                                   });
+                                  });
+                 });
 }
 
 } // namespace pacini::projectFields

@@ -2,6 +2,7 @@
 
 #include "document/Base64.h"
 #include "document/ProjectFields.h"
+#include "document/ProjectScene.h"
 #include "io/FieldsHandler.h"
 #include "io/FieldsReader.h"
 #include "io/FieldsWriter.h"
@@ -182,6 +183,8 @@ std::optional<Error> checkReferences(const Project& project)
             return wrong("profile.content." + valid.error().where, valid.error().message);
     if (!isStrength(project.profile.strength))
         return wrong("profile.strength", "must be 0 to 1");
+    if (auto valid = validate(project.scene); !valid)
+        return wrong("scene." + valid.error().where, valid.error().message);
     return {};
 }
 } // namespace
@@ -210,6 +213,9 @@ std::string projectJson(const Project& project, const ProjectTextOptions& option
                 [&](const std::string& group) { writer.text("name", group); });
     writer.object("profile", project.profile, Need::optional,
                   [&](const ProjectProfile& profile) { visitProfile(profile, writer); });
+    if (!(project.scene == ProjectScene{}))
+        writer.object("scene", project.scene, Need::optional,
+                      [&](const ProjectScene& scene) { visitScene(scene, writer); });
     writer.list("clips", project.clips, most, "clips",
                 [&](const std::shared_ptr<const ClipItem>& item)
                 {
@@ -264,6 +270,7 @@ Result<ReadProject> readProjectJson(std::string_view text, const fs::path& folde
     reader.list("groups", project.groups, most, "groups", [&](std::string& group) { reader.text("name", group); });
     reader.object("profile", project.profile, Need::optional,
                   [&](ProjectProfile& profile) { visitProfile(profile, reader); });
+    reader.object("scene", project.scene, Need::optional, [&](ProjectScene& scene) { visitScene(scene, reader); });
     reader.list("clips", project.clips, most, "clips",
                 [&](std::shared_ptr<const ClipItem>& place)
                 {

@@ -106,7 +106,7 @@ TEST_CASE("A clip may be placed in a group that is new")
 {
     Shelf shelf;
     REQUIRE(shelf.document.placeClip(shelf.ids["b"], 0, "new", "Move"));
-    CHECK(shelf.text() == "a [empty] [hits] c e [new] b [rain] d");
+    CHECK(shelf.text() == "a [empty] [hits] c e [rain] d [new] b");
     CHECK_FALSE(shelf.document.placeClip(99, 0, "new", "Move"));
 }
 
