@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/scene/SceneSheet.h"
+
+#include "editor/Controls.h"
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/Translation.h"
+#include "io/SceneFile.h"
+
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/ScenePlayer.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr int wholeWindow = 4000; // more than any has
+constexpr int controlHeight = 30;
+constexpr double sceneRate = 48000.0;
+constexpr std::array<SceneParameter, 4> offered{SceneParameter::pan, SceneParameter::gain,
+                                                SceneParameter::transposition, SceneParameter::delay};
+
+/// What the worker finds out about a scene.
+struct SceneNews
+{
+    std::map<std::size_t, juce::String> leftOut; ///< by part
+    std::size_t bands = 0;                       ///< left out of parts that play
+    double error = 0.0;                          ///< dB below the scene
+    juce::String failure;
+};
+
+/// The part that "plays[3]" or "plays[3].bands[1]" is of.
+std::optional<std::size_t> partOf(const std::string& where, const BuiltScene& built)
+{
+    constexpr std::string_view plays = "plays[";
+    std::size_t index = 0;
+    if (!where.starts_with(plays) ||
+        std::from_chars(where.data() + plays.size(), where.data() + where.size(), index).ec != std::errc() ||
+        index >= built.parts.size())
+        return {};
+    return built.parts[index];
+}
+
+Result<RenderPlan> planOf(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
+{
+    CompileParams params;
+    params.sampleRate = sceneRate;
+    params.adaptation.strength = strength;
+    return compilePlan(built.scene, profile ? &*profile : nullptr, params);
+}
+
+SceneNews newsOf(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
+{
+    SceneNews news;
+    const auto planned = planOf(built, profile, strength);
+    if (!planned)
+    {
+        news.failure = toText(planned.error().text());
+        return news;
+    }
+    news.error = planned->predictedError;
+    for (const LeftOut& one : planned->leftOut)
+        if (const auto part = partOf(one.where, built))
+        {
+            if (one.where.find('.') == std::string::npos)
+                news.leftOut[*part] = toText(one.reason);
+            else
+                ++news.bands;
+        }
+    return news;
+}
+
+/// The drive signals of a scene, as `pacini render` makes them.
+Result<StoredAudio> rendered(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
+{
+    auto planned = planOf(built, profile, strength);
+    if (!planned)
+        return planned.error();
+    const std::size_t channels = planned->actuators;
+    ScenePlayer player(std::move(planned).value(), ScenePlayerParams{.sampleRate = sceneRate});
+    AudioData audio{static_cast<int>(sceneRate), static_cast<int>(channels), {}, 0};
+    const auto frames = static_cast<std::size_t>(std::max<std::int64_t>(0, player.totalFrames()));
+    audio.samples.resize(frames * channels);
+    constexpr std::size_t blockFrames = 4096;
+    std::vector<std::vector<float>> block(channels, std::vector<float>(blockFrames));
+    for (std::size_t done = 0; done < frames; done += blockFrames)
+    {
+        const std::size_t n = std::min(blockFrames, frames - done);
+        std::vector<std::span<float>> out;
+        for (auto& channel : block)
+            out.push_back(std::span(channel).first(n));
+        player.process(out);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t c = 0; c < channels; ++c)
+                audio.samples[(done + i) * channels + c] = block[c][i];
+    }
+    return StoredAudio(audio);
+}
+} // namespace
+
+SceneSheet::SceneSheet(Session& shared)
+    : Sheet("Scene", wholeWindow, wholeWindow),
+      session(shared),
+      selection(shared.model),
+      line(shared.model, selection),
+      curve(shared.model, selection),
+      playButton("Play"),
+      removeButton("Remove"),
+      removeCurveButton("Remove curve"),
+      fitButton("Fit"),
+      exportButton(toText("Export scene…"))
+{
+    const auto label = [this](juce::Label& one, const juce::String& text)
+    {
+        one.setText(text, juce::dontSendNotification);
+        one.setFont(smallFont());
+        one.setAccessible(false);
+        addAndMakeVisible(one);
+    };
+    label(clipsLabel, "Add clip");
+    label(actuatorsLabel, "Actuators");
+    label(lawLabel, "Panning");
+    label(parameterLabel, "Curve");
+    label(valueLabel, "Value");
+    label(priorityLabel, "Priority");
+    label(note, {});
+    note.setAccessible(true);
+    clips.setTitle("Add clip");
+    clips.setTooltip("Adds a clip of the project at the cursor");
+    clips.setTextWhenNothingSelected(tr("Choose a clip"));
+    clips.onChange = [this]
+    {
+        if (const int id = clips.getSelectedId(); id > 0)
+            selection.add(id, line.cursor());
+        clips.setSelectedId(0, juce::dontSendNotification);
+    };
+    actuators.setTitle("Actuators");
+    actuators.setTooltip("How many actuators stand in a row, from pan 0 to pan 1");
+    for (int i = 1; i <= limits::actuators; ++i)
+        actuators.addItem(juce::String(i), i);
+    actuators.onChange = [this]
+    {
+        selection.edit("Actuators of scene",
+                       [this](ProjectScene& scene) { scene.actuators = actuators.getSelectedId(); });
+    };
+    law.setTitle("Panning");
+    law.setTooltip("How the position moves over the actuators");
+    law.addItemList({"By level", "By delay", "Both"}, 1);
+    law.onChange = [this]
+    {
+        selection.edit("Panning of scene",
+                       [this](ProjectScene& scene) { scene.panLaw = static_cast<PanLaw>(law.getSelectedId() - 1); });
+    };
+    parameter.setTitle("Curve");
+    parameter.setTooltip("What the curve changes while the clip plays");
+    parameter.addItemList({"Position", "Gain", "Pitch", "Delay"}, 1);
+    parameter.setSelectedId(1, juce::dontSendNotification);
+    parameter.onChange = [this]
+    {
+        curve.show(offered[static_cast<std::size_t>(std::max(0, parameter.getSelectedItemIndex()))]);
+        follow();
+    };
+    value.setTitle("Value");
+    value.setTooltip("Of the whole clip, where it has no curve");
+    value.setSliderStyle(juce::Slider::LinearHorizontal);
+    value.setTextBoxStyle(juce::Slider::TextBoxRight, false, 9 * grid, 3 * grid);
+    value.onDragStart = [this]
+    {
+        sliding = selection.beginGesture();
+    };
+    value.onDragEnd = [this]
+    {
+        sliding = 0;
+    };
+    value.onValueChange = [this]
+    {
+        selection.editPart(
+            "Change in scene", [this](ScenePart& part) { sceneValueOf(part, curve.parameter()) = value.getValue(); },
+            sliding);
+    };
+    priority.setTitle("Priority");
+    priority.setTooltip("0 is kept longest when an actuator has too few voices");
+    priority.setSliderStyle(juce::Slider::LinearHorizontal);
+    priority.setTextBoxStyle(juce::Slider::TextBoxRight, false, 5 * grid, 3 * grid);
+    priority.setRange(0.0, 10.0, 1.0);
+    priority.onValueChange = [this]
+    {
+        selection.editPart("Priority in scene",
+                           [this](ScenePart& part) { part.priority = juce::roundToInt(priority.getValue()); });
+    };
+    for (juce::TextButton* button : {&playButton, &removeButton, &removeCurveButton, &fitButton, &exportButton})
+        button->setTitle(button->getButtonText());
+    prepareButton(playButton, "Plays the scene on the outputs of the sound, or stops (Space)",
+                  [this] { plays ? stop() : play(); });
+    prepareButton(removeButton, "Removes the selected clip from the scene (Delete)",
+                  [this] { selection.removeSelected(); });
+    prepareButton(removeCurveButton, "Plays the value instead of the curve", [this] { curve.removeCurve(); });
+    prepareButton(fitButton, "Shows the whole scene", [this] { line.fit(); });
+    prepareButton(exportButton, "Writes a scene file with all clips, for pacini render and the game library",
+                  [this] { exportScene(); });
+    addAll(*this, {&line, &clips, &actuators, &law, &playButton, &removeButton, &fitButton, &parameter, &value,
+                   &priority, &removeCurveButton, &curve, &exportButton});
+    setAnswers({{"Close", {}}});
+    subscriptions.on({&session.model.projectChanged, &session.actuators.changed},
+                     [this]
+                     {
+                         stop();
+                         fillClips();
+                         follow();
+                         plan();
+                     });
+    subscriptions.on({&selection.changed}, [this] { follow(); });
+    fillClips();
+    follow();
+    plan();
+}
+
+SceneSheet::~SceneSheet()
+{
+    subscriptions = {};
+    if (std::exchange(plays, false))
+        session.transport.takePlayer();
+}
+
+void SceneSheet::fillClips()
+{
+    clips.clear(juce::dontSendNotification);
+    for (const auto& item : session.model.document().project().clips)
+        clips.addItem(item->clip->name.empty() ? tr("Clip {0}", {juce::String(item->id)}) : toText(item->clip->name),
+                      item->id);
+}
+
+void SceneSheet::follow()
+{
+    const ProjectScene& scene = selection.scene();
+    actuators.setSelectedId(scene.actuators, juce::dontSendNotification);
+    law.setSelectedId(1 + static_cast<int>(scene.panLaw), juce::dontSendNotification);
+    law.setEnabled(scene.actuators > 1);
+    playButton.setEnabled(!scene.parts.empty());
+    exportButton.setEnabled(!scene.parts.empty());
+    const ScenePart* part = selection.part();
+    const SceneRange range = sceneRangeOf(curve.parameter());
+    const bool curved =
+        part != nullptr && std::any_of(part->curves.begin(), part->curves.end(),
+                                       [this](const SceneCurve& one) { return one.parameter == curve.parameter(); });
+    value.setRange(range.low, range.high, 0.01);
+    value.setTextValueSuffix(range.unit);
+    value.setDoubleClickReturnValue(true, range.usual);
+    if (part != nullptr)
+    {
+        ScenePart copy = *part;
+        value.setValue(sceneValueOf(copy, curve.parameter()), juce::dontSendNotification);
+        priority.setValue(part->priority, juce::dontSendNotification);
+    }
+    value.setEnabled(part != nullptr && !curved);
+    priority.setEnabled(part != nullptr);
+    removeButton.setEnabled(part != nullptr);
+    removeCurveButton.setEnabled(curved);
+}
+
+/// What is left out of the scene, and why: found out in the background.
+void SceneSheet::plan()
+{
+    const auto profile = session.actuators.profile();
+    jobs.run([built = sceneOf(session.model.document().project()),
+              profile = profile ? std::optional(*profile) : std::nullopt, strength = session.actuators.strength()]
+             { return newsOf(built, profile, strength); },
+             [this, number = ++planned, parts = selection.scene().parts.size()](SceneNews news)
+             {
+                 if (number != planned)
+                     return;
+                 juce::String text = counted(parts, "{0} clip", "{0} clips");
+                 if (news.failure.isNotEmpty())
+                     text = translateMessage(news.failure);
+                 else if (news.leftOut.empty() && news.bands == 0)
+                     text << ", " << tr("all of them are felt");
+                 else
+                     text << ", "
+                          << tr("{0} left out and {1} bands of others; the error is {2} dB",
+                                {juce::String(static_cast<int>(news.leftOut.size())),
+                                 juce::String(static_cast<int>(news.bands)),
+                                 std::isfinite(news.error) ? juce::String(news.error, 1) : toText("−∞")});
+                 note.setText(text, juce::dontSendNotification);
+                 line.showLeftOut(std::move(news.leftOut));
+             });
+}
+
+void SceneSheet::play()
+{
+    plays = true;
+    playButton.setButtonText(tr("Stop"));
+    const auto profile = session.actuators.profile();
+    jobs.run([built = sceneOf(session.model.document().project()),
+              profile = profile ? std::optional(*profile) : std::nullopt, strength = session.actuators.strength()]
+             { return rendered(built, profile, strength); },
+             [this](Result<StoredAudio> audio)
+             {
+                 if (!plays)
+                     return;
+                 if (!audio)
+                     return stop();
+                 // The player plays clips, and a sound beside them: a silent one has the scene beside it.
+                 Clip silent;
+                 silent.duration = audio->duration();
+                 Playback scene;
+                 scene.source = true;
+                 scene.haptic = false;
+                 scene.a = std::make_shared<const Clip>(std::move(silent));
+                 session.player.stop();
+                 session.player.set(std::move(scene));
+                 session.player.setSound(std::make_shared<const StoredAudio>(std::move(*audio)));
+                 session.player.play(0.0);
+                 startTimerHz(30);
+             });
+}
+
+void SceneSheet::stop()
+{
+    if (!std::exchange(plays, false))
+        return;
+    stopTimer();
+    line.showPlayhead(-1.0);
+    playButton.setButtonText(tr("Play"));
+    session.transport.takePlayer();
+}
+
+void SceneSheet::timerCallback()
+{
+    if (!session.player.isPlaying())
+        return stop();
+    line.showPlayhead(session.player.position());
+}
+
+bool SceneSheet::keyPressed(const juce::KeyPress& key)
+{
+    if (key == juce::KeyPress::spaceKey)
+    {
+        playButton.onClick();
+        return true;
+    }
+    if (key == juce::KeyPress::returnKey)
+        return true; // it would close a page where it means nothing
+    if (key.isKeyCode('Z') && key.getModifiers().isCommandDown())
+    {
+        key.getModifiers().isShiftDown() ? session.model.redo() : session.model.undo();
+        return true;
+    }
+    return Sheet::keyPressed(key);
+}
+
+void SceneSheet::exportScene()
+{
+    using Browser = juce::FileBrowserComponent;
+    const auto& path = session.model.document().path();
+    const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                                           : juce::File(pathText(path.parent_path()));
+    const juce::String name = path.empty() ? tr("Untitled") : pathText(path.stem());
+    chooser =
+        std::make_unique<juce::FileChooser>(tr("Export scene"), folder.getChildFile(name + ".scene.json"), "*.json");
+    chooser->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
+                         [this](const juce::FileChooser& done)
+                         {
+                             if (done.getResult() == juce::File())
+                                 return;
+                             Scene scene = sceneOf(session.model.document().project()).scene;
+                             const auto written = writeScene(pathOf(done.getResult()), scene);
+                             note.setText(
+                                 written ? tr("Written: {0}", {done.getResult().getFileName()})
+                                         : tr("Not exported: {0}", {translateMessage(toText(written.error().text()))}),
+                                 juce::dontSendNotification);
+                         });
+}
+
+void SceneSheet::layOut(juce::Rectangle<int> area)
+{
+    auto row = area.removeFromTop(controlHeight);
+    const auto put = [&row](juce::Component& one, int width)
+    {
+        one.setBounds(row.removeFromLeft(width).withSizeKeepingCentre(width, controlHeight - 2));
+        row.removeFromLeft(grid);
+    };
+    put(playButton, 9 * grid);
+    put(clipsLabel, 8 * grid);
+    put(clips, 24 * grid);
+    put(removeButton, 11 * grid);
+    put(fitButton, 7 * grid);
+    put(actuatorsLabel, 9 * grid);
+    put(actuators, 8 * grid);
+    put(lawLabel, 8 * grid);
+    put(law, 14 * grid);
+    exportButton.setBounds(row.removeFromRight(16 * grid).withSizeKeepingCentre(16 * grid, controlHeight - 2));
+    area.removeFromTop(grid);
+    note.setBounds(area.removeFromBottom(3 * grid));
+    curve.setBounds(area.removeFromBottom(15 * grid));
+    area.removeFromBottom(grid / 2);
+    row = area.removeFromBottom(controlHeight);
+    put(parameterLabel, 6 * grid);
+    put(parameter, 14 * grid);
+    put(valueLabel, 6 * grid);
+    put(value, 30 * grid);
+    put(removeCurveButton, 16 * grid);
+    put(priorityLabel, 8 * grid);
+    put(priority, 20 * grid);
+    area.removeFromBottom(grid / 2);
+    line.setBounds(area);
+}
+
+} // namespace pacini::editor

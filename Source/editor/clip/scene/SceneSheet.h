@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Page of the project's scene: its timeline, what a part plays with, what is left out and why, and its export.
+
+#include "editor/clip/scene/SceneCurveLane.h"
+#include "editor/clip/scene/SceneTimeline.h"
+#include "editor/clip/session/Jobs.h"
+#include "editor/clip/session/Session.h"
+#include "editor/clip/sheets/Sheet.h"
+
+#include <memory>
+
+namespace pacini::editor
+{
+
+class SceneSheet final : public Sheet, private juce::Timer
+{
+public:
+    explicit SceneSheet(Session& shared);
+    ~SceneSheet() override;
+
+    [[nodiscard]] SceneSelection& parts() noexcept { return selection; }
+    [[nodiscard]] SceneTimeline& timeline() noexcept { return line; }
+    [[nodiscard]] juce::String summary() const { return note.getText(); }
+
+private:
+    void layOut(juce::Rectangle<int> area) override;
+    juce::Component* firstFocus() override { return &line; }
+    bool keyPressed(const juce::KeyPress& key) override;
+    void timerCallback() override;
+    void fillClips();
+    void follow();
+    void plan();
+    void play();
+    void stop();
+    void exportScene();
+
+    Session& session;
+    SceneSelection selection;
+    SceneTimeline line;
+    SceneCurveLane curve;
+    juce::ComboBox clips, actuators, law, parameter;
+    juce::Label clipsLabel, actuatorsLabel, lawLabel, parameterLabel, valueLabel, priorityLabel, note;
+    juce::TextButton playButton, removeButton, removeCurveButton, fitButton, exportButton;
+    juce::Slider value, priority;
+    std::unique_ptr<juce::FileChooser> chooser;
+    Gesture sliding = 0;
+    bool plays = false;
+    int planned = 0; ///< counts what was planned
+    Jobs jobs;
+    Subscriptions subscriptions;
+};
+
+} // namespace pacini::editor

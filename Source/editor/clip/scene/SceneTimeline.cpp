@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/clip/scene/SceneTimeline.h"
+
+#include "document/view/Columns.h"
+#include "document/view/TimeTicks.h"
+#include "editor/Text.h"
+#include "editor/Theme.h"
+#include "editor/Translation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pacini::editor
+{
+
+namespace
+{
+constexpr double snapReach = 8.0; // pixels
+constexpr double keyStep = 0.01;  // s
+} // namespace
+
+SceneTimeline::SceneTimeline(EditorModel& project, SceneSelection& selected) : model(project), selection(selected)
+{
+    setTitle("Timeline");
+    setWantsKeyboardFocus(true);
+    subscriptions.on({&model.projectChanged, &selection.changed},
+                     [this]
+                     {
+                         leftOut.clear();
+                         repaint();
+                     });
+}
+
+void SceneTimeline::showLeftOut(std::map<std::size_t, juce::String> reasons)
+{
+    leftOut = std::move(reasons);
+    repaint();
+}
+
+void SceneTimeline::showPlayhead(double time)
+{
+    const auto strip = [this](double at)
+    {
+        return juce::Rectangle<int>(juce::roundToInt(std::clamp(axis.xOf(at), -10.0, 1e5)) - 2, 0, 5, getHeight());
+    };
+    repaint(strip(playhead));
+    playhead = time;
+    repaint(strip(playhead));
+}
+
+double SceneTimeline::lengthOf(const ScenePart& part) const
+{
+    const auto item = model.document().clip(part.clip);
+    return item ? item->clip->duration : 0.1;
+}
+
+void SceneTimeline::fit()
+{
+    double end = 4.0;
+    for (const ScenePart& part : selection.scene().parts)
+        end = std::max(end, part.start + part.delay + lengthOf(part));
+    axis = {0.0, 1.05 * end / std::max(1, getWidth())};
+    firstTrack = 0;
+    repaint();
+}
+
+void SceneTimeline::resized()
+{
+    if (!std::exchange(fitted, getWidth() > 0))
+        fit();
+}
+
+juce::Rectangle<int> SceneTimeline::areaOf(std::size_t part) const
+{
+    const ScenePart& one = selection.scene().parts[part];
+    const double from = std::clamp(axis.xOf(one.start + one.delay), -1e5, 1e5);
+    const double to = std::clamp(axis.xOf(one.start + one.delay + lengthOf(one)), -1e5, 1e5);
+    return {juce::roundToInt(from), rulerHeight + (one.track - firstTrack) * trackHeight + 2,
+            std::max(6, juce::roundToInt(to - from)), trackHeight - 4};
+}
+
+std::optional<std::size_t> SceneTimeline::partAt(juce::Point<int> place) const
+{
+    for (std::size_t i = selection.scene().parts.size(); i-- > 0;)
+        if (areaOf(i).contains(place))
+            return i;
+    return {};
+}
+
+void SceneTimeline::paint(juce::Graphics& g)
+{
+    const Palette& p = paletteFor(*this);
+    g.fillAll(p.well);
+    const auto visible = g.getClipBounds();
+    g.setFont(smallFont());
+    for (int y = rulerHeight; y < getHeight(); y += trackHeight)
+    {
+        g.setColour(p.line.withAlpha(0.6f));
+        g.fillRect(0, y, getWidth(), 1);
+    }
+    const auto& parts = selection.scene().parts;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (const auto area = areaOf(i); area.getY() >= rulerHeight && area.intersects(visible))
+            paintPart(g, i, area);
+    g.setColour(p.card);
+    g.fillRect(0, 0, getWidth(), rulerHeight);
+    const double step = tickStep(axis.secondsPerPixel);
+    for (double i = std::ceil(axis.start / step); axis.xOf(i * step) < getWidth(); i += 1.0)
+    {
+        const int x = juce::roundToInt(axis.xOf(i * step));
+        g.setColour(p.line);
+        g.fillRect(x, 0, 1, getHeight());
+        g.setColour(p.dim);
+        g.drawText(juce::String(i * step, step < 0.1 ? 2 : 1) + " s", x + 4, 2, 80, rulerHeight - 6,
+                   juce::Justification::centredLeft, false);
+    }
+    g.setColour(p.accent);
+    g.fillRect(juce::roundToInt(axis.xOf(cursorTime)), 0, 1, getHeight());
+    if (playhead >= 0.0)
+    {
+        g.setColour(p.text);
+        g.fillRect(juce::roundToInt(axis.xOf(playhead)), 0, 1, getHeight());
+    }
+    if (parts.empty())
+    {
+        g.setColour(p.dim);
+        g.setFont(usualFont());
+        g.drawFittedText(tr("No clip is in the scene yet. Choose one above to add it at the cursor."),
+                         getLocalBounds(), juce::Justification::centred, 2);
+    }
+    drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
+}
+
+void SceneTimeline::paintPart(juce::Graphics& g, std::size_t index, juce::Rectangle<int> area) const
+{
+    const Palette& p = paletteFor(*this);
+    const ScenePart& part = selection.scene().parts[index];
+    const auto item = model.document().clip(part.clip);
+    const bool out = leftOut.contains(index) || !item;
+    const bool selected = selection.selected() == index;
+    g.setColour(p.card);
+    g.fillRoundedRectangle(area.toFloat(), 4.0f);
+    const juce::Graphics::ScopedSaveState saved(g);
+    g.reduceClipRegion(area.reduced(1));
+    if (item)
+    {
+        // The envelope, as far as it is in sight.
+        const int first = std::max(0, -area.getX()), last = std::min(area.getWidth(), getWidth() - area.getX());
+        if (last > first)
+        {
+            std::vector<Column> columns(static_cast<std::size_t>(last - first));
+            curveColumns(item->clip->envelope, TimeAxis{first * axis.secondsPerPixel, axis.secondsPerPixel}, columns);
+            g.setColour((out ? p.dim : p.accent).withAlpha(out ? 0.25f : 0.5f));
+            for (std::size_t i = 0; i < columns.size(); ++i)
+            {
+                const double level = 20.0 * std::log10(std::max(1e-3, static_cast<double>(columns[i].high)));
+                const int height = juce::roundToInt((1.0 + level / 60.0) * (area.getHeight() - 2));
+                g.fillRect(area.getX() + first + static_cast<int>(i), area.getBottom() - 1 - height, 1, height);
+            }
+        }
+    }
+    g.setColour(out ? p.dim : p.text);
+    g.setFont(smallFont());
+    const juce::String name = item ? toText(item->clip->name) : tr("Clip is gone");
+    g.drawText((out ? toText("∅ ") : juce::String()) + name, area.reduced(6, 3).removeFromTop(16),
+               juce::Justification::centredLeft, true);
+    g.setColour(selected ? p.text : p.line);
+    g.drawRoundedRectangle(area.toFloat().reduced(0.5f), 4.0f, selected ? 2.0f : 1.0f);
+}
+
+// Mouse and keys.
+
+void SceneTimeline::mouseDown(const juce::MouseEvent& event)
+{
+    grabKeyboardFocus();
+    gesture = 0;
+    if (event.y < rulerHeight)
+    {
+        cursorTime = std::max(0.0, axis.timeAt(event.position.x));
+        return repaint();
+    }
+    const auto part = partAt(event.getPosition());
+    selection.select(part);
+    if (!part)
+    {
+        cursorTime = std::max(0.0, axis.timeAt(event.position.x));
+        return repaint();
+    }
+    grabbed = *selection.part();
+    gesture = selection.beginGesture();
+    say();
+}
+
+void SceneTimeline::mouseDrag(const juce::MouseEvent& event)
+{
+    if (gesture == 0)
+        return mouseDown(event);
+    const auto index = selection.selected();
+    if (!index || !event.mouseWasDraggedSinceMouseDown())
+        return;
+    const double start = grabbed.start + event.getDistanceFromDragStartX() * axis.secondsPerPixel;
+    const int track =
+        grabbed.track + juce::roundToInt(static_cast<double>(event.getDistanceFromDragStartY()) / trackHeight);
+    selection.editPart(
+        "Move in scene",
+        [&](ScenePart& part)
+        {
+            part.start = std::max(0.0, event.mods.isAltDown() ? start : snapped(*index, start));
+            part.track = std::clamp(track, 0, 999);
+        },
+        gesture);
+    say();
+}
+
+/// To starts and ends of other parts, and to the cursor.
+double SceneTimeline::snapped(std::size_t part, double start) const
+{
+    const auto& parts = selection.scene().parts;
+    const double length = lengthOf(parts[part]);
+    double best = start, nearest = snapReach * axis.secondsPerPixel;
+    const auto offer = [&](double target)
+    {
+        for (const double candidate : {target, target - length})
+            if (std::abs(candidate - start) < nearest)
+            {
+                nearest = std::abs(candidate - start);
+                best = candidate;
+            }
+    };
+    offer(0.0);
+    offer(cursorTime);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (i != part)
+        {
+            offer(parts[i].start);
+            offer(parts[i].start + lengthOf(parts[i]));
+        }
+    return best;
+}
+
+void SceneTimeline::mouseMove(const juce::MouseEvent& event)
+{
+    const auto part = partAt(event.getPosition());
+    const auto reason = part ? leftOut.find(*part) : leftOut.end();
+    setTooltip(reason != leftOut.end() ? reason->second
+               : part                  ? tr("Drag: moves it; Delete: removes it")
+                                       : tr("Click: places the cursor, where clips are added"));
+}
+
+void SceneTimeline::mouseWheelMove(const juce::MouseEvent& event, const juce::MouseWheelDetails& details)
+{
+    if (event.mods.isCommandDown())
+    {
+        const double at = axis.timeAt(event.position.x);
+        axis.secondsPerPixel =
+            std::clamp(axis.secondsPerPixel * std::exp2(-4.0 * static_cast<double>(details.deltaY)), 1e-4, 10.0);
+        axis.start = std::max(0.0, at - event.position.x * axis.secondsPerPixel);
+    }
+    else if (event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY))
+        axis.start =
+            std::max(0.0, axis.start - static_cast<double>(details.deltaX != 0.0f ? details.deltaX : details.deltaY) *
+                                           getWidth() * axis.secondsPerPixel);
+    else
+        firstTrack = std::max(0, firstTrack + (details.deltaY < 0.0f ? 1 : -1));
+    repaint();
+}
+
+bool SceneTimeline::keyPressed(const juce::KeyPress& key)
+{
+    using Key = juce::KeyPress;
+    const auto& parts = selection.scene().parts;
+    if (key == Key::deleteKey || key == Key::backspaceKey)
+    {
+        selection.removeSelected();
+        return true;
+    }
+    if (key.getTextCharacter() == ',' || key.getTextCharacter() == '.')
+    {
+        if (parts.empty())
+            return true;
+        const auto now = selection.selected();
+        const std::size_t by = key.getTextCharacter() == '.' ? 1 : parts.size() - 1;
+        selection.select(now ? (*now + by) % parts.size() : 0);
+        say();
+        return true;
+    }
+    const double step = key.getModifiers().isShiftDown() ? 10.0 * keyStep : keyStep;
+    const double time = key.isKeyCode(Key::leftKey) ? -step : key.isKeyCode(Key::rightKey) ? step : 0.0;
+    const int track = key.isKeyCode(Key::upKey) ? -1 : key.isKeyCode(Key::downKey) ? 1 : 0;
+    if (time == 0.0 && track == 0)
+        return false;
+    if (!selection.selected())
+    {
+        cursorTime = std::max(0.0, cursorTime + time);
+        repaint();
+        return true;
+    }
+    selection.editPart("Move in scene",
+                       [&](ScenePart& part)
+                       {
+                           part.start = std::max(0.0, part.start + time);
+                           part.track = std::clamp(part.track + track, 0, 999);
+                       });
+    say();
+    return true;
+}
+
+/// Where the selected part is, for the tooltip and for screen readers.
+void SceneTimeline::say()
+{
+    const ScenePart* part = selection.part();
+    if (part == nullptr)
+        return;
+    const auto item = model.document().clip(part->clip);
+    const juce::String text =
+        tr("{0} at {1} s on track {2}", {item ? toText(item->clip->name) : tr("Clip is gone"),
+                                         juce::String(part->start, 2), juce::String(part->track + 1)});
+    setDescription(text);
+    if (hasKeyboardFocus(false))
+        juce::AccessibilityHandler::postAnnouncement(text, juce::AccessibilityHandler::AnnouncementPriority::medium);
+}
+
+std::unique_ptr<juce::AccessibilityHandler> SceneTimeline::createAccessibilityHandler()
+{
+    return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::group);
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,161 @@
+// The scene page without a screen.
+
+#include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "editor/clip/scene/SceneSheet.h"
+#include "io/SceneFile.h"
+#include "support/TempFolder.h"
+
+#include <chrono>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// The page over a project of two clips.
+struct ScenePage : EditorBench
+{
+    editor::SceneSheet* sheet = nullptr;
+    int first = 0, second = 0;
+
+    ScenePage() : EditorBench({shipped("lra-175")})
+    {
+        openDemo("knock_wood_bridge");
+        first = session.model.activeId();
+        openDemo("impact_boom");
+        second = session.model.activeId();
+        REQUIRE(view.doCommand(editor::editScene));
+        sheet = dynamic_cast<editor::SceneSheet*>(view.sheet());
+        REQUIRE(sheet != nullptr);
+    }
+    [[nodiscard]] const ProjectScene& scene() const { return session.model.document().project().scene; }
+    [[nodiscard]] juce::Point<float> middleOf(std::size_t part) const
+    {
+        return sheet->timeline().areaOf(part).getCentre().toFloat();
+    }
+};
+} // namespace
+
+TEST_CASE("Clips are added to the scene, moved by mouse and keys, each as one step, and removed")
+{
+    ScenePage page;
+    auto& parts = page.sheet->parts();
+    auto& line = page.sheet->timeline();
+    parts.add(page.first, 0.0);
+    parts.add(page.second, 0.0);
+    REQUIRE(page.scene().parts.size() == 2);
+    CHECK(page.scene().parts[0].track == 0);
+    CHECK(page.scene().parts[1].track == 1); // the first is in its way
+    const std::size_t steps = page.session.model.document().steps().size();
+    Mouse(line).dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(203.0f, 50.0f), 8);
+    CHECK(page.scene().parts[1].start > 0.1);
+    CHECK(page.scene().parts[1].track == 2);
+    CHECK(page.session.model.document().steps().size() == steps + 1);
+    const double before = page.scene().parts[1].start;
+    CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
+    CHECK(page.scene().parts[1].start == Approx(before + 0.01));
+    CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::upKey)));
+    CHECK(page.scene().parts[1].track == 1);
+    CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::deleteKey)));
+    CHECK(page.scene().parts.size() == 1);
+    page.session.model.undo();
+    CHECK(page.scene().parts.size() == 2);
+}
+
+TEST_CASE("A part snaps to the end of another, and Alt leaves it where it is")
+{
+    ScenePage page;
+    auto& parts = page.sheet->parts();
+    parts.add(page.first, 0.0);
+    parts.add(page.second, 0.0);
+    const double end = page.session.model.document().clip(page.first)->clip->duration;
+    auto& line = page.sheet->timeline();
+    const auto edge = static_cast<float>(line.areaOf(0).getRight());
+    Mouse(line).dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(edge + 4.0f, 0.0f), 6);
+    CHECK(page.scene().parts[1].start == Approx(end).margin(1e-9));
+    page.session.model.undo();
+    Mouse(line, juce::ModifierKeys::altModifier)
+        .dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(edge + 4.0f, 0.0f), 6);
+    CHECK(page.scene().parts[1].start != Approx(end).margin(1e-9));
+}
+
+TEST_CASE("Points of a curve are added by mouse and by keys, and the scene file has them")
+{
+    ScenePage page;
+    auto& parts = page.sheet->parts();
+    parts.add(page.first, 0.5);
+    auto& curve = get<editor::SceneCurveLane>(*page.sheet, "Curve");
+    Mouse(curve).doubleClick({20.0f, 20.0f});
+    Mouse(curve).doubleClick(
+        {static_cast<float>(curve.getWidth()) - 20.0f, static_cast<float>(curve.getHeight()) - 20.0f});
+    REQUIRE(page.scene().parts[0].curves.size() == 1);
+    CHECK(page.scene().parts[0].curves[0].points.size() == 2);
+    CHECK(curve.keyPressed(juce::KeyPress(juce::KeyPress::returnKey)));
+    CHECK(page.scene().parts[0].curves[0].points.size() == 3);
+    CHECK(curve.keyPressed(juce::KeyPress(juce::KeyPress::deleteKey)));
+    CHECK(page.scene().parts[0].curves[0].points.size() == 2);
+    const TempFolder folder;
+    REQUIRE(writeScene(folder / "made.scene.json", sceneOf(page.session.model.document().project()).scene));
+    const auto read = readScene(folder / "made.scene.json");
+    REQUIRE(read);
+    CHECK(read->plays.size() == 1);
+    REQUIRE(read->changes.size() == 1);
+    CHECK(read->changes[0].parameter == SceneParameter::pan);
+    CHECK(read->changes[0].value < 0.3);
+    CHECK(read->plays[0].pan > 0.7);
+}
+
+TEST_CASE("What nobody would feel is said, and shown on the part")
+{
+    ScenePage page;
+    auto& parts = page.sheet->parts();
+    parts.add(page.first, 0.0);
+    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip"); }));
+    parts.add(page.second, 3.0);
+    parts.editPart("Softer", [](ScenePart& part) { part.gain = -110.0; });
+    CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 left out"); }));
+}
+
+TEST_CASE("The scene plays, and the clip has the player again afterwards")
+{
+    ScenePage page;
+    page.sheet->parts().add(page.first, 0.0);
+    auto& button = get<juce::TextButton>(*page.sheet, "Play");
+    button.onClick();
+    float most = 0.0f;
+    const auto hear = [&]
+    {
+        std::array<float, 256> haptic{}, sound{};
+        const std::span<float> drive(haptic), heard(sound);
+        page.session.player.process(std::span(&drive, 1), std::span(&heard, 1));
+        for (const float sample : sound)
+            most = std::max(most, std::abs(sample));
+        return most > 0.05f;
+    };
+    CHECK(pumpUntil(hear, 20.0));
+    page.view.showSheet(nullptr);
+    CHECK_FALSE(page.session.player.isPlaying());
+    page.session.transport.play();
+    CHECK(page.session.player.isPlaying());
+}
+
+TEST_CASE("A scene of forty parts is drawn in a frame's time", "[.][bench]")
+{
+    ScenePage page;
+    for (int i = 0; i < 40; ++i)
+        page.sheet->parts().add(i % 2 == 0 ? page.first : page.second, 0.3 * i);
+    auto& line = page.sheet->timeline();
+    line.fit();
+    juce::Image image(juce::Image::RGB, line.getWidth(), line.getHeight(), true);
+    using Clock = std::chrono::steady_clock;
+    double most = 0.0;
+    for (int i = 0; i < 50; ++i)
+    {
+        juce::Graphics g(image);
+        const auto start = Clock::now();
+        line.paint(g);
+        most = std::max(most, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+    WARN("40 parts: " << most << " ms at most for a whole frame");
+}
