@@ -111,6 +111,7 @@ public:
                             : settings        ? settings->language()
                                               : juce::String("en"));
         editor::HostServices around;
+        around.version = PACINI_VERSION;
         around.demoSounds = demoSounds(settings ? &home : nullptr);
         if (settings)
         {

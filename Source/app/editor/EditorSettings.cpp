@@ -63,6 +63,9 @@ void EditorSettings::apply(PreviewDevices& rig, editor::HapticOutputs& outputs) 
 void EditorSettings::apply(editor::EditorView& view) const
 {
     editor::ViewState& viewState = view.session().viewState;
+    view.session().actuators.setUsual(file.getValue("usualActuator").toStdString());
+    view.statusBar().setSteps({file.getBoolValue("hasChosen", false), file.getBoolValue("hasShaped", false),
+                               file.getBoolValue("hasExported", false)});
     view.setDark(file.getBoolValue("dark", true));
     view.setScale(file.getDoubleValue("scale", 1.0));
     viewState.setAmplitudesInDecibels(file.getBoolValue("decibels", true));
@@ -83,6 +86,10 @@ void EditorSettings::apply(editor::EditorView& view) const
 void EditorSettings::keep(PreviewDevices& rig, editor::EditorView& view, const juce::String& windowState)
 {
     editor::ViewState& viewState = view.session().viewState;
+    file.setValue("usualActuator", juce::String(view.session().actuators.usual()));
+    file.setValue("hasChosen", view.statusBar().steps().chosen);
+    file.setValue("hasShaped", view.statusBar().steps().shaped);
+    file.setValue("hasExported", view.statusBar().steps().exported);
     file.setValue("dark", view.isDark());
     file.setValue("scale", view.scale());
     file.setValue("decibels", viewState.amplitudesInDecibels());
