@@ -252,6 +252,11 @@ juce::Font Look::getComboBoxFont(juce::ComboBox&)
     return usualFont();
 }
 
+juce::Font Look::getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&)
+{
+    return usualFont();
+}
+
 juce::Font Look::getPopupMenuFont()
 {
     return usualFont();

@@ -40,6 +40,7 @@ public:
     void positionComboBoxText(juce::ComboBox&, juce::Label&) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override;
     juce::Font getPopupMenuFont() override;
+    juce::Font getMenuBarFont(juce::MenuBarComponent&, int, const juce::String&) override;
     juce::Font getTextButtonFont(juce::TextButton&, int height) override;
     juce::Font getLabelFont(juce::Label&) override;
     juce::Label* createSliderTextBox(juce::Slider&) override;

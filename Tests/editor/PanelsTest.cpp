@@ -179,7 +179,7 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     CHECK(pages.clip().name == before.name);
     CHECK(session.model.document().undoName() == "Replace sound");
     REQUIRE(session.sounds.soundOfClip() != nullptr);
-    CHECK(session.sounds.soundOfClip()->duration() == Approx(1.0));
+    CHECK(session.sounds.soundOfClip()->audio.duration() == Approx(1.0));
     const Clip& analysis = *session.model.item()->analysis;
     Clip expected = editor::importFile(folder / "tone.wav", session.model.item()->encoder)->clip;
     expected.name = before.name;
@@ -190,7 +190,7 @@ TEST_CASE("Another sound comes under the edits of a clip, which keeps its name; 
     session.model.undo();
     session.model.undo();
     CHECK(pages.clip() == before);
-    CHECK(session.sounds.soundOfClip()->duration() == Approx(before.duration));
+    CHECK(session.sounds.soundOfClip()->audio.duration() == Approx(before.duration));
     juce::String told;
     session.model.onError = [&](const juce::String&, const juce::String& text)
     {
@@ -246,6 +246,79 @@ TEST_CASE("Clips are chosen, renamed, duplicated, moved, grouped and removed in 
         REQUIRE(session.model.document().canUndo());
         session.model.undo();
     }
+}
+
+TEST_CASE("Several selected clips are grouped, exported and removed in one step each")
+{
+    Pages pages;
+    auto& session = pages.session;
+    for (const char* name : {"drums_tabla_pattern", "impact_boom", "click_clock"})
+        pages.openDemo(name);
+    auto& list = pages.project.clips();
+    auto& box = get<juce::ListBox>(list, "Clips of the project");
+    box.selectRow(1);
+    box.selectRow(2, false, false); // beside the first
+    CHECK(session.model.selectedClips().size() == 2);
+    const std::size_t steps = session.model.document().steps().size();
+    list.setGroup(2, "Doors");
+    CHECK(pages.names() == Names{"knock_wood_bridge", "click_clock", "[Doors]", "drums_tabla_pattern", "impact_boom"});
+    CHECK(session.model.document().steps().size() == steps + 1);
+    CHECK(session.model.selectedClips().size() == 2);
+    CHECK(box.getNumSelectedRows() == 2);
+    REQUIRE(pages.view.doCommand(editor::exportClips));
+    CHECK(find<juce::ToggleButton>(*pages.view.sheet(), "Export all clips")->getToggleState());
+    CHECK(find<juce::ToggleButton>(*pages.view.sheet(), "Export all clips")->getButtonText() == "2 selected clips");
+    pages.view.showSheet(nullptr);
+    list.remove(3);
+    CHECK(pages.names() == Names{"knock_wood_bridge", "click_clock", "[Doors]"});
+    CHECK(session.model.document().steps().size() == steps + 2);
+    session.model.undo();
+    CHECK(session.model.document().project().clips.size() == 4);
+    // What the list shows afterwards is one clip.
+    session.model.show(session.model.document().project().clips.front()->id);
+    CHECK(session.model.selectedClips().size() == 1);
+}
+
+TEST_CASE("Five hundred clips are searched by words of name, group and notes, and only rows in sight are components")
+{
+    Pages pages;
+    auto& model = pages.session.model;
+    Project many;
+    for (int i = 0; i < 500; ++i)
+    {
+        ClipItem item;
+        item.id = i + 1;
+        Clip clip;
+        clip.duration = 1.0;
+        clip.name = (i % 5 == 0 ? "door " : "step ") + std::to_string(i);
+        item.group = i % 2 == 0 ? "Even" : "";
+        item.notes = i == 7 ? "squeaks" : "";
+        item.clip = item.analysis = std::make_shared<const Clip>(std::move(clip));
+        many.clips.push_back(std::make_shared<const ClipItem>(std::move(item)));
+    }
+    many.groups = {"Even"};
+    model.openProject(std::move(many));
+    auto& list = pages.project.clips();
+    CHECK(list.rows().size() == 501);
+    list.search("door even");
+    CHECK(list.rows().size() == 50);
+    list.search("squeaks");
+    CHECK(pages.names() == Names{"step 7"});
+    list.search("nothing");
+    CHECK(list.rows().empty());
+    list.search("");
+    CHECK(list.rows().size() == 501);
+    int parts = 0;
+    const auto count = [&](auto& self, juce::Component& inside) -> void
+    {
+        for (auto* child : inside.getChildren())
+        {
+            ++parts;
+            self(self, *child);
+        }
+    };
+    count(count, list);
+    CHECK(parts < 100);
 }
 
 TEST_CASE("Keys of the list choose, rename and remove")

@@ -31,7 +31,7 @@ FILES = {
         "Source/document/FolderFiles.cpp", "Source/document/RecentFiles.cpp", "Source/plugin/engine/PluginState.h"],
     "errors of project files, which name places in JSON; English, as the command prints errors of files": [
         "Source/document/ProjectFields.h", "Source/document/ProjectJson.cpp", "Source/document/ProjectJson.h",
-        "Source/document/OperationCheck.h", "Source/document/EditLayer.cpp", "Source/document/ItemEdits.cpp",
+        "Source/document/OperationCheck.h", "Source/document/ProjectScene.cpp", "Source/document/EditLayer.cpp", "Source/document/ItemEdits.cpp",
         "Source/plugin/engine/PluginState.cpp"],
     "the command line, which is English": ["Source/app/Settings.cpp", "Source/app/CommandLine.h",
                                               "Source/app/Display.h"],
@@ -45,7 +45,7 @@ LITERALS = {
         "Pacini", "Pacini Editor", "PaciniEditor", "pacini-editor", " - Pacini Editor", "Noto Sans CJK JP",
         "Noto Sans JP", "Source Han Sans JP", "Hiragino Sans", "Yu Gothic UI", "Meiryo", "IPAexGothic", "IPAPGothic",
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
-        "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English"],
+        "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders and settings": [
         "Pacini capture", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
@@ -58,8 +58,11 @@ LITERALS = {
         "Sounds, clips of any known format, folders of them, or a project",
         "Start with the default settings, and leave the saved ones as they are",
         "Kind of sound device, such as ALSA or JACK", "Of menus and controls: en or "],
+    "names of files of sounds and profiles": [
+        "ui_click", "notification", "heartbeat", "footsteps", "weapon", "explosion", "engine_loop", "rain", "texture",
+        "music_bed", "phone-taptic", "l5-wristband", "dualsense-voice-coil"],
     "places in errors and identifiers": [
-        "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
+        "plays[",         "sample rate", "sound", "strength", "lane", "format", "plays[0]", ".bands", "' is not known",
         "channels[", "sweep.", "measurement.", "sweeps[", "clock", "channels"],
     "errors of settings that the windows cannot make": ["must be 8 to 768 kHz to be encoded", "must be 0 to 1",
         "must have 1 to 8 actuators",

@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace pacini
 {
@@ -36,6 +37,9 @@ public:
                      })
     {
     }
+
+    MonoSource(const std::vector<float>& samples) : MonoSource(std::span<const float>(samples)) {}
+    MonoSource(std::vector<float>&&) = delete;
 
     [[nodiscard]] std::size_t frames() const noexcept { return count; }
     void read(std::int64_t first, std::span<float> out) const { reader(first, out); }

@@ -3,6 +3,7 @@
 
 #include "editor/Text.h"
 #include "editor/Translation.h"
+#include "editor/clip/commands/ContextMenu.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,8 @@ EditorView::EditorView(Session& shared, HostServices around)
       clipPart(shared),
       side(*this),
       meters(shared.actuators, shared.outputs, shared.transport, shared.player),
-      empty(shared.model, host.demoSounds),
+      start(shared.model, shared.actuators, shared.filePreview, host.demoSounds),
+      status(shared, host.outputNames),
       workBar(shared.model, shared.sounds)
 {
     setLookAndFeel(&look);
@@ -51,11 +53,12 @@ EditorView::EditorView(Session& shared, HostServices around)
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     addAndMakeVisible(body);
     for (juce::Component* child :
-         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &empty})
+         std::initializer_list<juce::Component*>{&menuBar, &toolbar, &clipPart, &side, &meters, &start, &status})
         body.addAndMakeVisible(child);
     body.addChildComponent(workBar);
     body.addChildComponent(notice);
     addKeyListener(menuList.keys());
+    body.addMouseListener(this, true);
     toolbar.onCommand = [this](Command command)
     {
         doCommand(command);
@@ -64,11 +67,11 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         doCommand(command);
     };
-    empty.onOpen = [this]
+    start.onOpen = [this]
     {
         fileQuestions.askWhatToOpen();
     };
-    empty.onFile = [this](const std::filesystem::path& file)
+    start.onFile = [this](const std::filesystem::path& file)
     {
         fileQuestions.open({file});
     };
@@ -105,6 +108,7 @@ EditorView::~EditorView()
     open.model.onError = nullptr;
     open.model.onNotice = nullptr;
     open.sounds.onSoundsMissing = nullptr;
+    body.removeMouseListener(this);
     removeKeyListener(menuList.keys());
     menuBar.setModel(nullptr);
     sheetNow.reset();
@@ -139,7 +143,7 @@ void EditorView::arrange()
     clipPart.setVisible(any);
     side.setVisible(any);
     meters.setVisible(any);
-    empty.setVisible(!any);
+    start.setVisible(!any);
 }
 
 void EditorView::paint(juce::Graphics& g)
@@ -156,7 +160,8 @@ void EditorView::resized()
         sheetNow->setBounds(area);
     menuBar.setBounds(area.removeFromTop(menuHeight));
     toolbar.setBounds(area.removeFromTop(toolbarHeight));
-    empty.setBounds(area);
+    status.setBounds(area.removeFromBottom(StatusBar::height));
+    start.setBounds(area);
     auto beside = area.removeFromRight(sideWidth);
     meters.setBounds(beside.removeFromBottom(meters.wantedHeight()));
     side.setBounds(beside);
@@ -191,9 +196,63 @@ void EditorView::takeFocus()
         grabKeyboardFocus();
 }
 
+void EditorView::focusPart(int direction)
+{
+    const std::vector<juce::Component*> parts{&toolbar, &clipPart, &side, &meters, &start};
+    const auto* focused = getCurrentlyFocusedComponent();
+    std::size_t now = direction > 0 ? parts.size() - 1 : 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (focused != nullptr && (focused == parts[i] || parts[i]->isParentOf(focused)))
+            now = i;
+    for (std::size_t tried = 0; tried < parts.size(); ++tried)
+    {
+        now = (now + (direction > 0 ? 1 : parts.size() - 1)) % parts.size();
+        if (!parts[now]->isShowing())
+            continue;
+        parts[now]->grabKeyboardFocus();
+        const auto* got = getCurrentlyFocusedComponent();
+        if (got == parts[now] || parts[now]->isParentOf(got))
+            return;
+    }
+}
+
+bool EditorView::showContextMenu(juce::Component* of, bool atPointer)
+{
+    for (auto* one = of; one != nullptr && one != this; one = one->getParentComponent())
+        if (const auto* found = dynamic_cast<const ContextMenu*>(one))
+        {
+            auto options = juce::PopupMenu::Options().withTargetComponent(one);
+            if (atPointer)
+                options = options.withMousePosition();
+            menuList.menuOf(found->contextCommands()).showMenuAsync(options);
+            return true;
+        }
+    return false;
+}
+
+void EditorView::mouseDown(const juce::MouseEvent& event)
+{
+    if (event.mods.isPopupMenu())
+        showContextMenu(event.originalComponent, true);
+}
+
+bool EditorView::keyPressed(const juce::KeyPress& key)
+{
+    if (key == juce::KeyPress(juce::KeyPress::F10Key, juce::ModifierKeys::shiftModifier, 0))
+        return !sheetNow && showContextMenu(getCurrentlyFocusedComponent(), false);
+    if (key == juce::KeyPress(juce::KeyPress::F10Key))
+    {
+        menuBar.showMenu(0);
+        return true;
+    }
+    return false;
+}
+
 void EditorView::showSheet(std::unique_ptr<Sheet> wanted)
 {
     sheetNow = std::move(wanted);
+    if (!lastExport.format.empty())
+        status.setExported();
     if (!sheetNow && !messages.empty())
     {
         sheetNow = std::move(messages.front());
@@ -228,7 +287,7 @@ void EditorView::showMessage(std::unique_ptr<Sheet> wanted)
 
 void EditorView::filesDropped(const juce::StringArray& files, int, int)
 {
-    empty.setDropping(false);
+    start.setDropping(false);
     std::vector<std::filesystem::path> paths;
     for (const auto& file : files)
         paths.push_back(pathOf(file));

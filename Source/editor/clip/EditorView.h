@@ -5,9 +5,10 @@
 
 #include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
-#include "editor/clip/EmptyState.h"
 #include "editor/clip/NoticeBar.h"
 #include "editor/clip/ProjectFiles.h"
+#include "editor/clip/StartPage.h"
+#include "editor/clip/StatusBar.h"
 #include "editor/clip/Toolbar.h"
 #include "editor/clip/WorkBar.h"
 #include "editor/clip/commands/HeldSwitch.h"
@@ -33,7 +34,7 @@ namespace pacini::editor
 /// Services of the program or plugin around an editor; its menus leave out what is not there.
 struct HostServices
 {
-    std::vector<std::filesystem::path> demoSounds;
+    std::vector<std::filesystem::path> demoSounds;                ///< those of the library too
     std::function<void()> quit;                                   ///< null: the host closes the window
     std::function<void()> showDevices;                            ///< null: the host has the devices
     std::function<juce::StringArray()> outputNames = {};          ///< of the device; null: the host has one output
@@ -41,6 +42,7 @@ struct HostServices
     std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
     juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
+    juce::String version = {};                                    ///< of the program; empty: not told
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.
@@ -67,6 +69,13 @@ public:
     [[nodiscard]] Sheet* sheet() const noexcept { return sheetNow.get(); }
     /// Gives the keyboard to what is in front.
     void takeFocus();
+    /// Gives it to the next part of the window (1), or the one before (-1).
+    void focusPart(int direction);
+    /// That of a component or of what it lies in, beside it or at the pointer; false where there is none.
+    bool showContextMenu(juce::Component* of, bool atPointer);
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void mouseDown(const juce::MouseEvent& event) override;
 
     static constexpr int drawKeyCode = 'd';
     /// Drawing on or off; by its key, which may be held, see HeldSwitch.
@@ -82,14 +91,16 @@ public:
     [[nodiscard]] Menus& menus() noexcept { return menuList; }
     [[nodiscard]] ClipView& clipView() noexcept { return clipPart; }
     [[nodiscard]] SidePanel& sidePanel() noexcept { return side; }
+    [[nodiscard]] StartPage& startPage() noexcept { return start; }
+    [[nodiscard]] StatusBar& statusBar() noexcept { return status; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     bool isInterestedInFileDrag(const juce::StringArray&) override { return true; }
-    void fileDragEnter(const juce::StringArray&, int, int) override { empty.setDropping(true); }
-    void fileDragExit(const juce::StringArray&) override { empty.setDropping(false); }
+    void fileDragEnter(const juce::StringArray&, int, int) override { start.setDropping(true); }
+    void fileDragExit(const juce::StringArray&) override { start.setDropping(false); }
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
     void arrange();
@@ -106,7 +117,8 @@ private:
     ClipView clipPart;
     SidePanel side;
     MeterPanel meters;
-    EmptyState empty;
+    StartPage start;
+    StatusBar status;
     WorkBar workBar;
     NoticeBar notice;
     std::unique_ptr<Sheet> sheetNow;

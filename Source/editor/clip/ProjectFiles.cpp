@@ -7,6 +7,7 @@
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
 #include "io/InputFile.h"
+#include "io/ProfileFile.h"
 
 #include <algorithm>
 
@@ -203,7 +204,10 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
     // The folder may be gone, too.
     while (!saving && !start.exists() && start != start.getParentDirectory())
         start = start.getParentDirectory();
-    chooser = std::make_unique<juce::FileChooser>(title, start, saving ? juce::String("*.pacini") : readablePattern());
+    chooser = std::make_unique<juce::FileChooser>(title, start,
+                                                  saving                               ? juce::String("*.pacini")
+                                                  : purpose == Purpose::openingProfile ? juce::String("*.json")
+                                                                                       : readablePattern());
     using Browser = juce::FileBrowserComponent;
     const int flags = [purpose]() -> int
     {
@@ -214,6 +218,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         case Purpose::openingFolder:
             return Browser::canSelectDirectories | Browser::openMode;
         case Purpose::openingSound:
+        case Purpose::openingProfile:
             return Browser::canSelectFiles | Browser::openMode;
         case Purpose::opening:
             break;
@@ -221,6 +226,23 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         return Browser::canSelectFiles | Browser::openMode | Browser::canSelectMultipleItems;
     }();
     chooser->launchAsync(flags, [chosen](const juce::FileChooser& done) { chosen(done.getResults()); });
+}
+
+void ProjectFiles::askForProfile()
+{
+    choose(tr("Load the profile of an actuator"), Purpose::openingProfile,
+           [this](const juce::Array<juce::File>& chosen)
+           {
+               if (chosen.isEmpty())
+                   return;
+               const auto file = pathOf(chosen[0]);
+               auto read = readProfile(file);
+               if (!read)
+                   return view.session().model.report(tr("{0} not opened", {pathText(file.filename())}).toStdString(),
+                                                      read.error());
+               view.session().actuators.addProfile(
+                   {file.stem().string(), std::make_shared<const Profile>(std::move(read).value()), true}, true);
+           });
 }
 
 void ProjectFiles::offerRecovery()

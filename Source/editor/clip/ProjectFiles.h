@@ -33,6 +33,8 @@ public:
     /// One sound; `start` is where to look first, a file or a folder.
     void askForSound(const juce::String& title, const std::filesystem::path& start,
                      std::function<void(const std::filesystem::path&)> chosen);
+    /// A profile of an actuator, which the project has from then on.
+    void askForProfile();
     /// Says which sounds are missing, and offers to find them.
     void tellMissing(const std::vector<AudioReference>& missing);
 
@@ -51,6 +53,7 @@ private:
         opening,
         openingFolder,
         openingSound,
+        openingProfile,
         saving
     };
     void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen,

@@ -12,6 +12,7 @@ namespace pacini::editor
 namespace
 {
 constexpr int plainDrive = 1; // menus know no item 0; profiles follow
+constexpr int fromFile = 100000;
 constexpr int clipWidth = 28, heardWidth = 36, profileWidth = 60, strengthWidth = 52; // of the labels
 constexpr int sliderWidth = 124;
 constexpr int leastHeard = 76;
@@ -85,6 +86,13 @@ Toolbar::Toolbar(EditorModel& project, Actuators& profiles, Transport& playing)
     fillProfiles();
     profile.onChange = [this]
     {
+        if (profile.getSelectedId() == fromFile)
+        {
+            showState();
+            if (onCommand)
+                onCommand(loadProfile);
+            return;
+        }
         const int chosen = profile.getSelectedId() - plainDrive - 1;
         actuators.setProfile(chosen < 0 ? std::string() : actuators.profiles()[static_cast<std::size_t>(chosen)].name);
     };
@@ -145,6 +153,8 @@ void Toolbar::fillProfiles()
         const NamedProfile& entry = actuators.profiles()[i];
         profile.addItem(toText(entry.profile->name), plainDrive + 1 + static_cast<int>(i));
     }
+    profile.addSeparator();
+    profile.addItem(tr("Load profile...").replace("...", toText("…")), fromFile);
 }
 
 void Toolbar::showState()

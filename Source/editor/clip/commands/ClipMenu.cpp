@@ -3,17 +3,20 @@
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/commands/Operations.h"
 
+#include <pacini/synthesis/ClipAdaptation.h>
+
 namespace pacini::editor
 {
 
 namespace
 {
-void showNext(Session& session)
+/// The clip of the project that is `by` further on, round and round.
+void showOther(Session& session, std::size_t by)
 {
     const auto& items = session.model.document().project().clips;
     for (std::size_t i = 0; i < items.size(); ++i)
         if (items[i]->id == session.model.activeId())
-            return session.model.show(items[(i + 1) % items.size()]->id);
+            return session.model.show(items[(i + by) % items.size()]->id);
 }
 
 /// Asks for the arguments of an operation of the whole clip.
@@ -27,6 +30,10 @@ Menu clipMenu(EditorView& view)
 {
     Session& session = view.session();
     const auto anyClip = hasClip(session);
+    const auto several = [&session]
+    {
+        return session.model.document().project().clips.size() > 1;
+    };
     Menu menu("Clip");
     menu.add(
         trim, "Trim to time range", "Deletes everything outside the time range",
@@ -47,6 +54,17 @@ Menu clipMenu(EditorView& view)
         [&view] { ask(view, stretchOperation(view.session().model)); }, anyClip);
     menu.add(repeatClipTimes, "Repeat...", "Repeats the clip a number of times",
              [&view] { ask(view, repeatOperation()); }, anyClip, {ctrl('r')});
+    menu.add(
+        fitToActuator, "Fit to actuator",
+        "Moves levels and frequencies into what the chosen actuator can play, as one step",
+        [&session]
+        {
+            AdaptationParams params;
+            params.strength = session.actuators.strength();
+            session.model.setClip("Fit to actuator",
+                                  adaptClip(*session.model.clip(), *session.actuators.profile(), params).clip);
+        },
+        [&session] { return session.model.clip() && session.actuators.profile(); });
     menu.add(
         splitClipHere, "Split at playhead", "Moves everything after the playhead to a new clip",
         [&session]
@@ -77,10 +95,11 @@ Menu clipMenu(EditorView& view)
              [&session] { session.model.duplicate(); }, anyClip, {ctrl('d')});
     menu.add(
         removeClip, "Remove", "Removes the clip from the project", [&session] { session.model.removeClip(); }, anyClip);
-    menu.add(
-        nextClip, "Next clip", "Shows the next clip of the project", [&session] { showNext(session); },
-        [&session] { return session.model.document().project().clips.size() > 1; },
-        {ctrl(juce::KeyPress::pageDownKey)});
+    menu.add(nextClip, "Next clip", "Shows the next clip of the project", [&session] { showOther(session, 1); },
+             several, {ctrl(juce::KeyPress::pageDownKey)});
+    menu.add(previousClip, "Previous clip", "Shows the previous clip of the project",
+             [&session] { showOther(session, session.model.document().project().clips.size() - 1); }, several,
+             {ctrl(juce::KeyPress::pageUpKey)});
     return menu;
 }
 

@@ -54,6 +54,8 @@ enum Command : int
     duplicateClip,
     removeClip,
     nextClip,
+    previousClip,
+    fitToActuator,
 
     playOrPause,
     toStart,
@@ -67,6 +69,7 @@ enum Command : int
     hearSound,
     hearBoth,
     hapticOrSound,
+    tapEvent,
 
     addMarker,
     renameMarker,
@@ -99,10 +102,18 @@ enum Command : int
     hapticOutputs,
     preferences,
 
+    editScene,
+    addToScene,
     measureActuator,
+    loadProfile,
 
+    nextPanel,
+    previousPanel,
+
+    searchCommands,
     manual,
-    shortcuts
+    shortcuts,
+    about
 };
 
 } // namespace pacini::editor

@@ -4,24 +4,13 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/EditorView.h"
+#include "editor/clip/commands/ContextMenu.h"
+#include "editor/clip/commands/KeyText.h"
 
 #include <utility>
 
 namespace pacini::editor
 {
-
-namespace
-{
-juce::String nameOf(const Action& action)
-{
-    return (action.fullName ? action.fullName() : tr(action.name)).replace("...", toText("…"));
-}
-
-bool canDo(const Action& action)
-{
-    return !action.can || action.can();
-}
-} // namespace
 
 Action& Menu::add(Command id, const char* text, const char* help, std::function<void()> run, std::function<bool()> can,
                   std::vector<juce::KeyPress> keys)
@@ -70,6 +59,16 @@ Menus::~Menus()
     setApplicationCommandManagerToWatch(nullptr);
 }
 
+juce::String Menus::nameOf(const Action& action)
+{
+    return (action.fullName ? action.fullName() : tr(action.name)).replace("...", toText("…"));
+}
+
+bool Menus::canDo(const Action& action)
+{
+    return !action.can || action.can();
+}
+
 const Action* Menus::find(int id) const
 {
     for (const Menu& menu : menus)
@@ -110,11 +109,36 @@ juce::PopupMenu Menus::getMenuForIndex(int index, const juce::String&)
     {
         if (action.lineBefore)
             popup.addSeparator();
-        if (action.choices)
-            popup.addSubMenu(nameOf(action), canDo(action) ? action.choices() : juce::PopupMenu(), canDo(action));
-        else
-            popup.addCommandItem(&manager, action.id);
+        addItem(popup, action);
     }
+    return popup;
+}
+
+void Menus::addItem(juce::PopupMenu& popup, const Action& action)
+{
+    if (action.choices)
+        return popup.addSubMenu(nameOf(action), canDo(action) ? action.choices() : juce::PopupMenu(), canDo(action));
+    juce::PopupMenu::Item item(nameOf(action));
+    item.itemID = action.id;
+    item.isEnabled = canDo(action);
+    item.isTicked = action.on && action.on();
+    item.shortcutKeyDescription = action.keys.empty() ? juce::String() : keyText(action.keys.front());
+    item.action = [this, id = action.id]
+    {
+        perform(id);
+    };
+    popup.addItem(std::move(item));
+}
+
+juce::PopupMenu Menus::menuOf(const std::vector<Command>& commands)
+{
+    juce::PopupMenu popup;
+    popup.setLookAndFeel(&owner.getLookAndFeel());
+    for (const Command command : commands)
+        if (command == ContextMenu::line)
+            popup.addSeparator();
+        else if (const Action* action = find(command))
+            addItem(popup, *action);
     return popup;
 }
 

@@ -22,6 +22,13 @@ public:
     [[nodiscard]] const std::vector<Menu>& all() const noexcept { return menus; }
     [[nodiscard]] juce::KeyListener* keys() { return manager.getKeyMappings(); }
 
+    /// As it is shown: in the user's language, and what it is now.
+    [[nodiscard]] static juce::String nameOf(const Action& action);
+    [[nodiscard]] static bool canDo(const Action& action);
+
+    /// A menu of commands, 0 for a line between them; see ContextMenu.
+    [[nodiscard]] juce::PopupMenu menuOf(const std::vector<Command>& commands);
+
     /// False when it cannot be done now.
     bool perform(Command command);
     /// What can be done may have changed.
@@ -37,6 +44,7 @@ private:
     void getCommandInfo(juce::CommandID id, juce::ApplicationCommandInfo& info) override;
     bool perform(const InvocationInfo& info) override;
 
+    void addItem(juce::PopupMenu& popup, const Action& action);
     [[nodiscard]] const Action* find(int id) const;
 
     juce::Component& owner;

@@ -76,6 +76,10 @@ Menu playMenu(EditorView& view)
         [&session] { session.transport.setLooping(!session.transport.isLooping()); },
         [&session] { return session.transport.isLooping(); }, {ctrl('l')});
     menu.addLine();
+    menu.add(tapEvent, "Tap an event",
+             "Adds an event at the playhead, also during playback; taps of one pass are one step",
+             [&session] { session.tapping.tap(); }, anyClip, {Key('t')});
+    menu.addLine();
     hear(hearHaptic, "Haptic only", "Plays only the drive signal", Heard::haptic, '1');
     hear(hearSound, "Sound only", "Plays only the sound", Heard::sound, '2');
     hear(hearBoth, "Haptic and sound", "Plays both, each on its own outputs", Heard::both, '3');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
+#include "editor/clip/scene/SceneSheet.h"
 #include "editor/measure/MeasurePage.h"
 
 #include <memory>
@@ -10,7 +11,20 @@ namespace pacini::editor
 
 Menu toolsMenu(EditorView& view)
 {
+    Session& session = view.session();
     Menu menu("Tools");
+    menu.add(editScene, "Scene...", "Clips of the project that play together, over several actuators",
+             [&view, &session] { view.showSheet(std::make_unique<SceneSheet>(session)); }, hasClip(session),
+             {ctrlShift('e')});
+    menu.add(
+        addToScene, "Add clip to scene", "Adds the clip behind the last one of the scene",
+        [&session]
+        {
+            SceneSelection scene(session.model);
+            scene.add(session.model.activeId(), scene.end());
+        },
+        hasClip(session));
+    menu.addLine();
     menu.add(measureActuator, "Measure an actuator...",
              "Measures an actuator with a sensor, equalises its response and saves a profile",
              [&view, controller = std::make_shared<std::shared_ptr<MeasurementController>>()]
@@ -26,6 +40,8 @@ Menu toolsMenu(EditorView& view)
                          MeasurementController::HostServices{around.measureRig, around.profileFolder});
                  view.showSheet(std::make_unique<MeasurePage>(*controller, around.showDevices));
              });
+    menu.add(loadProfile, "Load profile...", "Adds the profile of an actuator from a file, and chooses it",
+             [&view] { view.files().askForProfile(); });
     return menu;
 }
 

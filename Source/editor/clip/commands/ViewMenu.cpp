@@ -134,6 +134,11 @@ Menu viewMenu(EditorView& view)
     menu.addSwitch(followSmooth, "Keep playhead centred", "Scrolls continuously during playback",
                    give(&ViewOptions::follow, Follow::smooth), has(&ViewOptions::follow, Follow::smooth));
     menu.addLine();
+    menu.add(nextPanel, "Next panel", "Gives the keyboard to the next part of the window",
+             [&view] { view.focusPart(1); }, {}, {Key(Key::F6Key)});
+    menu.add(previousPanel, "Previous panel", "Gives the keyboard to the previous part of the window",
+             [&view] { view.focusPart(-1); }, {}, {Key(Key::F6Key, juce::ModifierKeys::shiftModifier, 0)});
+    menu.addLine();
     menu.addSwitch(
         lightLook, "Light theme", "Dark text on a light background", [&view] { view.setDark(!view.isDark()); },
         [&view] { return !view.isDark(); });

@@ -442,4 +442,9 @@ void ActuatorRow::paintLosses(juce::Graphics& g, juce::Rectangle<int> plot)
     g.drawImageAt(losses, plot.getX(), plot.getY());
 }
 
+std::vector<Command> ActuatorRow::contextCommands() const
+{
+    return {fitToActuator, line, loadProfile, measureActuator, line, showActuator};
+}
+
 } // namespace pacini::editor

@@ -4,6 +4,7 @@
 // Actuator row of the clip view: what the chosen actuator really plays of the clip.
 
 #include "document/ActuatorTrace.h"
+#include "editor/clip/commands/ContextMenu.h"
 #include "editor/clip/session/Actuators.h"
 #include "editor/clip/session/Jobs.h"
 #include "editor/clip/session/ViewState.h"
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace pacini::editor
 {
@@ -20,7 +22,10 @@ namespace pacini::editor
 /// Two plots: the drive with what protection takes from it, and under it one line for each band, shaded where it is not
 /// played as it is in the clip. Rendered in the background when the clip has rested for a moment. Muted and soloed
 /// bands do not count here.
-class ActuatorRow final : public juce::Component, public juce::SettableTooltipClient, private juce::Timer
+class ActuatorRow final : public juce::Component,
+                          public juce::SettableTooltipClient,
+                          public ContextMenu,
+                          private juce::Timer
 {
 public:
     ActuatorRow(const EditorModel& project, const Actuators& profiles, const ViewState& sight);
@@ -37,6 +42,7 @@ public:
     [[nodiscard]] juce::String textAt(juce::Point<float> place) const;
 
     void paint(juce::Graphics& g) override;
+    [[nodiscard]] std::vector<Command> contextCommands() const override;
     void mouseMove(const juce::MouseEvent& event) override;
 
 private:

@@ -5,6 +5,7 @@
 #include "editor/Theme.h"
 #include "editor/Translation.h"
 #include "editor/clip/lanes/LaneText.h"
+#include "editor/clip/session/Tapping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ namespace pacini::editor
 namespace
 {
 constexpr float eventPickRadius = 8.0f; // pixels
-constexpr double usualSharpness = 0.5;
-constexpr double usualAmplitude = 0.7;
 
 /// Round for dull, pointed for crisp events.
 juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
@@ -153,8 +152,8 @@ void EventLane::addInside(Selection& selection, juce::Rectangle<float> area) con
 
 EditedClip EventLane::added(const Clip& clip, Breakpoint where) const
 {
-    const Transient event = shows == Shows::amplitude ? Transient{where.time, where.value, usualSharpness}
-                                                      : Transient{where.time, usualAmplitude, where.value};
+    const Transient event = shows == Shows::amplitude ? Transient{where.time, where.value, usualEvent.sharpness}
+                                                      : Transient{where.time, usualEvent.amplitude, where.value};
     EditedClip result{addTransient(clip, event), {}};
     const auto& events = result.clip.transients;
     for (std::size_t i = 0; i < events.size(); ++i)

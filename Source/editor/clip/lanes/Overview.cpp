@@ -123,4 +123,9 @@ void Overview::mouseDoubleClick(const juce::MouseEvent&)
     viewState.fit();
 }
 
+std::vector<Command> Overview::contextCommands() const
+{
+    return {zoomIn, zoomOut, zoomToRange, editor::fit};
+}
+
 } // namespace pacini::editor

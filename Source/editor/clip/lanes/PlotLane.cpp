@@ -8,7 +8,6 @@
 #include "editor/clip/session/StepText.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,9 +16,11 @@ namespace pacini::editor
 
 namespace
 {
-constexpr int edgeOfThings = 9;                                  // pixels to either side of what has changed
-constexpr double floorAmplitude = 0.001;                         // -60 dB
-constexpr std::array<double, 3> lines{0.001, 0.0316227766, 1.0}; // of the decibel scale
+constexpr int edgeOfThings = 9;          // pixels to either side of what has changed
+constexpr double floorAmplitude = 0.001; // -60 dB
+constexpr double tickGap = 15.0;         // pixels between marks of the scale
+constexpr int tickWidth = 26;
+constexpr float tickFontHeight = 11.0f;
 
 constexpr juce::uint32 nudgePause = 700; // ms: presses nearer than this are one step of undo
 constexpr double spreadStep = 1.05;      // of differences of levels, a press
@@ -151,11 +152,9 @@ void PlotLane::paint(juce::Graphics& g)
                                           static_cast<float>(plot.getHeight())));
     }
     const ValueAxis axis = scale();
-    if (axis.scale == ValueScale::decibels)
-    {
-        g.setColour(p.line.withAlpha(0.6f));
-        g.fillRect(plot.getX(), plot.getY() + juce::roundToInt(axis.yOf(lines[1])), plot.getWidth(), 1);
-    }
+    g.setColour(p.line.withAlpha(0.6f));
+    for (const double value : valueTicks(axis, tickGap))
+        g.fillRect(plot.getX(), plot.getY() + juce::roundToInt(axis.yOf(value)), plot.getWidth(), 1);
     if (const auto clip = model.clip())
     {
         paintPlot(g, plot, visible.getX() - plot.getX(), visible.getRight() - plot.getX());
@@ -167,6 +166,8 @@ void PlotLane::paint(juce::Graphics& g)
             g.fillRect(plot.withLeft(std::max(plot.getX(), end)));
         }
     }
+    if (getNumChildComponents() > 0) // its head is full of buttons
+        paintTicks(g, plot.withTrimmedLeft(3).withWidth(tickWidth), juce::Justification::centredLeft);
     if (hovered && *hovered < count())
     {
         const auto centre = pointOf(place(*hovered));
@@ -188,7 +189,10 @@ void PlotLane::paintHead(juce::Graphics& g)
         g.drawRect(head, 2);
     }
     drawnNote = look.note;
-    auto text = head.withTrimmedLeft(grid).withTrimmedRight(grid / 2);
+    const bool besideButtons = getNumChildComponents() > 0;
+    if (!besideButtons)
+        paintTicks(g, head.withTrimmedRight(4).removeFromRight(tickWidth), juce::Justification::centredRight);
+    auto text = head.withTrimmedLeft(grid).withTrimmedRight(besideButtons ? grid / 2 : tickWidth);
     g.setColour(p.text);
     g.setFont(usualFont());
     const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
@@ -200,6 +204,24 @@ void PlotLane::paintHead(juce::Graphics& g)
     g.setColour(p.dim);
     g.setFont(smallFont());
     g.drawFittedText(look.note, text, juce::Justification::centredLeft, 1, 0.7f);
+}
+
+/// Numbers of the scale, at the edge of the plot.
+void PlotLane::paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::Justification side)
+{
+    const ValueAxis& axis = scale();
+    g.setColour(paletteFor(*this).dim);
+    g.setFont(smallFont().withHeight(tickFontHeight));
+    for (const double value : valueTicks(axis, tickGap))
+    {
+        const juce::String text = axis.scale == ValueScale::decibels
+                                      ? juce::String(juce::roundToInt(20.0 * std::log10(value)))
+                                  : value >= 1000.0 ? juce::String(value / 1000.0, 0) + "k"
+                                  : value >= 10.0   ? juce::String(juce::roundToInt(value))
+                                                    : juce::String(value, value < 0.1 ? 2 : 1);
+        const int y = plotArea().getY() + juce::roundToInt(axis.yOf(value));
+        g.drawText(text, column.withY(y - 6).withHeight(12), side, false);
+    }
 }
 
 // The mouse.
@@ -257,6 +279,8 @@ void PlotLane::mouseDown(const juce::MouseEvent& event)
     }
     const auto thing = thingAt(event.position);
     const bool more = event.mods.isShiftDown() || event.mods.isCommandDown();
+    if (!thing && event.mods.isPopupMenu())
+        return; // its menu is for what is selected
     if (!thing)
     {
         drag = Drag::marquee;
@@ -459,6 +483,12 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
     else
         return false;
     return true;
+}
+
+std::vector<Command> PlotLane::contextCommands() const
+{
+    return {cut,        copy,   paste,   deleteSelection, line, selectAll, selectNone, line,
+            changeGain, fadeIn, fadeOut, thinOut,         line, draw,      addMarker,  splitClipHere};
 }
 
 } // namespace pacini::editor

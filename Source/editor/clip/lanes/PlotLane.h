@@ -3,7 +3,8 @@
 
 // Base class of the lanes: a head with the name, and a plot over time whose things can be picked, moved and added.
 
-#include "document/view/ValueAxis.h"
+#include "document/view/ValueTicks.h"
+#include "editor/clip/commands/ContextMenu.h"
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
 
@@ -24,7 +25,7 @@ inline constexpr int laneHeadWidth = 144; ///< pixels, of all rows alike
 
 /// What mouse and keys do in a lane is the same for all kinds; the kinds say where their things are and what moving
 /// them means. Paints only the part that is to be drawn anew.
-class PlotLane : public juce::Component, public juce::SettableTooltipClient
+class PlotLane : public juce::Component, public juce::SettableTooltipClient, public ContextMenu
 {
 public:
     PlotLane(EditorModel& project, ClipSelection& selected, ViewState& sight, Transport& playing);
@@ -41,6 +42,7 @@ public:
     std::function<void(PlotLane& lane, const juce::MouseEvent& event, bool over)> onMarquee;
 
     void paint(juce::Graphics& g) final;
+    [[nodiscard]] std::vector<Command> contextCommands() const override;
     void mouseMove(const juce::MouseEvent& event) override;
     void mouseExit(const juce::MouseEvent& event) override;
     void mouseDown(const juce::MouseEvent& event) override;
@@ -105,6 +107,7 @@ private:
     bool repaintChanged();
     void repaintAll();
     void paintHead(juce::Graphics& g);
+    void paintTicks(juce::Graphics& g, juce::Rectangle<int> column, juce::Justification side);
     void nudge(double pixels, double steps);
     void scaleByKeys(double pixels, double steps);
     bool beginNudge(bool scaling);

@@ -137,4 +137,10 @@ void TimeRuler::mouseDoubleClick(const juce::MouseEvent&)
     clipSelection.setTimeRange(std::nullopt);
 }
 
+std::vector<Command> TimeRuler::contextCommands() const
+{
+    return {rangeFromHere, rangeToHere,   editor::loop, trim,        line,
+            addMarker,     splitClipHere, line,         zoomToRange, editor::fit};
+}
+
 } // namespace pacini::editor

@@ -223,4 +223,9 @@ void WaveformRow::paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, co
     }
 }
 
+std::vector<Command> WaveformRow::contextCommands() const
+{
+    return {playOrPause, addMarker, splitClipHere, trim, line, showWaveform, showSpectrum, showBoth, wholeSpectrum};
+}
+
 } // namespace pacini::editor

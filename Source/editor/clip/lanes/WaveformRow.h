@@ -3,6 +3,7 @@
 
 // Row of the source sound in the clip view.
 
+#include "editor/clip/commands/ContextMenu.h"
 #include "editor/clip/lanes/SpectrogramPicture.h"
 #include "editor/clip/session/ProjectSounds.h"
 #include "editor/clip/session/ViewState.h"
@@ -10,12 +11,13 @@
 #include <juce_gui_basics/juce_gui_basics.h>
 
 #include <memory>
+#include <vector>
 
 namespace pacini::editor
 {
 
 /// The sound that the clip was made from, as its waveform, its spectrogram or both over each other.
-class WaveformRow final : public juce::Component, public juce::SettableTooltipClient
+class WaveformRow final : public juce::Component, public juce::SettableTooltipClient, public ContextMenu
 {
 public:
     WaveformRow(const EditorModel& project, const ProjectSounds& projectSounds, ViewState& sight);
@@ -25,6 +27,7 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
+    [[nodiscard]] std::vector<Command> contextCommands() const override;
     void mouseMove(const juce::MouseEvent& event) override;
 
 private:

@@ -4,6 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/scene/SceneSelection.h"
 
 #include <algorithm>
 
@@ -14,6 +15,8 @@ namespace
 {
 constexpr int clipRowHeight = 26;
 constexpr int timeWidth = 6 * grid;
+constexpr int searchHeight = 28;
+constexpr std::size_t fewClips = 8; // are found without a search
 
 juce::String lengthText(double seconds)
 {
@@ -29,6 +32,19 @@ ClipList::ClipList(EditorModel& project) : model(project)
     list.setTitle("Clips of the project");
     list.setTooltip("Choose a clip to edit it. Return renames, Delete removes, Alt+arrow keys move");
     list.setOutlineThickness(0);
+    list.setMultipleSelectionEnabled(true);
+    searchField.setTitle("Search clips");
+    searchField.setTextToShowWhenEmpty(tr("Search clips"), juce::Colours::grey);
+    searchField.setJustification(juce::Justification::centredLeft);
+    searchField.onTextChange = [this]
+    {
+        search(searchField.getText());
+    };
+    searchField.onEscapeKey = [this]
+    {
+        searchField.clear();
+    };
+    addChildComponent(searchField);
     list.addKeyListener(this);
     list.addMouseListener(this, true); // a ListBox drags in windows of their own
     addAndMakeVisible(list);
@@ -49,11 +65,40 @@ void ClipList::refresh()
     ClipRow chosen{model.activeId(), {}};
     if (const ClipRow* now = at(list.getSelectedRow()); now != nullptr && now->clip == 0)
         chosen = *now;
-    auto wanted = clipRows(model.document().project());
+    const Project& project = model.document().project();
+    if (const bool many = project.clips.size() > fewClips; many != searchField.isVisible())
+    {
+        searchField.setVisible(many);
+        resized();
+    }
+    auto wanted = clipRows(project);
+    if (!wordsNow.isEmpty())
+    {
+        const auto fits = [&](const ClipRow& row)
+        {
+            const auto item = row.clip != 0 ? project.find(row.clip) : nullptr;
+            const juce::String all = item ? nameOf(row) + " " + toText(row.group) + " " + toText(item->notes) : "";
+            return std::all_of(wordsNow.begin(), wordsNow.end(),
+                               [&](const juce::String& word) { return all.containsIgnoreCase(word); });
+        };
+        std::erase_if(wanted, [&](const ClipRow& row) { return !fits(row); });
+    }
     if (wanted != rowsNow)
     {
         rowsNow = std::move(wanted);
         list.updateContent();
+    }
+    // Several stay selected while the shown one is among them.
+    const auto several = model.selectedClips();
+    if (several.size() > 1)
+    {
+        juce::SparseSet<int> all;
+        for (std::size_t i = 0; i < rowsNow.size(); ++i)
+            if (std::find(several.begin(), several.end(), rowsNow[i].clip) != several.end())
+                all.addRange({static_cast<int>(i), static_cast<int>(i) + 1});
+        list.setSelectedRows(all, juce::dontSendNotification);
+        list.repaint();
+        return;
     }
     const auto isChosen = [&](const ClipRow& row)
     {
@@ -148,8 +193,29 @@ juce::String ClipList::getTooltipForRow(int row)
               {nameOf(*shown)});
 }
 
+void ClipList::search(const juce::String& words)
+{
+    wordsNow = juce::StringArray::fromTokens(words, " ", {});
+    wordsNow.removeEmptyStrings();
+    refresh();
+}
+
+/// What a command of a row's menu is for: all that are selected where it is one of them.
+std::vector<int> ClipList::clipsFor(int row) const
+{
+    const ClipRow* shown = at(row);
+    if (shown == nullptr || shown->clip == 0)
+        return {};
+    std::vector<int> clips;
+    for (std::size_t i = 0; list.isRowSelected(row) && i < rowsNow.size(); ++i)
+        if (rowsNow[i].clip != 0 && list.isRowSelected(static_cast<int>(i)))
+            clips.push_back(rowsNow[i].clip);
+    return clips.size() > 1 ? clips : std::vector<int>{shown->clip};
+}
+
 void ClipList::selectedRowsChanged(int row)
 {
+    model.selectClips(clipsFor(row));
     if (const ClipRow* chosen = at(row); chosen != nullptr && chosen->clip != 0 && chosen->clip != model.activeId())
         model.show(chosen->clip);
 }
@@ -224,6 +290,13 @@ juce::PopupMenu ClipList::menuOf(int row)
         return menu;
     }
     item("Duplicate", [](ClipList& self, int at) { self.duplicate(at); });
+    item("Add to scene",
+         [](ClipList& self, int at)
+         {
+             SceneSelection scene(self.model);
+             for (const int id : self.clipsFor(at))
+                 scene.add(id, scene.end());
+         });
     item("Remove", [](ClipList& self, int at) { self.remove(at); });
     menu.addSeparator();
     item("Move up", [](ClipList& self, int at) { self.move(at, static_cast<std::size_t>(std::max(0, at - 1))); });
@@ -295,16 +368,22 @@ void ClipList::paintOverChildren(juce::Graphics& g)
     }
     if (!gap)
         return;
-    const int y = *gap < getNumRows() ? list.getRowPosition(*gap, true).getY()
-                  : getNumRows() > 0  ? list.getRowPosition(getNumRows() - 1, true).getBottom()
-                                      : 0;
+    const int y = list.getY() + (*gap < getNumRows() ? list.getRowPosition(*gap, true).getY()
+                                 : getNumRows() > 0  ? list.getRowPosition(getNumRows() - 1, true).getBottom()
+                                                     : 0);
     g.setColour(p.accent);
     g.fillRect(0, std::clamp(y - 1, 0, getHeight() - 2), getWidth(), 2);
 }
 
 void ClipList::resized()
 {
-    list.setBounds(getLocalBounds());
+    auto area = getLocalBounds();
+    if (searchField.isVisible())
+    {
+        searchField.setBounds(area.removeFromTop(searchHeight));
+        area.removeFromTop(grid / 2);
+    }
+    list.setBounds(area);
 }
 
 // What is done to clips.
@@ -354,13 +433,11 @@ void ClipList::remove(int row)
     if (shown == nullptr)
         return;
     const ClipRow was = *shown;
-    if (was.clip != 0 && was.clip == model.activeId())
-        return model.removeClip();
+    if (was.clip != 0)
+        return model.removeClips(clipsFor(row));
     model.change(
         [&was](Document& document) -> Result<void>
         {
-            if (was.clip != 0)
-                return document.removeClip(was.clip, "Remove clip");
             document.renameGroup(was.group, {}, "Remove group");
             return {};
         });
@@ -379,7 +456,7 @@ void ClipList::duplicate(int row)
 void ClipList::move(int row, std::size_t above)
 {
     const ClipRow* shown = at(row);
-    if (shown == nullptr || shown->clip == 0)
+    if (shown == nullptr || shown->clip == 0 || !wordsNow.isEmpty()) // what is between the rows is not seen
         return;
     const int id = shown->clip;
     const Project& project = model.document().project();
@@ -393,16 +470,10 @@ void ClipList::move(int row, std::size_t above)
 
 void ClipList::setGroup(int row, const std::string& group)
 {
-    const ClipRow* shown = at(row);
-    if (shown == nullptr || shown->clip == 0 || shown->group == group)
+    const auto clips = clipsFor(row);
+    if (clips.empty() || (clips.size() == 1 && at(row)->group == group))
         return;
-    const auto& clips = model.document().project().clips;
-    const int id = shown->clip;
-    // Its place among all clips stays.
-    const auto place = std::find_if(clips.begin(), clips.end(), [id](const auto& item) { return item->id == id; });
-    model.change(
-        [&](Document& document)
-        { return document.placeClip(id, static_cast<std::size_t>(place - clips.begin()), group, "Move to group"); });
+    model.change([&](Document& document) { return document.setGroup(clips, group, "Move to group"); });
 }
 
 void ClipList::addGroup(int row)
@@ -435,7 +506,7 @@ void ClipList::beginRename(int row)
     nameField->setFont(usualFont());
     nameField->setText(nameOf(*shown), false);
     nameField->setSelectAllWhenFocused(true);
-    nameField->setBounds(list.getRowPosition(row, true).reduced(1));
+    nameField->setBounds(list.getRowPosition(row, true).translated(0, list.getY()).reduced(1));
     const auto end = [this](int renamed, bool keep)
     {
         if (!nameField)

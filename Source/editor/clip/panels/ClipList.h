@@ -15,8 +15,9 @@
 namespace pacini::editor
 {
 
-/// The chosen clip is the one that is shown. Return or F2 renames, Delete removes, Alt with the arrows moves, a drag
-/// moves too; the menu of a row has it all.
+/// The chosen clip is the one that is shown; several can be selected, to remove, group or export them at once. Return
+/// or F2 renames, Delete removes, Alt with the arrows moves, a drag moves too; the menu of a row has it all. With many
+/// clips there is a field to search them by words of their names, groups and notes.
 class ClipList final : public juce::Component,
                        public juce::DragAndDropContainer,
                        public juce::DragAndDropTarget,
@@ -30,6 +31,8 @@ public:
     [[nodiscard]] const std::vector<ClipRow>& rows() const noexcept { return rowsNow; }
     [[nodiscard]] int chosenRow() const { return list.getSelectedRow(); }
     void choose(int row) { list.selectRow(row); }
+    /// Empty: all are shown.
+    void search(const juce::String& words);
 
     /// Of a clip or a group. Empty names change nothing.
     void rename(int row, const juce::String& name);
@@ -54,6 +57,7 @@ public:
 private:
     void refresh();
     void showMenu(int row, juce::Rectangle<int> beside);
+    [[nodiscard]] std::vector<int> clipsFor(int row) const;
     [[nodiscard]] juce::String nameOf(const ClipRow& row) const;
     [[nodiscard]] const ClipRow* at(int row) const;
 
@@ -76,7 +80,9 @@ private:
     [[nodiscard]] int gapAt(const SourceDetails& details) const;
 
     EditorModel& model;
-    std::vector<ClipRow> rowsNow;
+    std::vector<ClipRow> rowsNow; ///< as the search has left them
+    juce::StringArray wordsNow;
+    juce::TextEditor searchField;
     juce::ListBox list{{}, this};
     std::unique_ptr<juce::TextEditor> nameField; ///< over a row while it is renamed
     std::optional<int> gap;                      ///< of a drag

@@ -12,11 +12,24 @@ namespace pacini::editor
 Actuators::Actuators(EditorModel& project, std::vector<NamedProfile> profiles)
     : model(project), list(std::move(profiles))
 {
+    subscriptions.on({&model.opened}, [this] { empty = model.isEmpty(); });
     subscriptions.on({&model.projectChanged}, [this] { follow(); });
+}
+
+void Actuators::setUsual(const std::string& name)
+{
+    if (usualName == name)
+        return;
+    usualName = name;
+    usualChanged.emit();
 }
 
 void Actuators::follow()
 {
+    // What is opened has what it was saved with; what is begun has what its user feels.
+    const bool begins = std::exchange(empty, model.isEmpty()) && !model.isEmpty();
+    if (begins && model.document().path().empty() && profileName().empty() && !usualName.empty())
+        return choose(usualName); // comes back here
     if (known == model.document().project().profile)
         return;
     known = model.document().project().profile;

@@ -21,6 +21,7 @@ public:
 
     Signal changed; ///< which one the project has, what it is, or its strength
     Signal listChanged;
+    Signal usualChanged;
 
     [[nodiscard]] const std::vector<NamedProfile>& profiles() const noexcept { return list; }
     /// In the place of one of its name that is not Pacini's, or behind the others; `use` chooses it at once.
@@ -28,6 +29,9 @@ public:
     /// Of the project; empty: the plain drive signal.
     [[nodiscard]] const std::string& profileName() const noexcept { return model.document().project().profile.name; }
     void setProfile(const std::string& name);
+    /// That of projects which are begun: their first clip brings it. Empty: none.
+    [[nodiscard]] const std::string& usual() const noexcept { return usualName; }
+    void setUsual(const std::string& name);
     [[nodiscard]] std::shared_ptr<const Profile> profile() const;
 
     /// Of the project, 0 to 1, see fitActuator(); clamped when it is set.
@@ -42,6 +46,8 @@ private:
 
     EditorModel& model;
     std::vector<NamedProfile> list;
+    std::string usualName;
+    bool empty = true;    ///< the project, when it was last looked at
     ProjectProfile known; ///< to see when the project has another
     Subscriptions subscriptions;
 };

@@ -360,6 +360,21 @@ void EditorModel::removeClip()
         show(isEmpty() ? 0 : open->project().clips.front()->id);
 }
 
+std::vector<int> EditorModel::selectedClips() const
+{
+    std::vector<int> there = selectedNow;
+    std::erase_if(there, [this](int id) { return !open->clip(id); });
+    if (std::find(there.begin(), there.end(), active) == there.end())
+        there.assign(active != 0 ? 1 : 0, active);
+    return there;
+}
+
+void EditorModel::removeClips(const std::vector<int>& ids)
+{
+    if (take(open->removeClips(ids, ids.size() > 1 ? "Remove clips" : "Remove clip")) && !item())
+        show(isEmpty() ? 0 : open->project().clips.front()->id);
+}
+
 bool EditorModel::splitAt(double time)
 {
     const auto right = open->splitClipAt(active, time, "Split");

@@ -78,6 +78,12 @@ public:
     /// s: of the clip, or of the sound that is being analysed; 0: nothing is shown.
     [[nodiscard]] double duration() const;
     void show(int clipId);
+    /// Those that are selected in the list of clips; what is done to several at once is done to these.
+    /// The shown one alone, where it is none of them.
+    [[nodiscard]] std::vector<int> selectedClips() const;
+    void selectClips(std::vector<int> ids) { selectedNow = std::move(ids); }
+    /// Removes them; where the shown one is among them, the first that is left is shown.
+    void removeClips(const std::vector<int>& ids);
 
     /// Shows a sound whose analysis is under way, as a clip without curves, until a clip is shown in its place.
     void showUnanalysed(std::shared_ptr<const Sound> read);
@@ -143,6 +149,7 @@ private:
     const std::filesystem::path recoveryFolder;
     RecentFiles recent;
     int active = 0;
+    std::vector<int> selectedNow;
     std::shared_ptr<const Sound> unanalysed; ///< shown in place of a clip: active is 0
     int beforeUnanalysed = 0;
     std::shared_ptr<const Clip> preview;

@@ -3,6 +3,8 @@
 
 // Editing session: one editor without its window, as the parts that its views share.
 
+#include "editor/clip/session/FilePreview.h"
+#include "editor/clip/session/Tapping.h"
 #include "editor/clip/session/Transport.h"
 #include "editor/clip/session/ViewState.h"
 
@@ -29,6 +31,8 @@ struct Session
     ViewState viewState{model};
     ClipPlayer player; ///< runs in the callback of a device
     Transport transport{model, sounds, actuators, outputs, clipSelection, player};
+    Tapping tapping{model, transport};
+    FilePreview filePreview{model, actuators, outputs, player};
 
 private:
     Subscriptions subscriptions;

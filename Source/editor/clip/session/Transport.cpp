@@ -69,6 +69,14 @@ void Transport::setHeard(Heard wanted)
     changed.emit();
 }
 
+void Transport::takePlayer()
+{
+    player.stop();
+    send();
+    player.setSound(audioOf(sounds.soundOfClip()));
+    changed.emit();
+}
+
 void Transport::setAudition(Audition wanted)
 {
     auditionNow = std::move(wanted);

@@ -34,6 +34,8 @@ public:
     void setLooping(bool wanted);
     [[nodiscard]] Heard heard() const noexcept { return hear; }
     void setHeard(Heard wanted);
+    /// Gives the player the clip again, after something else has played on it.
+    void takePlayer();
     [[nodiscard]] const Audition& audition() const noexcept { return auditionNow; }
     void setAudition(Audition wanted);
 

@@ -93,10 +93,13 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
         showLosses();
     };
     const auto count = model.document().project().clips.size();
-    all.setButtonText(count > 1 ? tr("All {0} clips of the project", {juce::String(static_cast<int>(count))})
-                                : tr("All clips of the project"));
+    const auto selected = model.selectedClips().size();
+    all.setButtonText(selected > 1 ? tr("{0} selected clips", {juce::String(static_cast<int>(selected))})
+                      : count > 1  ? tr("All {0} clips of the project", {juce::String(static_cast<int>(count))})
+                                   : tr("All clips of the project"));
     all.setTitle("Export all clips");
     all.setEnabled(count > 1);
+    all.setToggleState(selected > 1, juce::dontSendNotification);
     prepareButton(all, "One file per clip, in a folder", [this] { formatChanged(); });
     target.setTitle("Destination file or folder");
     target.setFont(usualFont());
@@ -230,8 +233,10 @@ void ExportSheet::run()
     const juce::File place = juce::File::getCurrentWorkingDirectory().getChildFile(target.getText());
     if (all.getToggleState())
     {
+        const auto selected = model.selectedClips();
         for (const auto& item : model.document().project().clips)
-            clips.push_back(item->clip);
+            if (selected.size() < 2 || std::find(selected.begin(), selected.end(), item->id) != selected.end())
+                clips.push_back(item->clip);
         wanted.folder = pathOf(place);
     }
     else

@@ -3,6 +3,7 @@
 
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/commands/KeyText.h"
 
 #include <vector>
 
@@ -45,8 +46,7 @@ public:
             rows.push_back({tr(menu.name), {}});
             for (const Action& action : menu.actions)
                 if (!action.keys.empty())
-                    rows.push_back(
-                        {action.keys.front().getTextDescription(), tr(action.name) + ": " + tr(action.help)});
+                    rows.push_back({keyText(action.keys.front()), tr(action.name) + ": " + tr(action.help)});
         }
         setSize(600, static_cast<int>(rows.size()) * shortcutRowHeight);
         setTitle("Keyboard and mouse");

@@ -1,0 +1,132 @@
+// The start page without a screen: the library, what will feel it, the first steps.
+
+#include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "support/TempFolder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+std::vector<std::filesystem::path> shippedSounds()
+{
+    std::vector<std::filesystem::path> all;
+    for (const char* folder : {"Resources/library", "Resources/demo"})
+        for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / folder))
+            if (entry.path().extension() == ".flac")
+                all.push_back(entry.path());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// An editor that has just been started.
+struct StartBench
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    editor::Session session{{}, {shipped("phone-taptic"), shipped("l5-wristband")}};
+    editor::EditorView view{session, services()};
+
+    static editor::HostServices services()
+    {
+        editor::HostServices around;
+        around.demoSounds = shippedSounds();
+        return around;
+    }
+    StartBench() { view.setBounds(0, 0, 1280, 800); }
+    [[nodiscard]] juce::StringArray search(const juce::String& words)
+    {
+        auto& field = get<juce::TextEditor>(view, "Search sounds");
+        field.setText(words, false);
+        field.onTextChange();
+        return view.startPage().shownSounds();
+    }
+    bool opens(const juce::String& sound)
+    {
+        get<juce::Button>(view.startPage(), sound).onClick();
+        return pumpUntil([this] { return session.model.clip() != nullptr && !session.sounds.workNow(); });
+    }
+};
+} // namespace
+
+TEST_CASE("The library has its ten sounds, found by name and by tag")
+{
+    StartBench bench;
+    const auto all = bench.view.startPage().shownSounds();
+    for (const char* name : {"UI click", "Notification", "Heartbeat", "Footsteps", "Weapon", "Explosion", "Engine loop",
+                             "Rain", "Texture", "Music bed"})
+        CHECK(all.contains(name));
+    CHECK(all.size() > 15); // recordings too
+    CHECK(bench.search("heart") == juce::StringArray{"Heartbeat"});
+    CHECK(bench.search("gravel walk") == juce::StringArray{"Footsteps"});
+    CHECK(bench.search("nothing like it").isEmpty());
+    CHECK(bench.search("").size() == all.size());
+}
+
+TEST_CASE("A sound of the library opens with the actuator that was chosen, and an old project keeps its own")
+{
+    StartBench bench;
+    get<juce::Button>(bench.view.startPage(), "Phone").onClick();
+    CHECK(bench.session.actuators.usual() == "phone-taptic");
+    CHECK_FALSE(bench.session.model.document().isDirty());
+    REQUIRE(bench.opens("Heartbeat"));
+    CHECK(bench.session.actuators.profileName() == "phone-taptic");
+    CHECK(bench.session.model.clip()->transients.size() >= 6);
+    CHECK(bench.view.statusBar().playsOn().contains(juce::String(bench.session.actuators.profile()->name)));
+    // Another choice is for what begins.
+    bench.session.actuators.setUsual("l5-wristband");
+    CHECK(bench.session.actuators.profileName() == "phone-taptic");
+    bench.session.actuators.setProfile("");
+    const TempFolder folder;
+    REQUIRE(bench.session.model.saveAs(folder / "none.pacini"));
+    bench.session.model.newProject();
+    REQUIRE(bench.session.model.openProject(folder / "none.pacini"));
+    CHECK(bench.session.actuators.profileName().empty());
+}
+
+TEST_CASE("Sounds of the start page are heard and felt without being opened")
+{
+    StartBench bench;
+    auto& preview = bench.session.filePreview;
+    preview.play(sourceFolder() / "Resources/library/heartbeat.flac");
+    CHECK(preview.file().filename() == "heartbeat.flac");
+    float most = 0.0f;
+    REQUIRE(pumpUntil(
+        [&]
+        {
+            std::array<float, 256> haptic{}, sound{};
+            const std::span<float> drive(haptic), heard(sound);
+            bench.session.player.process(std::span(&drive, 1), std::span(&heard, 1));
+            for (std::size_t i = 0; i < haptic.size(); ++i)
+                most = std::max(most, std::min(std::abs(haptic[i]) * 100.0f, std::abs(sound[i])));
+            return most > 0.01f;
+        },
+        20.0));
+    CHECK(bench.session.model.isEmpty());
+    preview.stop();
+    CHECK_FALSE(bench.session.player.isPlaying());
+    preview.play(sourceFolder() / "Resources/library/rain.flac");
+    REQUIRE(bench.opens("UI click"));
+    CHECK(preview.file().empty());
+    preview.play(sourceFolder() / "Resources/library/rain.flac"); // a clip is shown
+    CHECK(preview.file().empty());
+}
+
+TEST_CASE("The first steps are shown until each was done once")
+{
+    StartBench bench;
+    CHECK_FALSE(bench.view.statusBar().steps().chosen);
+    REQUIRE(bench.opens("UI click"));
+    CHECK(bench.view.statusBar().steps().chosen);
+    CHECK_FALSE(bench.view.statusBar().steps().shaped);
+    REQUIRE(bench.view.doCommand(editor::tapEvent));
+    CHECK(bench.view.statusBar().steps().shaped);
+    bench.view.lastExport.format = "json";
+    bench.view.showSheet(nullptr);
+    CHECK(bench.view.statusBar().steps().all());
+}
