@@ -128,7 +128,7 @@ void StoredAudio::close()
     if (open.empty())
         return;
     pieces.push_back(std::make_shared<const Piece>(packed(open)));
-    open = {};
+    std::vector<float>().swap(open); // an assignment would keep its memory
 }
 
 std::size_t StoredAudio::bytes() const noexcept
