@@ -68,7 +68,7 @@ struct ScenePart
     double transposition = 0.0; ///< semitones
     double delay = 0.0;         ///< s
     int priority = 0;           ///< 0 is kept longest
-    std::vector<SceneCurve> curves;
+    std::vector<SceneCurve> curves = {};
     bool operator==(const ScenePart&) const = default;
 };
 

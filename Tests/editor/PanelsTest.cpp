@@ -279,6 +279,22 @@ TEST_CASE("Several selected clips are grouped, exported and removed in one step 
     CHECK(session.model.selectedClips().size() == 1);
 }
 
+TEST_CASE("A file that is typed with the ending of another format is exported in that format")
+{
+    Pages pages;
+    REQUIRE(pages.view.doCommand(editor::exportClips));
+    auto& sheet = *pages.view.sheet();
+    auto& target = get<juce::TextEditor>(sheet, "Destination file or folder");
+    auto& format = get<juce::ComboBox>(sheet, "Format");
+    const TempFolder folder;
+    target.setText(juce::String((folder / "made.haptic").string()), false);
+    target.onTextChange();
+    CHECK(format.getText().contains(".haptic"));
+    CHECK(target.getText().endsWith("made.haptic"));
+    target.onReturnKey();
+    CHECK(pumpUntil([&] { return std::filesystem::exists(folder / "made.haptic"); }));
+}
+
 TEST_CASE("Five hundred clips are searched by words of name, group and notes, and only rows in sight are components")
 {
     Pages pages;

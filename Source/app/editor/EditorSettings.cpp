@@ -24,6 +24,7 @@ void forAll(editor::ViewOptions& view, SnapTargets& snap, Visit&& visit)
 {
     visit("wholeSpectrum", view.wholeSpectrum);
     visit("actuatorRows", view.actuator);
+    visit("technicalTerms", view.technicalTerms);
     visit("snap", snap.on);
     visit("snapToGrid", snap.grid);
     visit("snapToTransients", snap.transients);

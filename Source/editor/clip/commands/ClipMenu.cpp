@@ -2,6 +2,7 @@
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/commands/Operations.h"
+#include "editor/clip/sheets/ComparisonSheet.h"
 
 #include <pacini/synthesis/ClipAdaptation.h>
 
@@ -90,6 +91,11 @@ Menu clipMenu(EditorView& view)
     menu.add(
         takeVersionA, "Revert to version A", "Replaces the clip with version A, and the settings of its analysis",
         [&session] { session.model.takeVersion(); }, [&session] { return session.model.keptVersion() != nullptr; });
+    menu.add(
+        compareWithTheSound, "Compare with sound...",
+        "Shows where the clip differs from its sound, by band and time, with its scores",
+        [&view, &session] { view.showSheet(std::make_unique<ComparisonSheet>(session)); },
+        [&session] { return session.model.clip() && session.sounds.soundOfClip(); }, {ctrlShift('d')});
     menu.addLine();
     menu.add(duplicateClip, "Duplicate", "Adds a copy of the clip to the project",
              [&session] { session.model.duplicate(); }, anyClip, {ctrl('d')});

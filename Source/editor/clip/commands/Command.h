@@ -51,6 +51,7 @@ enum Command : int
     keepVersionA,
     compareWithA,
     takeVersionA,
+    compareWithTheSound,
     duplicateClip,
     removeClip,
     nextClip,

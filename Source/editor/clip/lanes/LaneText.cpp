@@ -4,7 +4,9 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -63,6 +65,16 @@ juce::String laneName(const Clip& clip, Lane lane)
     default:
         return lane.index < clip.bands.size() ? hertzText(clip.bands[lane.index].centreFrequency) : juce::String();
     }
+}
+
+juce::String designerWord(const juce::String& technical)
+{
+    constexpr std::array<std::pair<const char*, const char*>, 3> words{
+        {{"Transients", "Events"}, {"Envelope", "Intensity"}, {"Centroid", "Brightness"}}};
+    for (const auto& [term, word] : words)
+        if (technical == term)
+            return word;
+    return technical;
 }
 
 } // namespace pacini::editor

@@ -22,4 +22,7 @@ namespace pacini::editor
 /// The name of a lane for people.
 [[nodiscard]] juce::String laneName(const Clip& clip, Lane lane);
 
+/// A technical name in the words of designers: "Centroid" is "Brightness". What has no other word stays.
+[[nodiscard]] juce::String designerWord(const juce::String& technical);
+
 } // namespace pacini::editor

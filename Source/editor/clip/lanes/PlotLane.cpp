@@ -4,6 +4,7 @@
 #include "document/SelectionScale.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/lanes/LaneText.h"
 #include "editor/clip/session/Snapping.h"
 #include "editor/clip/session/StepText.h"
 
@@ -198,7 +199,9 @@ void PlotLane::paintHead(juce::Graphics& g)
     const bool two = look.note.isNotEmpty() && text.getHeight() >= 38;
     if (two)
         text = text.withSizeKeepingCentre(text.getWidth(), 36);
-    g.drawFittedText(tr(look.name), two ? text.removeFromTop(19) : text, juce::Justification::centredLeft, 1, 0.8f);
+    const bool technical = viewState.viewOptions().technicalTerms;
+    g.drawFittedText(tr(technical ? look.name : designerWord(look.name)), two ? text.removeFromTop(19) : text,
+                     juce::Justification::centredLeft, 1, 0.8f);
     if (!two)
         return;
     g.setColour(p.dim);
@@ -246,7 +249,11 @@ void PlotLane::mouseMove(const juce::MouseEvent& event)
                    : now && !viewState.isDrawing()           ? juce::MouseCursor(juce::MouseCursor::PointingHandCursor)
                                                              : cursorAt(event));
     if (!plotArea().contains(event.getPosition()) || !model.clip())
-        setTooltip(getDescription());
+    {
+        // The other word is in the tooltip.
+        const juce::String name = style().name;
+        setTooltip(designerWord(name) == name ? getDescription() : tr(name) + ": " + getDescription());
+    }
     else
     {
         const Breakpoint p = now ? place(*now) : placeAt(event.position);

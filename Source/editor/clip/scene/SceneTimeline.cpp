@@ -125,8 +125,8 @@ void SceneTimeline::paint(juce::Graphics& g)
     {
         g.setColour(p.dim);
         g.setFont(usualFont());
-        g.drawFittedText(tr("No clip is in the scene yet. Choose one above to add it at the cursor."),
-                         getLocalBounds(), juce::Justification::centred, 2);
+        g.drawFittedText(tr("No clip is in the scene yet. Choose one above to add it at the cursor."), getLocalBounds(),
+                         juce::Justification::centred, 2);
     }
     drawFocusRing(g, *this, getLocalBounds().toFloat().reduced(1.0f));
 }
@@ -254,7 +254,7 @@ void SceneTimeline::mouseWheelMove(const juce::MouseEvent& event, const juce::Mo
         const double at = axis.timeAt(event.position.x);
         axis.secondsPerPixel =
             std::clamp(axis.secondsPerPixel * std::exp2(-4.0 * static_cast<double>(details.deltaY)), 1e-4, 10.0);
-        axis.start = std::max(0.0, at - event.position.x * axis.secondsPerPixel);
+        axis.start = std::max(0.0, at - static_cast<double>(event.position.x) * axis.secondsPerPixel);
     }
     else if (event.mods.isShiftDown() || std::abs(details.deltaX) > std::abs(details.deltaY))
         axis.start =

@@ -26,6 +26,7 @@ struct ViewOptions
     bool wholeSpectrum = false; ///< up to half the sample rate, not 2 kHz
     bool actuator = true;       ///< the rows of what it plays
     Follow follow = Follow::page;
+    bool technicalTerms = false; ///< names of lanes as in research, not in the words of designers
     bool operator==(const ViewOptions&) const = default;
 };
 

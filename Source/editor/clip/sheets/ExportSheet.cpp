@@ -104,6 +104,10 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     target.setTitle("Destination file or folder");
     target.setFont(usualFont());
     target.setIndents(grid, 7);
+    target.onTextChange = [this]
+    {
+        followExtension();
+    };
     target.onReturnKey = [this]
     {
         run();
@@ -175,6 +179,25 @@ void ExportSheet::formatChanged()
                        ? folder.getFullPathName()
                        : folder.getChildFile(toText(exportName(*clip, chosenFormat()))).getFullPathName(),
                    false);
+    rate.setEnabled(chosenFormat().isSamples);
+    rateLabel.setEnabled(chosenFormat().isSamples);
+    showLosses();
+}
+
+/// A file that is typed with the ending of another format is of that format.
+void ExportSheet::followExtension()
+{
+    const juce::String name = target.getText();
+    if (all.getToggleState() || name.endsWithIgnoreCase(toText(chosenFormat().extension)))
+        return;
+    const auto& formats = exportFormats();
+    const auto found =
+        std::find_if(formats.begin(), formats.end(),
+                     [&](const ClipFormat& one) { return name.endsWithIgnoreCase(toText(one.extension)); });
+    if (found == formats.end())
+        return;
+    format.setSelectedId(1 + static_cast<int>(found - formats.begin()), juce::dontSendNotification);
+    chooseUsualEvents();
     rate.setEnabled(chosenFormat().isSamples);
     rateLabel.setEnabled(chosenFormat().isSamples);
     showLosses();

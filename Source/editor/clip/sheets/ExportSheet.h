@@ -36,6 +36,7 @@ private:
     juce::Component* firstFocus() override { return &target; }
     void formatChanged();
     void chooseUsualEvents();
+    void followExtension();
     void showLosses();
     void browse();
     void run();

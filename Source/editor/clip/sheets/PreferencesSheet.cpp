@@ -63,6 +63,8 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
               [option](int i) { option(&ViewOptions::follow, static_cast<Follow>(i)); });
     addSwitch("Actuator output", "Shows the actuator's drive and losses below the lanes", options.actuator,
               [option](bool on) { option(&ViewOptions::actuator, on); });
+    addSwitch("Technical terms", "Names lanes as in research: Transients, Envelope, Centroid", options.technicalTerms,
+              [option](bool on) { option(&ViewOptions::technicalTerms, on); });
     const auto target = [&viewState](bool SnapTargets::*member, bool on)
     {
         SnapTargets targets = viewState.snapTargets();
