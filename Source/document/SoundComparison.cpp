@@ -77,7 +77,8 @@ void takeDifference(SoundComparison& found)
     {
         const float sound = std::max(soundAt(i), floor);
         const float drive = std::max(driveAt(i) + static_cast<float>(found.gain), floor);
-        found.drive[i] = SpectrumLevel::byteOf(static_cast<double>(drive));
+        if (found.drive[i] > 0)
+            found.drive[i] = SpectrumLevel::byteOf(static_cast<double>(driveAt(i)) + found.gain);
         found.difference[i] = drive - sound;
         if (sound > floor)
         {
