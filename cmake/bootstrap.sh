@@ -32,7 +32,7 @@ portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang c
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 # What the package for Python is built and tested with.
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
-    'ipykernel<8')
+    'ipykernel<8' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
