@@ -1,4 +1,5 @@
 """The site of all documentation: it is made, has everything that can be called, and no link that leads nowhere."""
+
 import importlib.util
 import os
 import re
@@ -12,8 +13,10 @@ SOURCE = Path(os.environ["PACINI_SOURCE_DIR"])
 MAKER = SOURCE / "Resources/docs/make_site.py"
 
 
-@unittest.skipUnless(importlib.util.find_spec("mkdocs") and importlib.util.find_spec("mkdocstrings"),
-                     "MkDocs and mkdocstrings are missing")
+@unittest.skipUnless(
+    importlib.util.find_spec("mkdocs") and importlib.util.find_spec("mkdocstrings"),
+    "MkDocs and mkdocstrings are missing",
+)
 class Site(unittest.TestCase):
     def make(self, maker=MAKER):
         folder = tempfile.TemporaryDirectory()
@@ -30,10 +33,12 @@ class Site(unittest.TestCase):
         index = (site / "index.html").read_text()
         self.assertTrue("Sound to touch" in index)
         c = re.sub(r"<[^>]*>", "", (site / "api-c.html").read_text())
-        for function in re.findall(r"PACINI_API \w+[ *]+(pacini_\w+)\(",
-                                   (SOURCE / "Source/library/include/pacini.h").read_text()):
+        for function in re.findall(
+            r"PACINI_API \w+[ *]+(pacini_\w+)\(", (SOURCE / "Source/library/include/pacini.h").read_text()
+        ):
             self.assertTrue(function + "(" in c, function)
         import pacini
+
         python = (site / "api-python.html").read_text()
         for name in pacini.__all__:
             self.assertTrue(f'id="pacini.{name}"' in python, name)
@@ -48,12 +53,15 @@ class Site(unittest.TestCase):
         text = MAKER.read_text()
         with tempfile.TemporaryDirectory() as folder:
             for broken in ("[gone](nowhere.md)", "[gone](scenes.md#nowhere)"):
-                changed = text.replace('"# The package for Python\\n\\n', f'"# The package for Python\\n\\n{broken}\\n\\n')
+                changed = text.replace(
+                    '"# The package for Python\\n\\n', f'"# The package for Python\\n\\n{broken}\\n\\n'
+                )
                 self.assertNotEqual(changed, text)
                 maker = Path(folder) / "Resources" / "docs" / "make_site.py"
                 maker.parent.mkdir(parents=True, exist_ok=True)
-                maker.write_text(changed.replace("ROOT = Path(__file__).resolve().parents[2]",
-                                                 f"ROOT = Path({str(SOURCE)!r})"))
+                maker.write_text(
+                    changed.replace("ROOT = Path(__file__).resolve().parents[2]", f"ROOT = Path({str(SOURCE)!r})")
+                )
                 done, _ = self.make(maker)
                 self.assertNotEqual(done.returncode, 0, broken)
                 self.assertIn("nowhere", done.stderr)
