@@ -20,10 +20,11 @@ host_packages=(python3-venv python3-dev liblilv-dev lv2-dev xvfb xauth xdotool i
     umockdev gir1.2-umockdev-1.0 python3-gi)
 # The Debian package, and the bare root that it is tried in.
 package_packages=(dpkg-dev file)
-# Engines and languages that libpacini has bindings for, and those that take long to install, for CI alone.
+# Engines and languages that libpacini has bindings for, and those that take long to install, for CI alone: Node.js also for
+# the checker of types.
 binding_packages=(mono-mcs mono-runtime love godot3-server libsdl2-dev)
 slow_binding_packages=(rustc cargo nodejs npm)
-node_modules=(koffi@3.3.4)
+node_modules=(koffi@3.3.4 pyright@1.1.405)
 # Schedulers that the scripts of Resources/cluster are for, likewise.
 cluster_packages=(parallel slurmctld slurmd slurm-client munge)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.

@@ -1,7 +1,9 @@
-"""Types are right: of the package by mypy, of the native module against its stubs, and in code that uses them."""
+"""Types are right: of the package by mypy and pyright, of the native module against its stubs, and in code with both."""
 
 import ast
+import json
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -86,6 +88,29 @@ class Typing(FolderTest):
             ["4", "5", "7"],
             done.stdout,
         )
+
+    def test_pyright_finds_the_same(self):
+        """The checker inside editors, which most users see."""
+        pyright = SOURCE / "build/bindings-node/node_modules/pyright/index.js"
+        if not shutil.which("node") or not pyright.exists():
+            self.skipTest("pyright is missing: bash cmake/bootstrap.sh slow-tests installs it")
+        (self.folder / "right.py").write_text(RIGHT)
+        (self.folder / "wrong.py").write_text(WRONG)
+        (self.folder / "package").symlink_to(PACKAGE)
+        settings = {"include": ["."], "extraPaths": [str(PACKAGE.parent)], "pythonVersion": "3.11"}
+        (self.folder / "pyrightconfig.json").write_text(json.dumps(settings))
+        done = subprocess.run(
+            ["node", str(pyright), "--pythonpath", sys.executable, "--outputjson"],
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+        )
+        errors = [
+            (Path(found["file"]).name, found["range"]["start"]["line"] + 1)
+            for found in json.loads(done.stdout)["generalDiagnostics"]
+            if found["severity"] == "error"
+        ]
+        self.assertEqual(errors, [("wrong.py", 4), ("wrong.py", 5), ("wrong.py", 7)], done.stdout[-3000:])
 
     def test_the_stubs_are_those_of_the_native_module(self):
         """By the names of everything and of all parameters."""
