@@ -504,6 +504,28 @@ Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& 
     return {};
 }
 
+Result<void> Document::reanalyse(std::vector<Reanalysis> clips, std::string name, const EncoderParams& encoder)
+{
+    if (auto valid = validate(encoder); !valid)
+        return valid.error();
+    Project next = content;
+    for (Reanalysis& one : clips)
+    {
+        const auto old = clip(one.id);
+        if (!old)
+            return noSuchClip(one.id);
+        if (auto valid = validate(one.analysis); !valid)
+            return valid.error();
+        ClipItem item = *old;
+        item.encoder = encoder;
+        putReapplied(item, reapply(*old->analysis, one.analysis, listOf(old->edits)));
+        item.analysis = std::make_shared<const Clip>(std::move(one.analysis));
+        replaceClip(next, std::move(item));
+    }
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
 Result<void> Document::removeEdits(int id, std::string name, const std::vector<std::size_t>& edits)
 {
     const auto old = clip(id);

@@ -96,6 +96,14 @@ public:
     Result<void> reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
                            std::optional<AudioReference> sound = {});
 
+    /// The same for several clips at once, as one step; where one is not valid none is changed.
+    struct Reanalysis
+    {
+        int id = 0;
+        Clip analysis;
+    };
+    Result<void> reanalyse(std::vector<Reanalysis> clips, std::string name, const EncoderParams& encoder);
+
     /// Removes edits by their indices (ascending) and applies the others anew.
     Result<void> removeEdits(int id, std::string name, const std::vector<std::size_t>& edits);
 

@@ -279,6 +279,36 @@ TEST_CASE("Several selected clips are grouped, exported and removed in one step 
     CHECK(session.model.selectedClips().size() == 1);
 }
 
+TEST_CASE("Selected clips are analysed with the settings of the shown one, as one step")
+{
+    Pages pages;
+    auto& session = pages.session;
+    pages.openDemo("impact_boom");
+    pages.openDemo("click_clock");
+    CHECK_FALSE(pages.view.doCommand(editor::analyseAlike)); // one is selected
+    auto settings = session.model.item()->encoder;
+    settings.bands = 5;
+    session.sounds.reanalyse(settings);
+    REQUIRE(pumpUntil([&] { return analysed(session) && session.model.item()->encoder.bands == 5; }));
+    auto& box = get<juce::ListBox>(pages.project.clips(), "Clips of the project");
+    box.selectRow(1);
+    box.selectRow(2, false, false);
+    const std::size_t steps = session.model.document().steps().size();
+    const auto first = session.model.document().project().clips[0],
+               second = session.model.document().project().clips[1];
+    REQUIRE(session.model.activeId() == session.model.document().project().clips[2]->id);
+    REQUIRE(pages.view.doCommand(editor::analyseAlike));
+    REQUIRE(pumpUntil([&] { return analysed(session); }));
+    const auto& clips = session.model.document().project().clips;
+    CHECK(clips[0] == first);
+    CHECK(clips[1]->encoder.bands == 5);
+    CHECK(clips[1]->clip->bands.size() <= 5);
+    CHECK(clips[1]->clip->name == second->clip->name);
+    CHECK(session.model.document().steps().size() == steps + 1);
+    session.model.undo();
+    CHECK(session.model.document().project().clips[1]->encoder.bands == second->encoder.bands);
+}
+
 TEST_CASE("A file that is typed with the ending of another format is exported in that format")
 {
     Pages pages;

@@ -92,6 +92,14 @@ Menu clipMenu(EditorView& view)
         takeVersionA, "Revert to version A", "Replaces the clip with version A, and the settings of its analysis",
         [&session] { session.model.takeVersion(); }, [&session] { return session.model.keptVersion() != nullptr; });
     menu.add(
+        analyseAlike, "Analyse selected clips alike",
+        "Analyses all clips that are selected in the list with the settings of this one, as one step",
+        [&session] { session.sounds.reanalyse(session.model.selectedClips(), session.model.item()->encoder); },
+        [&session] {
+            return session.model.item() && session.model.item()->source != 0 &&
+                   session.model.selectedClips().size() > 1;
+        });
+    menu.add(
         compareWithTheSound, "Compare with sound...",
         "Shows where the clip differs from its sound, by band and time, with its scores",
         [&view, &session] { view.showSheet(std::make_unique<ComparisonSheet>(session)); },

@@ -57,6 +57,7 @@ enum Command : int
     nextClip,
     previousClip,
     fitToActuator,
+    analyseAlike,
 
     playOrPause,
     toStart,

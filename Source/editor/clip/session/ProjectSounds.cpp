@@ -273,6 +273,72 @@ void ProjectSounds::reanalyse(const EncoderParams& wanted)
                  });
 }
 
+void ProjectSounds::reanalyse(const std::vector<int>& clips, const EncoderParams& wanted)
+{
+    if (auto valid = validate(wanted); !valid)
+        return model.report("Not possible", valid.error());
+    struct Source
+    {
+        int clip;
+        AudioReference reference;
+        std::shared_ptr<const Sound> sound; ///< null: not read yet
+    };
+    std::vector<Source> sources;
+    for (const int id : clips)
+        if (const auto item = model.document().clip(id))
+            if (const auto* reference = model.document().project().findSource(item->source))
+            {
+                const auto known = sounds.find(item->source);
+                sources.push_back({id, *reference, known != sounds.end() ? known->second : nullptr});
+            }
+    if (sources.empty())
+        return;
+    stopAnalysis();
+    again = std::make_shared<Task>();
+    againText = tr("Re-analysing {0} clips", {juce::String(static_cast<int>(sources.size()))});
+    const auto temporary = pathOf(juce::File::getSpecialLocation(juce::File::tempDirectory));
+    jobs.run(
+        [sources, wanted, temporary, folders = foldersOf(model.document()),
+         task = again]() -> Result<std::vector<Document::Reanalysis>>
+        {
+            std::vector<Document::Reanalysis> done;
+            for (const Source& source : sources)
+            {
+                std::optional<StoredAudio> read;
+                if (!source.sound)
+                {
+                    auto audio = loadAudio(source.reference, folders, temporary);
+                    if (!audio)
+                        return audio.error();
+                    read = std::move(*audio);
+                }
+                const double before = static_cast<double>(done.size()), all = static_cast<double>(sources.size());
+                auto clip = analyse(source.sound ? source.sound->audio : *read, wanted, source.reference,
+                                    [&](double part) { return task->goOn((before + part) / all); });
+                if (!clip)
+                    return clip.error();
+                done.push_back({source.clip, std::move(*clip)});
+            }
+            return done;
+        },
+        [this, wanted, task = again, of = generation](Result<std::vector<Document::Reanalysis>> done)
+        {
+            if (of != generation || task->stopped)
+                return;
+            again.reset();
+            workChanged.emit();
+            if (!done)
+                return model.report("Not analysed", done.error());
+            // Clips keep their names; those that were removed meanwhile are gone.
+            std::erase_if(*done, [this](const auto& one) { return !model.document().clip(one.id); });
+            for (auto& one : *done)
+                one.analysis.name = model.document().clip(one.id)->analysis->name;
+            model.change([&](Document& document)
+                         { return document.reanalyse(std::move(*done), "Analysis of clips", wanted); });
+        });
+    workChanged.emit();
+}
+
 void ProjectSounds::replaceSound(const std::filesystem::path& file)
 {
     const auto now = model.item();

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] std::shared_ptr<const Sound> soundOfClip() const;
     /// Analyses the sound of the clip with other parameters; the newest wish counts.
     void reanalyse(const EncoderParams& wanted);
+    /// Analyses the sounds of several clips with the same parameters, as one step; clips without a sound are left out.
+    void reanalyse(const std::vector<int>& clips, const EncoderParams& wanted);
     /// Puts another sound under the edits of the clip.
     void replaceSound(const std::filesystem::path& file);
     /// Whether a sound is not where it was.
