@@ -22,7 +22,7 @@ std::optional<std::vector<std::string>> retriedCommand(const std::vector<std::st
     if (words.size() <= first || words[1] != "manifest" || words[2] != "retry" || words[first].starts_with('-'))
         return std::nullopt;
     const auto manifest = readManifest(words[first]);
-    if (!manifest || std::ranges::find(retriable, manifest->command) == retriable.end())
+    if (!manifest || std::find(retriable.begin(), retriable.end(), manifest->command) == retriable.end())
         return std::nullopt;
     std::vector<std::string> line{words.front(), manifest->command};
     line.insert(line.end(), manifest->arguments.begin(), manifest->arguments.end());

@@ -284,7 +284,8 @@ Result<void> Document::removeClips(std::span<const int> ids, std::string name)
         if (!clip(id))
             return noSuchClip(id);
     Project next = content;
-    std::erase_if(next.clips, [&](const auto& item) { return std::ranges::find(ids, item->id) != ids.end(); });
+    std::erase_if(next.clips,
+                  [&](const auto& item) { return std::find(ids.begin(), ids.end(), item->id) != ids.end(); });
     commit(std::move(name), std::move(next));
     return {};
 }

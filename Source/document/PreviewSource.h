@@ -51,7 +51,7 @@ public:
         {
             if (first >= count)
             {
-                std::ranges::fill(out, 0.0f);
+                std::fill(out.begin(), out.end(), 0.0f);
                 return;
             }
             std::size_t n = std::min(out.size(), count - first);
@@ -74,7 +74,7 @@ public:
 private:
     /// Input frames that are held at a time: at least those of one output, at every pair of rates.
     static constexpr std::size_t window = 8192;
-    static_assert(window > 21 * (limits::highestSampleRate / lowestResamplerRate + 1));
+    static_assert(window > std::size_t(21) * (limits::highestSampleRate / lowestResamplerRate + 1));
 
     std::shared_ptr<const StoredAudio> sound;
     Resampler<float> resampler;

@@ -70,7 +70,7 @@ StoredAudio::Piece StoredAudio::packed(std::span<const float> samples)
     Piece piece;
     const auto all = [samples](auto&& is)
     {
-        return std::ranges::all_of(samples, is);
+        return std::all_of(samples.begin(), samples.end(), is);
     };
     if (all([](float s) { return std::bit_cast<std::uint32_t>(s) == 0; }))
         return piece;
@@ -145,7 +145,7 @@ void StoredAudio::Piece::unpack(std::size_t first, std::span<float> samples) con
     switch (width)
     {
     case 0:
-        std::ranges::fill(samples, 0.0f);
+        std::fill(samples.begin(), samples.end(), 0.0f);
         break;
     case 2:
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -190,7 +190,8 @@ void StoredAudio::readMono(std::int64_t first, std::span<float> out, Reduce redu
     const auto silent = [&](std::int64_t count)
     {
         const auto n = std::min(out.size() - done, static_cast<std::size_t>(std::max<std::int64_t>(count, 0)));
-        std::ranges::fill(out.subspan(done, n), 0.0f);
+        const auto part = out.subspan(done, n);
+        std::fill(part.begin(), part.end(), 0.0f);
         done += n;
     };
     silent(-first);

@@ -116,7 +116,7 @@ TEST_CASE("Lanes, sound, ruler, overview and actuator have menus whose commands 
             ++menus;
             std::size_t wanted = 0;
             for (const auto command : found->contextCommands())
-                wanted += command != editor::ContextMenu::line ? 1u : 0u;
+                wanted += command != editor::ContextMenu::menuLine ? 1u : 0u;
             const auto items = itemsOf(bench.view.menus().menuOf(found->contextCommands()));
             CHECK(items.size() == wanted);
             CHECK(wanted >= 4);

@@ -31,7 +31,7 @@ public:
                          const auto from = std::clamp<std::int64_t>(first, 0, end);
                          const auto to =
                              std::clamp<std::int64_t>(first + static_cast<std::int64_t>(out.size()), 0, end);
-                         std::ranges::fill(out, 0.0f);
+                         std::fill(out.begin(), out.end(), 0.0f);
                          if (from < to)
                              std::copy(samples.begin() + from, samples.begin() + to, out.begin() + (from - first));
                      })

@@ -135,9 +135,9 @@ private:
             scale = 4.0 / (sum * sum); // a sinusoid of amplitude 1 has power 1
         }
 
-        void transform(const MonoSource& sound, std::int64_t centre)
+        void transform(const MonoSource& from, std::int64_t centre)
         {
-            sound.read(centre - static_cast<std::int64_t>(frame.size() / 2), frame);
+            from.read(centre - static_cast<std::int64_t>(frame.size() / 2), frame);
             for (std::size_t i = 0; i < frame.size(); ++i)
                 frame[i] *= window[i];
             fft.forward(frame, spectrum);

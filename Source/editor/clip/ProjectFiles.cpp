@@ -170,14 +170,14 @@ void ProjectFiles::finishSaving(const Result<void>& saved, const std::filesystem
         std::vector<Sheet::Answer>{{toText("Save as…"), elsewhere}, {"Close", {}}}));
 }
 
-void ProjectFiles::save(std::function<void()> next)
+void ProjectFiles::save(const std::function<void()>& next)
 {
     if (view.session().model.document().path().empty())
-        return saveAs(std::move(next));
+        return saveAs(next);
     finishSaving(view.session().model.save(), view.session().model.document().path(), next);
 }
 
-void ProjectFiles::saveAs(std::function<void()> next)
+void ProjectFiles::saveAs(const std::function<void()>& next)
 {
     choose(tr("Save project as"), Purpose::saving,
            [this, next](const juce::Array<juce::File>& chosen)
@@ -190,7 +190,7 @@ void ProjectFiles::saveAs(std::function<void()> next)
 }
 
 void ProjectFiles::choose(const juce::String& title, Purpose purpose,
-                          std::function<void(const juce::Array<juce::File>&)> chosen,
+                          const std::function<void(const juce::Array<juce::File>&)>& chosen,
                           const std::filesystem::path& wantedStart)
 {
     const bool saving = purpose == Purpose::saving;

@@ -41,8 +41,8 @@ public:
     /// Does `next` when the project is saved, or need not be; asks the user if so. Not at all when the user says no.
     void whenSaved(std::function<void()> next);
     /// To its file, or where the user says; then `next`, if it was done.
-    void save(std::function<void()> next = {});
-    void saveAs(std::function<void()> next = {});
+    void save(const std::function<void()>& next = {});
+    void saveAs(const std::function<void()>& next = {});
 
     /// Offers what an earlier run has left.
     void offerRecovery();
@@ -56,7 +56,8 @@ private:
         openingProfile,
         saving
     };
-    void choose(const juce::String& title, Purpose purpose, std::function<void(const juce::Array<juce::File>&)> chosen,
+    void choose(const juce::String& title, Purpose purpose,
+                const std::function<void(const juce::Array<juce::File>&)>& chosen,
                 const std::filesystem::path& wantedStart = {});
     void finishSaving(const Result<void>& saved, const std::filesystem::path& file, const std::function<void()>& next);
 

@@ -63,9 +63,9 @@ constexpr std::array<FeltByChoice, 4> feltByChoices{{
 class StartPage::Tile final : public juce::Button, private juce::Timer
 {
 public:
-    Tile(FilePreview& playing, std::filesystem::path sound, const juce::String& title, const juce::String& words,
+    Tile(FilePreview& playing, std::filesystem::path sound, const juce::String& title, const juce::String& found,
          const juce::Button& byHover)
-        : juce::Button(title), preview(playing), file(std::move(sound)), tags(words), hover(byHover)
+        : juce::Button(title), preview(playing), file(std::move(sound)), tags(found), hover(byHover)
     {
         setTitle(title);
         setDescription(tags);
@@ -73,10 +73,10 @@ public:
         setWantsKeyboardFocus(true);
     }
 
-    [[nodiscard]] bool fits(const juce::StringArray& words, const juce::String& english) const
+    [[nodiscard]] bool fits(const juce::StringArray& wanted, const juce::String& english) const
     {
         const juce::String all = getTitle() + " " + tags + " " + english;
-        return std::all_of(words.begin(), words.end(),
+        return std::all_of(wanted.begin(), wanted.end(),
                            [&](const juce::String& word) { return all.containsIgnoreCase(word); });
     }
 
@@ -89,8 +89,8 @@ public:
         g.fillRoundedRectangle(area, 6.0f);
         g.setColour(plays ? p.accent : over ? p.dim : p.line);
         g.drawRoundedRectangle(area, 6.0f, plays ? 2.0f : 1.0f);
-        auto text = getLocalBounds().reduced(grid, grid / 2);
-        auto symbol = text.removeFromLeft(2 * grid).toFloat().withSizeKeepingCentre(10.0f, 12.0f);
+        auto inner = getLocalBounds().reduced(grid, grid / 2);
+        auto symbol = inner.removeFromLeft(2 * grid).toFloat().withSizeKeepingCentre(10.0f, 12.0f);
         g.setColour(plays ? p.accent : p.dim);
         juce::Path shape;
         if (plays)
@@ -98,13 +98,13 @@ public:
         else
             shape.addTriangle(symbol.getTopLeft(), symbol.getBottomLeft(), {symbol.getRight(), symbol.getCentreY()});
         g.fillPath(shape);
-        text.removeFromLeft(grid);
+        inner.removeFromLeft(grid);
         g.setColour(p.text);
         g.setFont(usualFont());
-        g.drawText(getTitle(), text.removeFromTop(text.getHeight() / 2), juce::Justification::bottomLeft, true);
+        g.drawText(getTitle(), inner.removeFromTop(inner.getHeight() / 2), juce::Justification::bottomLeft, true);
         g.setColour(p.dim);
         g.setFont(smallFont());
-        g.drawText(tags, text, juce::Justification::topLeft, true);
+        g.drawText(tags, inner, juce::Justification::topLeft, true);
         drawFocusRing(g, *this, getLocalBounds().toFloat());
     }
 

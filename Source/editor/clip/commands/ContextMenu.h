@@ -16,10 +16,10 @@ class ContextMenu
 public:
     virtual ~ContextMenu() = default;
 
-    /// In their order, `line` between groups.
+    /// In their order, `menuLine` between groups.
     [[nodiscard]] virtual std::vector<Command> contextCommands() const = 0;
 
-    static constexpr Command line = static_cast<Command>(0);
+    static constexpr Command menuLine = static_cast<Command>(0);
 
 protected:
     ContextMenu() = default;

@@ -135,7 +135,7 @@ juce::PopupMenu Menus::menuOf(const std::vector<Command>& commands)
     juce::PopupMenu popup;
     popup.setLookAndFeel(&owner.getLookAndFeel());
     for (const Command command : commands)
-        if (command == ContextMenu::line)
+        if (command == ContextMenu::menuLine)
             popup.addSeparator();
         else if (const Action* action = find(command))
             addItem(popup, *action);

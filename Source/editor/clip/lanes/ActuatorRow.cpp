@@ -444,7 +444,7 @@ void ActuatorRow::paintLosses(juce::Graphics& g, juce::Rectangle<int> plot)
 
 std::vector<Command> ActuatorRow::contextCommands() const
 {
-    return {fitToActuator, line, loadProfile, measureActuator, line, showActuator};
+    return {fitToActuator, menuLine, loadProfile, measureActuator, menuLine, showActuator};
 }
 
 } // namespace pacini::editor

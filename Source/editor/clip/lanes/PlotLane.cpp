@@ -494,8 +494,8 @@ bool PlotLane::keyPressed(const juce::KeyPress& key)
 
 std::vector<Command> PlotLane::contextCommands() const
 {
-    return {cut,        copy,   paste,   deleteSelection, line, selectAll, selectNone, line,
-            changeGain, fadeIn, fadeOut, thinOut,         line, draw,      addMarker,  splitClipHere};
+    return {cut,        copy,   paste,   deleteSelection, menuLine, selectAll, selectNone, menuLine,
+            changeGain, fadeIn, fadeOut, thinOut,         menuLine, draw,      addMarker,  splitClipHere};
 }
 
 } // namespace pacini::editor

@@ -139,8 +139,8 @@ void TimeRuler::mouseDoubleClick(const juce::MouseEvent&)
 
 std::vector<Command> TimeRuler::contextCommands() const
 {
-    return {rangeFromHere, rangeToHere,   editor::loop, trim,        line,
-            addMarker,     splitClipHere, line,         zoomToRange, editor::fit};
+    return {rangeFromHere, rangeToHere,   editor::loop, trim,        menuLine,
+            addMarker,     splitClipHere, menuLine,     zoomToRange, editor::fit};
 }
 
 } // namespace pacini::editor

@@ -225,7 +225,7 @@ void WaveformRow::paintWaveform(juce::Graphics& g, juce::Rectangle<int> plot, co
 
 std::vector<Command> WaveformRow::contextCommands() const
 {
-    return {playOrPause, addMarker, splitClipHere, trim, line, showWaveform, showSpectrum, showBoth, wholeSpectrum};
+    return {playOrPause, addMarker, splitClipHere, trim, menuLine, showWaveform, showSpectrum, showBoth, wholeSpectrum};
 }
 
 } // namespace pacini::editor

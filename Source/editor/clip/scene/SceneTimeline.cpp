@@ -176,14 +176,14 @@ void SceneTimeline::mouseDown(const juce::MouseEvent& event)
     gesture = 0;
     if (event.y < rulerHeight)
     {
-        cursorTime = std::max(0.0, axis.timeAt(event.position.x));
+        cursorTime = std::max(0.0, axis.timeAt(static_cast<double>(event.position.x)));
         return repaint();
     }
     const auto part = partAt(event.getPosition());
     selection.select(part);
     if (!part)
     {
-        cursorTime = std::max(0.0, axis.timeAt(event.position.x));
+        cursorTime = std::max(0.0, axis.timeAt(static_cast<double>(event.position.x)));
         return repaint();
     }
     grabbed = *selection.part();
@@ -251,7 +251,7 @@ void SceneTimeline::mouseWheelMove(const juce::MouseEvent& event, const juce::Mo
 {
     if (event.mods.isCommandDown())
     {
-        const double at = axis.timeAt(event.position.x);
+        const double at = axis.timeAt(static_cast<double>(event.position.x));
         axis.secondsPerPixel =
             std::clamp(axis.secondsPerPixel * std::exp2(-4.0 * static_cast<double>(details.deltaY)), 1e-4, 10.0);
         axis.start = std::max(0.0, at - static_cast<double>(event.position.x) * axis.secondsPerPixel);

@@ -64,8 +64,8 @@ public:
             for (std::size_t c = 0; c < std::min(channels.size(), maxChannels); ++c)
             {
                 lines[c][position] = channels[c][i];
-                const double old = lines[c][(position + size - now) % size];
-                const double fresh = lines[c][(position + size - next) % size];
+                const auto old = static_cast<double>(lines[c][(position + size - now) % size]);
+                const auto fresh = static_cast<double>(lines[c][(position + size - next) % size]);
                 channels[c][i] = static_cast<float>(gain * (faded < 1.0 ? old + faded * (fresh - old) : fresh));
             }
             position = position + 1 == size ? 0 : position + 1;

@@ -276,7 +276,7 @@ void ExportSheet::run()
     ++asked;
     losses.setText(tr(toText("Exporting…")), false);
     jobs.run([clips, wanted] { return pacini::exportClips(clips, wanted); },
-             [this](Result<std::vector<ExportReport>> done)
+             [this](const Result<std::vector<ExportReport>>& done)
              {
                  setAnswerEnabled(true);
                  if (!done)
