@@ -153,6 +153,10 @@ class Batch(CommandTest):
         self.fails(1, ["manifest", "merge", "run.manifest.json", "packed/pacini.manifest.json", "-o", "m.json"],
                    "is of pacini convert")
         self.fails(1, ["manifest", "retry", "packed/pacini.manifest.json"], "is of a conversion")
+        # Others may have written a manifest: it cannot name any command.
+        text = (self.folder / "run.manifest.json").read_text()
+        self.put("other.json", text.replace('"command": "encode"', '"command": "bench"'))
+        self.fails(1, ["manifest", "retry", "other.json"], "only encode, render and compare can be retried")
 
 
 if __name__ == "__main__":
