@@ -1,4 +1,4 @@
-"""Types are right: of the package by mypy and pyright, of the native module against its stubs, and in code with both."""
+"""Types are right: of the package by mypy and pyright, of the native module against its stubs, in code with both."""
 
 import ast
 import json
