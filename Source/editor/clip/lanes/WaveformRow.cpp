@@ -105,7 +105,7 @@ void WaveformRow::mouseMove(const juce::MouseEvent& event)
     const auto plot = plotArea();
     if (viewState.viewOptions().sound == SoundView::waveform || !plot.contains(event.getPosition()))
         return showOptions();
-    const double time = viewState.axis().timeAt(event.position.x - static_cast<float>(plot.getX()));
+    const double time = viewState.axis().timeAt(static_cast<double>(event.position.x) - plot.getX());
     const double place = (plot.getBottom() - static_cast<double>(event.position.y)) / plot.getHeight();
     const double frequency = spectrum.rows().frequencyAt(place * static_cast<double>(spectrum.rows().count));
     const double level = spectrum.levelAt(time, frequency);
