@@ -402,7 +402,7 @@ void ProjectSounds::putAgain(const Again& done, Result<Imported> analysed, bool 
     const bool put = model.change(
         [&](Document& document)
         {
-            const auto reanalysed =
+            auto reanalysed =
                 document.reanalyse(done.clip, done.name, done.params, std::move(analysed->clip), std::move(other));
             if (reanalysed && otherSound)
             {
