@@ -483,26 +483,9 @@ Result<void> Document::restoreClip(ClipItem item, std::string name)
 Result<void> Document::reanalyse(int id, std::string name, const EncoderParams& encoder, Clip analysis,
                                  std::optional<AudioReference> sound)
 {
-    const auto old = clip(id);
-    if (!old)
-        return noSuchClip(id);
-    if (auto valid = validate(analysis); !valid)
-        return valid.error();
-    if (auto valid = validate(encoder); !valid)
-        return valid.error();
-    Project next = content;
-    ClipItem item = *old;
-    item.encoder = encoder;
-    if (sound)
-    {
-        sound->id = nextSourceId;
-        item.source = placeSound(next, std::move(*sound));
-    }
-    putReapplied(item, reapply(*old->analysis, analysis, listOf(old->edits)));
-    item.analysis = std::make_shared<const Clip>(std::move(analysis));
-    replaceClip(next, std::move(item));
-    commit(std::move(name), std::move(next));
-    return {};
+    std::vector<Reanalysis> one;
+    one.push_back({id, std::move(analysis), std::move(sound)});
+    return reanalyse(std::move(one), std::move(name), encoder);
 }
 
 Result<void> Document::reanalyse(std::vector<Reanalysis> clips, std::string name, const EncoderParams& encoder)
@@ -510,6 +493,7 @@ Result<void> Document::reanalyse(std::vector<Reanalysis> clips, std::string name
     if (auto valid = validate(encoder); !valid)
         return valid.error();
     Project next = content;
+    int newSource = nextSourceId;
     for (Reanalysis& one : clips)
     {
         const auto old = clip(one.id);
@@ -519,6 +503,11 @@ Result<void> Document::reanalyse(std::vector<Reanalysis> clips, std::string name
             return valid.error();
         ClipItem item = *old;
         item.encoder = encoder;
+        if (one.sound)
+        {
+            one.sound->id = newSource++;
+            item.source = placeSound(next, std::move(*one.sound));
+        }
         putReapplied(item, reapply(*old->analysis, one.analysis, listOf(old->edits)));
         item.analysis = std::make_shared<const Clip>(std::move(one.analysis));
         replaceClip(next, std::move(item));

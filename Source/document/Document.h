@@ -56,7 +56,13 @@ public:
     [[nodiscard]] Result<void> saveAs(const std::filesystem::path& path);
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file; }
-    [[nodiscard]] bool isDirty() const noexcept { return savedState != history.id(); }
+    [[nodiscard]] bool isDirty() const noexcept { return savedState != history.id() && !isUntouched(); }
+    /// Nothing but an actuator has been in it yet, and it has no file: there is nothing to lose. One whose last clip
+    /// was removed is another thing: that can be undone.
+    [[nodiscard]] bool isUntouched() const noexcept
+    {
+        return file.empty() && content.clips.empty() && content.sources.empty() && !canUndo() && !canRedo();
+    }
     [[nodiscard]] const Project& project() const noexcept { return content; }
     [[nodiscard]] DocumentSnapshot snapshot() const { return {content, file, history.id(), isDirty()}; }
 
@@ -101,6 +107,7 @@ public:
     {
         int id = 0;
         Clip analysis;
+        std::optional<AudioReference> sound = {};
     };
     Result<void> reanalyse(std::vector<Reanalysis> clips, std::string name, const EncoderParams& encoder);
 

@@ -73,11 +73,25 @@ TEST_CASE("A sound of the library opens with the actuator that was chosen, and a
     StartBench bench;
     get<juce::Button>(bench.view.startPage(), "Phone").onClick();
     CHECK(bench.session.actuators.usual() == "phone-taptic");
+    CHECK(bench.session.actuators.profileName() == "phone-taptic"); // previews are within its limits
+    REQUIRE(bench.session.outputs.row(bench.session.actuators).profiles.front() != nullptr);
+    bench.session.model.newProject();
+    CHECK(bench.session.actuators.profileName() == "phone-taptic");
+    bench.session.actuators.setProfile(""); // as in the toolbar
+    CHECK(bench.session.actuators.usual().empty());
+    bench.session.actuators.setUsual("phone-taptic");
     CHECK_FALSE(bench.session.model.document().isDirty());
     REQUIRE(bench.opens("Heartbeat"));
     CHECK(bench.session.actuators.profileName() == "phone-taptic");
     CHECK(bench.session.model.clip()->transients.size() >= 6);
     CHECK(bench.view.statusBar().playsOn().contains(juce::String(bench.session.actuators.profile()->name)));
+    // Nor does a project lose it that is empty for a while.
+    bench.session.actuators.setProfile("l5-wristband");
+    bench.session.model.removeClip();
+    CHECK(bench.session.actuators.profileName() == "l5-wristband");
+    bench.session.model.undo();
+    CHECK(bench.session.actuators.profileName() == "l5-wristband");
+    bench.session.actuators.setProfile("phone-taptic");
     // Another choice is for what begins.
     bench.session.actuators.setUsual("l5-wristband");
     CHECK(bench.session.actuators.profileName() == "phone-taptic");

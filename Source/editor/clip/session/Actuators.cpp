@@ -12,7 +12,6 @@ namespace pacini::editor
 Actuators::Actuators(EditorModel& project, std::vector<NamedProfile> profiles)
     : model(project), list(std::move(profiles))
 {
-    subscriptions.on({&model.opened}, [this] { empty = model.isEmpty(); });
     subscriptions.on({&model.projectChanged}, [this] { follow(); });
 }
 
@@ -21,14 +20,14 @@ void Actuators::setUsual(const std::string& name)
     if (usualName == name)
         return;
     usualName = name;
+    if (model.document().isUntouched() && name != profileName())
+        choose(name);
     usualChanged.emit();
 }
 
 void Actuators::follow()
 {
-    // What is opened has what it was saved with; what is begun has what its user feels.
-    const bool begins = std::exchange(empty, model.isEmpty()) && !model.isEmpty();
-    if (begins && model.document().path().empty() && profileName().empty() && !usualName.empty())
+    if (model.document().isUntouched() && profileName().empty() && !usualName.empty())
         return choose(usualName); // comes back here
     if (known == model.document().project().profile)
         return;
@@ -58,6 +57,11 @@ void Actuators::setProfile(const std::string& name)
 
 void Actuators::choose(const std::string& name)
 {
+    if (model.document().isUntouched() && usualName != name)
+    {
+        usualName = name;
+        usualChanged.emit();
+    }
     ProjectProfile wanted;
     wanted.name = name;
     wanted.strength = strength();

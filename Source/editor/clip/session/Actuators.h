@@ -29,7 +29,8 @@ public:
     /// Of the project; empty: the plain drive signal.
     [[nodiscard]] const std::string& profileName() const noexcept { return model.document().project().profile.name; }
     void setProfile(const std::string& name);
-    /// That of projects which are begun: their first clip brings it. Empty: none.
+    /// That of projects which are begun: an empty one has it, so that what is heard before anything is opened is within
+    /// its limits, too. Choosing one while the project is empty chooses this. Empty: none.
     [[nodiscard]] const std::string& usual() const noexcept { return usualName; }
     void setUsual(const std::string& name);
     [[nodiscard]] std::shared_ptr<const Profile> profile() const;
@@ -47,7 +48,6 @@ private:
     EditorModel& model;
     std::vector<NamedProfile> list;
     std::string usualName;
-    bool empty = true;    ///< the project, when it was last looked at
     ProjectProfile known; ///< to see when the project has another
     Subscriptions subscriptions;
 };
