@@ -274,6 +274,16 @@ TEST_CASE("Several selected clips are grouped, exported and removed in one step 
     CHECK(session.model.document().steps().size() == steps + 2);
     session.model.undo();
     CHECK(session.model.document().project().clips.size() == 4);
+    // Another one than the shown goes, and the list and the recovery follow.
+    session.model.show(session.model.document().project().clips.front()->id);
+    int told = 0;
+    editor::Subscriptions heard;
+    heard.on({&session.model.projectChanged}, [&] { ++told; });
+    const int other = session.model.document().project().clips.back()->id;
+    session.model.removeClips({other});
+    CHECK(told > 0);
+    CHECK(list.rows().size() == 4); // three clips and a group
+    session.model.undo();
     // What the list shows afterwards is one clip.
     session.model.show(session.model.document().project().clips.front()->id);
     CHECK(session.model.selectedClips().size() == 1);

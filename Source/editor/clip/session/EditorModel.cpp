@@ -356,8 +356,7 @@ void EditorModel::duplicate()
 
 void EditorModel::removeClip()
 {
-    if (take(open->removeClip(active, "Remove clip")))
-        show(isEmpty() ? 0 : open->project().clips.front()->id);
+    removeClips({active});
 }
 
 std::vector<int> EditorModel::selectedClips() const
@@ -371,7 +370,11 @@ std::vector<int> EditorModel::selectedClips() const
 
 void EditorModel::removeClips(const std::vector<int>& ids)
 {
-    if (take(open->removeClips(ids, ids.size() > 1 ? "Remove clips" : "Remove clip")) && !item())
+    if (!take(open->removeClips(ids, ids.size() > 1 ? "Remove clips" : "Remove clip")))
+        return;
+    if (item() || unanalysed)
+        documentChanged();
+    else
         show(isEmpty() ? 0 : open->project().clips.front()->id);
 }
 
