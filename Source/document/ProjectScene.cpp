@@ -95,6 +95,10 @@ BuiltScene sceneOf(const Project& project)
         play.transposition = part.transposition;
         play.delay = part.delay;
         play.priority = part.priority;
+        double begin = part.start + part.delay; // when the clip is heard to begin
+        for (const SceneCurve& curve : part.curves)
+            if (curve.parameter == SceneParameter::delay && !curve.points.empty())
+                begin = part.start + curve.points.front().value;
         for (const SceneCurve& curve : part.curves)
         {
             if (curve.points.empty())
@@ -115,7 +119,7 @@ BuiltScene sceneOf(const Project& project)
                 const bool line = glides(curve.parameter);
                 if (line && from.value == to.value)
                     continue;
-                scene.changes.push_back({part.start + (line ? from.time : to.time), scene.plays.size(), curve.parameter,
+                scene.changes.push_back({begin + (line ? from.time : to.time), scene.plays.size(), curve.parameter,
                                          to.value, line ? to.time - from.time : 0.0});
             }
         }

@@ -24,8 +24,8 @@ struct BuiltScene
 };
 
 /// What `pacini render` plays of a project whose scene is valid: plays in order of their parts, without those whose
-/// clips are gone. Curves are points in seconds of a part; each becomes a change that glides from the point before it,
-/// so that levels, pan and delay go in straight lines; pitches step.
+/// clips are gone. Curves are points in seconds of a part, from where its delay lets it begin; each becomes a change
+/// that glides from the point before it, so that levels, pan and delay go in straight lines; pitches step.
 [[nodiscard]] BuiltScene sceneOf(const Project& project);
 
 } // namespace pacini

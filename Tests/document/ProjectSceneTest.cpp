@@ -56,6 +56,12 @@ TEST_CASE("Parts of a scene become plays of their clips, and curves become chang
     REQUIRE(scene.changes.size() == 2);
     CHECK(scene.changes[0] == SceneChange{3.0, 2, SceneParameter::pan, 1.0, 1.0});
     CHECK(scene.changes[1] == SceneChange{3.5, 2, SceneParameter::transposition, 12.0, 0.0});
+    // A part that comes later takes its curves along.
+    ProjectScene later = document.project().scene;
+    later.parts[2].delay = 0.25;
+    Document moved = sceneDocument();
+    REQUIRE(moved.setScene(later, "Delay"));
+    CHECK(sceneOf(moved.project()).scene.changes[0].time == 3.25);
     // As `pacini render` reads it.
     const auto read = readSceneJson(writeSceneJson(scene),
                                     [](const std::string&) -> Result<Clip> {
