@@ -1,6 +1,5 @@
 #include "document/ClipPlayer.h"
 
-#include <cmath>
 #include <utility>
 
 namespace pacini
@@ -17,7 +16,7 @@ void ClipPlayer::prepare(double sampleRate)
     engine->set(playback);
     engine->setRow(row);
     engine->setControls(controls);
-    engine->setSource(PreviewSource::of(sound, static_cast<int>(std::lround(rate))));
+    engine->setSource(sound);
 }
 
 void ClipPlayer::set(Playback wanted)
@@ -46,7 +45,7 @@ void ClipPlayer::setSound(std::shared_ptr<const StoredAudio> wanted)
     if (sound == wanted)
         return;
     sound = std::move(wanted);
-    engine->setSource(PreviewSource::of(sound, static_cast<int>(std::lround(rate))));
+    engine->setSource(sound);
     worker->wake();
 }
 

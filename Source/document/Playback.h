@@ -5,9 +5,11 @@
 #include <pacini/clip/Clip.h>
 #include <pacini/clip/edits/Audition.h>
 #include <pacini/foundation/Result.h>
+#include <pacini/synthesis/Scene.h>
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace pacini
 {
@@ -28,9 +30,23 @@ struct Playback
     std::shared_ptr<const Clip> a; ///< the clip that is edited
     std::shared_ptr<const Clip> b; ///< what it is compared with; null: the same
     Audition audition;             ///< bands that are soloed and muted
+    /// What plays together with the clip, on as many actuators as the row has; null: nothing. Live controls do not act
+    /// on it, and there are none then.
+    std::shared_ptr<const Scene> scene = nullptr;
 
     [[nodiscard]] const std::shared_ptr<const Clip>& heard() const noexcept { return take == Take::b && b ? b : a; }
 };
+
+/// A scene by itself, which lasts `duration` s.
+[[nodiscard]] inline Playback scenePlayback(std::shared_ptr<const Scene> scene, double duration)
+{
+    Clip silent;
+    silent.duration = duration;
+    Playback playback;
+    playback.a = std::make_shared<const Clip>(std::move(silent));
+    playback.scene = std::move(scene);
+    return playback;
+}
 
 /// How the seconds that an engine plays lie in the clip.
 struct PlaybackWay

@@ -84,7 +84,8 @@ void PreviewEngine::set(Playback playback)
     hearSource.store(playback.source, std::memory_order_relaxed);
     const std::lock_guard lock(mutex);
     const Playback& old = wanted.playback;
-    const bool same = old.heard() == playback.heard() && old.loop == playback.loop && old.audition == playback.audition;
+    const bool same = old.heard() == playback.heard() && old.loop == playback.loop &&
+                      old.audition == playback.audition && old.scene == playback.scene;
     wanted.playback = std::move(playback);
     if (!same)
         wantedVersion.store(++wanted.version, std::memory_order_release);
@@ -99,7 +100,7 @@ void PreviewEngine::setRow(PreviewRow row)
     wantedVersion.store(++wanted.version, std::memory_order_release);
 }
 
-void PreviewEngine::setSource(std::shared_ptr<const PreviewSource> source)
+void PreviewEngine::setSource(std::shared_ptr<const StoredAudio> source)
 {
     const std::lock_guard lock(mutex);
     wanted.source = std::move(source);
@@ -188,7 +189,9 @@ Result<void> PreviewEngine::follow(const Wanted& now, const Here& here, bool sta
 {
     if (counts && made.engine->status(made.play).state == PlayState::ended)
         return {};
-    const bool otherRow = !made.engine || now.row != made.row || (!started && !counts && here.stage != made.stage);
+    // A scene plays from the first frame of its engine on.
+    const bool otherRow = !made.engine || now.row != made.row || now.playback.scene != made.scene ||
+                          (started && made.scene) || (!started && !counts && here.stage != made.stage);
     // Another engine begins where the output is, and is brought to where that is by then.
     const double place = std::clamp(started  ? std::round(now.startTime * fs) / fs
                                     : counts ? made.way.placeOf(otherRow ? here.heard : here.played)
@@ -222,15 +225,17 @@ Result<void> PreviewEngine::follow(const Wanted& now, const Here& here, bool sta
 /// On an engine for the row, whose first frame is frame `since` of the preview.
 Result<void> PreviewEngine::playOnOther(const Wanted& now, const Begin& begin, std::optional<std::int64_t> since)
 {
-    auto built = makeStage(now.row);
+    auto built = makeStage(now);
     if (!built)
         return built.error();
     made.row = now.row;
+    made.scene = now.playback.scene;
     made.engine = built->engine;
     made.stage = built->number;
     const double ramp = !since && begin.place > 0.0 ? rampSeconds : 0.0;
-    // Filters and protection of an actuator that plays have a past.
-    const double before = since ? std::min(pastSeconds, begin.way.playedAt(begin.place) / begin.controls.speed) : 0.0;
+    // Filters and protection of an actuator that plays have a past, and a scene has begun at its start.
+    const double passed = begin.way.playedAt(begin.place) / begin.controls.speed;
+    const double before = made.scene ? passed : since ? std::min(pastSeconds, passed) : 0.0;
     const auto past = static_cast<std::int64_t>(std::floor(before * fs));
     Begin earlier = begin;
     earlier.place -= static_cast<double>(past) * begin.controls.speed / fs;
@@ -316,13 +321,16 @@ Result<void> PreviewEngine::startPlay(const Wanted& now, const Begin& begin, Sec
 /// The audio thread follows what has been made.
 void PreviewEngine::tell(const Wanted& now)
 {
-    made.source = now.source;
+    // Between rates that share no large divisor the filter has millions of taps.
+    if (std::exchange(made.source, now.source) != now.source)
+        made.resampled = PreviewSource::of(now.source, static_cast<int>(std::lround(fs)));
     alive.store(true, std::memory_order_relaxed);
-    plays.send({made.start, made.stage, made.play, made.way, made.from, made.source});
+    plays.send({made.start, made.stage, made.play, made.way, made.from, made.resampled});
 }
 
-Result<PreviewEngine::Stage> PreviewEngine::makeStage(const PreviewRow& row) const
+Result<PreviewEngine::Stage> PreviewEngine::makeStage(const Wanted& now) const
 {
+    const PreviewRow& row = now.row;
     const std::size_t count = row.profiles.size();
     if (count < 1 || count > PreviewRow::most)
         return Error{ErrorCode::invalidArgument, "row", "must have 1 to 8 actuators"};
@@ -350,7 +358,13 @@ Result<PreviewEngine::Stage> PreviewEngine::makeStage(const PreviewRow& row) con
         params.actuators[places.rank(i)].profile = *profile;
         built.limits[i] = boundsBehind(*profile);
     }
-    auto engine = Engine::make(params);
+    std::optional<Scene> scene;
+    if (now.playback.scene)
+    {
+        scene = *now.playback.scene;
+        scene->actuators = static_cast<int>(count);
+    }
+    auto engine = Engine::make(params, scene ? &*scene : nullptr);
     if (!engine)
         return engine.error();
     built.engine = std::move(engine).value();
@@ -376,6 +390,8 @@ Result<void> PreviewEngine::makeClip(const Wanted& now, const PlaybackWay& way)
 
 PlayControls PreviewEngine::controlsFor(const Wanted& now) const noexcept
 {
+    if (now.playback.scene)
+        return {};
     PlayControls controls = now.controls;
     const RowPlaces places = now.row.rowPlaces();
     controls.delay = 0.0;

@@ -6,6 +6,7 @@
 #include "document/PreviewRow.h"
 #include "document/PreviewSound.h"
 #include "document/PreviewSource.h"
+#include "io/StoredAudio.h"
 
 #include <pacini/actuator/Protection.h>
 #include <pacini/foundation/Result.h>
@@ -50,7 +51,7 @@ public:
 
     /// The actuators, and the sound beside them (null: none). [any]
     void setRow(PreviewRow row);
-    void setSource(std::shared_ptr<const PreviewSource> source);
+    void setSource(std::shared_ptr<const StoredAudio> source);
 
     /// Live controls, which need nothing to be built: gain, intensity, pan (over the places of the row), transposition
     /// and speed. The sound follows the speed, with its pitch. [any]
@@ -92,14 +93,14 @@ private:
     {
         Playback playback;
         PreviewRow row;
-        std::shared_ptr<const PreviewSource> source;
+        std::shared_ptr<const StoredAudio> source;
         PlayControls controls;
         std::uint64_t version = 0;
         std::uint64_t start = 0; ///< counts calls of play()
         double startTime = 0.0;  ///< s of the clip
     };
 
-    /// An engine for a row of actuators.
+    /// An engine for a row of actuators, and for the scene that it plays.
     struct Stage
     {
         std::shared_ptr<Engine> engine;
@@ -117,6 +118,7 @@ private:
     {
         std::uint64_t version = 0, start = 0, stage = 0;
         PreviewRow row;
+        std::shared_ptr<const Scene> scene;
         std::shared_ptr<Engine> engine;
         PlayId play;
         PlaybackWay way;
@@ -124,9 +126,10 @@ private:
         double from = 0.0;  ///< s of what is played, where the play began
         std::shared_ptr<const Clip> heard;
         Audition audition;
-        std::shared_ptr<const LoadedClip> clip;   ///< of `heard`
-        std::shared_ptr<const LoadedClip> played; ///< what the engine has of it
-        std::shared_ptr<const PreviewSource> source;
+        std::shared_ptr<const LoadedClip> clip;    ///< of `heard`
+        std::shared_ptr<const LoadedClip> played;  ///< what the engine has of it
+        std::shared_ptr<const StoredAudio> source; ///< that `resampled` is of
+        std::shared_ptr<const PreviewSource> resampled;
         PlayControls controls;
         double transposition = 0.0; ///< with which the play was made
     };
@@ -170,7 +173,7 @@ private:
     Result<void> playOn(const Wanted& now, const PlayControls& controls, double played, InTime time);
     Result<void> startPlay(const Wanted& now, const Begin& begin, Seconds fadeIn, std::optional<InTime> time);
     void tell(const Wanted& now);
-    [[nodiscard]] Result<Stage> makeStage(const PreviewRow& row) const;
+    [[nodiscard]] Result<Stage> makeStage(const Wanted& now) const;
     Result<void> makeClip(const Wanted& now, const PlaybackWay& way);
     [[nodiscard]] PlayControls controlsFor(const Wanted& now) const noexcept;
     void setChanged(const PlayControls& controls);

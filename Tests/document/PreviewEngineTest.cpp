@@ -10,6 +10,7 @@
 #include <pacini/synthesis/CompilePlan.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 
@@ -316,7 +317,7 @@ TEST_CASE("A loop goes round and round, clip and sound together")
     playback.loop = TimeRange{0.5, 1.0};
     playback.source = true;
     engine.set(playback);
-    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
+    engine.setSource(std::make_shared<const StoredAudio>(audio));
     engine.play(0.25);
     REQUIRE(engine.service());
     std::vector<float> haptic(40 * 48000), sound(haptic.size());
@@ -350,7 +351,7 @@ TEST_CASE("Source and drive signal are switched without a jump")
     PreviewEngine engine(fs);
     Playback playback = playbackOf(tone(2.0, 0.5));
     engine.set(playback);
-    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
+    engine.setSource(std::make_shared<const StoredAudio>(audio));
     engine.play(0.0);
     REQUIRE(engine.service());
     std::vector<float> haptic(9600), left(9600), right(9600);
@@ -551,7 +552,7 @@ TEST_CASE("Another actuator is faded to where the clip is, sound and touch toget
     Playback playback = playbackOf(std::make_shared<const Clip>(clip));
     playback.source = true;
     engine.set(playback);
-    engine.setSource(PreviewSource::of(std::make_shared<const StoredAudio>(audio), 48000));
+    engine.setSource(std::make_shared<const StoredAudio>(audio));
     engine.play(0.0);
     REQUIRE(engine.service());
     std::vector<float> drive, sound;
@@ -610,4 +611,78 @@ TEST_CASE("A loop that comes after what plays is led into, and goes round from t
     CHECK(services < 10);
     CHECK(last >= 4.0);
     CHECK(last < 5.0);
+}
+
+TEST_CASE("A scene is what is rendered, from its start and from within, and an edit of it fades in while it plays")
+{
+    Scene scene;
+    scene.clips = {*tone(2.0, 0.5), *tone(1.0, 0.3, 200.0)};
+    scene.plays.resize(2);
+    scene.plays[0].pan = 0.2;
+    scene.plays[1].clip = 1;
+    scene.plays[1].start = 0.4;
+    scene.plays[1].pan = 1.0;
+    scene.changes = {{0.5, 1, SceneParameter::pan, 0.0, 0.3}};
+    const auto profile = std::make_shared<const Profile>(test::shippedProfile("lra-175"));
+    PreviewRow row;
+    row.profiles = {profile, profile};
+    const auto rendered = [&](Scene of)
+    {
+        of.actuators = 2;
+        CompileParams params;
+        params.sampleRate = fs;
+        params.adaptation.strength = row.strength;
+        ScenePlayer player(compilePlan(of, profile.get(), params).value());
+        std::array<std::vector<float>, 2> out{std::vector<float>(72000), std::vector<float>(72000)};
+        const std::array<std::span<float>, 2> spans{out[0], out[1]};
+        player.process(spans);
+        return out;
+    };
+    const auto runBoth = [](PreviewEngine& engine, std::size_t frames)
+    {
+        std::array<std::vector<float>, 2> out{std::vector<float>(frames), std::vector<float>(frames)};
+        for (std::size_t i = 0; i < frames; i += 128)
+        {
+            const std::array<std::span<float>, 2> part{std::span(out[0]).subspan(i, 128),
+                                                       std::span(out[1]).subspan(i, 128)};
+            engine.process(part, {});
+        }
+        return out;
+    };
+    const auto whole = rendered(scene);
+    PreviewEngine engine(fs);
+    engine.setRow(row);
+    engine.set(scenePlayback(std::make_shared<const Scene>(scene), 2.0));
+    engine.play(0.0);
+    REQUIRE(engine.service());
+    auto heard = runBoth(engine, 38400);
+    for (std::size_t c = 0; c < 2; ++c)
+        CHECK(std::equal(heard[c].begin(), heard[c].end(), whole[c].begin()));
+    CHECK(largest(whole[1]) > 0.05f);
+    // A softer one, while it plays: engine and frames stay where they are.
+    Scene softer = scene;
+    softer.plays[0].gain = -12.0;
+    engine.set(scenePlayback(std::make_shared<const Scene>(softer), 2.0));
+    REQUIRE(engine.service());
+    (void)runBoth(engine, 2560);
+    heard = runBoth(engine, 10240);
+    const auto later = rendered(softer);
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::size_t i = 0; i < 10240; ++i)
+            REQUIRE(heard[c][i] == Approx(later[c][40960 + i]).margin(1e-5));
+    // From within.
+    engine.stop();
+    (void)runBoth(engine, 4864);
+    REQUIRE(engine.service());
+    engine.play(0.75);
+    REQUIRE(engine.service());
+    (void)runBoth(engine, 2560);
+    heard = runBoth(engine, 10240);
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::size_t i = 0; i < 10240; ++i)
+            REQUIRE(heard[c][i] == Approx(later[c][36000 + 2560 + i]).margin(1e-5));
+    CHECK(engine.position() == Approx(0.75 + 12800 / fs).margin(0.01));
+    // The end.
+    (void)runBoth(engine, 64000);
+    CHECK_FALSE(engine.isPlaying());
 }

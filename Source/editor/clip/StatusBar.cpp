@@ -70,7 +70,8 @@ void StatusBar::paint(juce::Graphics& g)
     auto area = getLocalBounds().reduced(12, 0);
     g.setFont(smallFont());
     g.setColour(p.dim);
-    g.drawText(playsOn() + toText("  ·  ") + tr("Space plays"), area, juce::Justification::centredRight, true);
+    g.drawText(session.model.clip() ? playsOn() + toText("  ·  ") + tr("Space plays") : playsOn(), area,
+               juce::Justification::centredRight, true);
     if (done.all())
         return;
     const std::array<std::pair<bool, juce::String>, 3> steps{

@@ -8,7 +8,6 @@
 #include "io/SceneFile.h"
 
 #include <pacini/synthesis/CompilePlan.h>
-#include <pacini/synthesis/ScenePlayer.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +33,7 @@ struct SceneNews
     std::map<std::size_t, juce::String> leftOut; ///< by part
     std::size_t bands = 0;                       ///< left out of parts that play
     double error = 0.0;                          ///< dB below the scene
+    double duration = 0.0;       ///< s of the whole scene
     juce::String failure;
 };
 
@@ -67,6 +67,7 @@ SceneNews newsOf(const BuiltScene& built, const std::optional<Profile>& profile,
         return news;
     }
     news.error = planned->predictedError;
+    news.duration = planned->duration;
     for (const LeftOut& one : planned->leftOut)
         if (const auto part = partOf(one.where, built))
         {
@@ -76,33 +77,6 @@ SceneNews newsOf(const BuiltScene& built, const std::optional<Profile>& profile,
                 ++news.bands;
         }
     return news;
-}
-
-/// The drive signals of a scene, as `pacini render` makes them.
-Result<StoredAudio> rendered(const BuiltScene& built, const std::optional<Profile>& profile, double strength)
-{
-    auto planned = planOf(built, profile, strength);
-    if (!planned)
-        return planned.error();
-    const std::size_t channels = planned->actuators;
-    ScenePlayer player(std::move(planned).value(), ScenePlayerParams{.sampleRate = sceneRate});
-    AudioData audio{static_cast<int>(sceneRate), static_cast<int>(channels), {}, 0};
-    const auto frames = static_cast<std::size_t>(std::max<std::int64_t>(0, player.totalFrames()));
-    audio.samples.resize(frames * channels);
-    constexpr std::size_t blockFrames = 4096;
-    std::vector<std::vector<float>> block(channels, std::vector<float>(blockFrames));
-    for (std::size_t done = 0; done < frames; done += blockFrames)
-    {
-        const std::size_t n = std::min(blockFrames, frames - done);
-        std::vector<std::span<float>> out;
-        for (auto& channel : block)
-            out.push_back(std::span(channel).first(n));
-        player.process(out);
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t c = 0; c < channels; ++c)
-                audio.samples[(done + i) * channels + c] = block[c][i];
-    }
-    return StoredAudio(audio);
 }
 } // namespace
 
@@ -198,7 +172,7 @@ SceneSheet::SceneSheet(Session& shared)
     };
     for (juce::TextButton* button : {&playButton, &removeButton, &removeCurveButton, &fitButton, &exportButton})
         button->setTitle(button->getButtonText());
-    prepareButton(playButton, "Plays the scene on the outputs of the sound, or stops (Space)",
+    prepareButton(playButton, "Plays the scene on the haptic outputs from the cursor on, or stops (Space)",
                   [this] { plays ? stop() : play(); });
     prepareButton(removeButton, "Removes the selected clip from the scene (Delete)",
                   [this] { selection.removeSelected(); });
@@ -212,7 +186,6 @@ SceneSheet::SceneSheet(Session& shared)
     subscriptions.on({&session.model.projectChanged, &session.actuators.changed},
                      [this]
                      {
-                         stop();
                          fillClips();
                          follow();
                          plan();
@@ -242,9 +215,9 @@ void SceneSheet::follow()
 {
     const ProjectScene& scene = selection.scene();
     actuators.setSelectedId(scene.actuators, juce::dontSendNotification);
+    playButton.setEnabled(!scene.parts.empty());
     law.setSelectedId(1 + static_cast<int>(scene.panLaw), juce::dontSendNotification);
     law.setEnabled(scene.actuators > 1);
-    playButton.setEnabled(!scene.parts.empty());
     exportButton.setEnabled(!scene.parts.empty());
     const ScenePart* part = selection.part();
     const SceneRange range = sceneRangeOf(curve.parameter());
@@ -277,6 +250,11 @@ void SceneSheet::plan()
              {
                  if (number != planned)
                      return;
+                 duration = news.duration;
+                 if (duration <= 0.0)
+                     stop();
+                 else if (plays)
+                     isTimerRunning() ? session.player.set(playback()) : begin();
                  juce::String text = counted(parts, "{0} clip", "{0} clips");
                  if (news.failure.isNotEmpty())
                      text = translateMessage(news.failure);
@@ -295,31 +273,27 @@ void SceneSheet::plan()
 
 void SceneSheet::play()
 {
+    if (selection.scene().parts.empty())
+        return;
     plays = true;
     playButton.setButtonText(tr("Stop"));
-    const auto profile = session.actuators.profile();
-    jobs.run([built = sceneOf(session.model.document().project()),
-              profile = profile ? std::optional(*profile) : std::nullopt, strength = session.actuators.strength()]
-             { return rendered(built, profile, strength); },
-             [this](Result<StoredAudio> audio)
-             {
-                 if (!plays)
-                     return;
-                 if (!audio)
-                     return stop();
-                 // The player plays clips, and a sound beside them: a silent one has the scene beside it.
-                 Clip silent;
-                 silent.duration = audio->duration();
-                 Playback scene;
-                 scene.source = true;
-                 scene.haptic = false;
-                 scene.a = std::make_shared<const Clip>(std::move(silent));
-                 session.player.stop();
-                 session.player.set(std::move(scene));
-                 session.player.setSound(std::make_shared<const StoredAudio>(std::move(*audio)));
-                 session.player.play(0.0);
-                 startTimerHz(30);
-             });
+    if (duration > 0.0) // else when it has been planned
+        begin();
+}
+
+/// On the haptic outputs, from the cursor on.
+void SceneSheet::begin()
+{
+    session.transport.lendPlayer();
+    session.player.set(playback());
+    session.player.play(line.cursor() < duration ? line.cursor() : 0.0);
+    startTimerHz(30);
+}
+
+Playback SceneSheet::playback() const
+{
+    auto scene = std::make_shared<const Scene>(sceneOf(session.model.document().project()).scene);
+    return scenePlayback(std::move(scene), duration);
 }
 
 void SceneSheet::stop()

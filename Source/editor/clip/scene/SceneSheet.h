@@ -33,6 +33,8 @@ private:
     void follow();
     void plan();
     void play();
+    void begin();
+    [[nodiscard]] Playback playback() const;
     void stop();
     void exportScene();
 
@@ -47,7 +49,8 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     Gesture sliding = 0;
     bool plays = false;
-    int planned = 0; ///< counts what was planned
+    int planned = 0;       ///< counts what was planned
+    double duration = 0.0; ///< s, of what was planned last
     Jobs jobs;
     Subscriptions subscriptions;
 };

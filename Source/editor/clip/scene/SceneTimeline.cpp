@@ -98,10 +98,6 @@ void SceneTimeline::paint(juce::Graphics& g)
         g.setColour(p.line.withAlpha(0.6f));
         g.fillRect(0, y, getWidth(), 1);
     }
-    const auto& parts = selection.scene().parts;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        if (const auto area = areaOf(i); area.getY() >= rulerHeight && area.intersects(visible))
-            paintPart(g, i, area);
     g.setColour(p.card);
     g.fillRect(0, 0, getWidth(), rulerHeight);
     const double step = tickStep(axis.secondsPerPixel);
@@ -114,6 +110,10 @@ void SceneTimeline::paint(juce::Graphics& g)
         g.drawText(juce::String(i * step, step < 0.1 ? 2 : 1) + " s", x + 4, 2, 80, rulerHeight - 6,
                    juce::Justification::centredLeft, false);
     }
+    const auto& parts = selection.scene().parts;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (const auto area = areaOf(i); area.getY() >= rulerHeight && area.intersects(visible))
+            paintPart(g, i, area);
     g.setColour(p.accent);
     g.fillRect(juce::roundToInt(axis.xOf(cursorTime)), 0, 1, getHeight());
     if (playhead >= 0.0)

@@ -19,7 +19,11 @@ Transport::Transport(const EditorModel& project, const ProjectSounds& projectSou
     subscriptions.on({&model.shownChanged}, [this] { reset(); });
     subscriptions.on({&model.contentChanged, &model.versionChanged, &selection.rangeChanged}, [this] { send(); });
     subscriptions.on({&model.contentChanged, &sounds.changed},
-                     [this] { player.setSound(audioOf(sounds.soundOfClip())); });
+                     [this]
+                     {
+                         if (!lent)
+                             player.setSound(audioOf(sounds.soundOfClip()));
+                     });
     subscriptions.on({&actuators.changed, &actuators.listChanged, &outputs.changed},
                      [this] { player.setRow(outputs.row(actuators)); });
 }
@@ -52,7 +56,8 @@ void Transport::send()
     wanted.b = model.keptVersion();
     wanted.take = model.isComparing() ? Take::b : Take::a;
     wanted.audition = auditionNow;
-    player.set(std::move(wanted));
+    if (!lent)
+        player.set(std::move(wanted));
 }
 
 void Transport::setLooping(bool wanted)
@@ -69,8 +74,16 @@ void Transport::setHeard(Heard wanted)
     changed.emit();
 }
 
+void Transport::lendPlayer()
+{
+    lent = true;
+    player.stop();
+    player.setSound(nullptr);
+}
+
 void Transport::takePlayer()
 {
+    lent = false;
     player.stop();
     send();
     player.setSound(audioOf(sounds.soundOfClip()));

@@ -34,7 +34,8 @@ public:
     void setLooping(bool wanted);
     [[nodiscard]] Heard heard() const noexcept { return hear; }
     void setHeard(Heard wanted);
-    /// Gives the player the clip again, after something else has played on it.
+    /// Leaves the player to something else, which calls it by itself until it is taken again, with the clip.
+    void lendPlayer();
     void takePlayer();
     [[nodiscard]] const Audition& audition() const noexcept { return auditionNow; }
     void setAudition(Audition wanted);
@@ -63,6 +64,7 @@ private:
     const ClipSelection& selection;
     ClipPlayer& player;
     bool looping = false;
+    bool lent = false;
     Heard hear = Heard::haptic;
     Audition auditionNow;
     PlayControls live;
