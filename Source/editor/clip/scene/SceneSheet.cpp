@@ -33,7 +33,7 @@ struct SceneNews
     std::map<std::size_t, juce::String> leftOut; ///< by part
     std::size_t bands = 0;                       ///< left out of parts that play
     double error = 0.0;                          ///< dB below the scene
-    double duration = 0.0;       ///< s of the whole scene
+    double duration = 0.0;                       ///< s of the whole scene
     juce::String failure;
 };
 
