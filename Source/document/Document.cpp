@@ -382,6 +382,41 @@ Result<void> Document::setGroup(std::span<const int> ids, const std::string& gro
     return {};
 }
 
+Result<void> Document::openScene(const Scene& scene, const std::string& group, std::string name)
+{
+    if (auto valid = validate(scene); !valid)
+        return valid;
+    std::vector<std::shared_ptr<const ClipItem>> items;
+    std::vector<int> ids;
+    for (const Clip& clip : scene.clips)
+    {
+        auto item = std::make_shared<ClipItem>();
+        item->id = nextClipId + static_cast<int>(items.size());
+        item->group = group;
+        item->clip = item->analysis = std::make_shared<const Clip>(clip);
+        ids.push_back(item->id);
+        items.push_back(std::move(item));
+    }
+    const auto put = [&, made = projectSceneOf(scene, ids)](Project& project)
+    {
+        if (!group.empty() && std::find(project.groups.begin(), project.groups.end(), group) == project.groups.end())
+            project.groups.push_back(group);
+        project.scene = made;
+    };
+    if (content.scene.parts.empty())
+    {
+        for (const auto& item : items)
+            amend(item, [](Project&) {});
+        amend(nullptr, put);
+        return {};
+    }
+    Project next = content;
+    next.clips.insert(next.clips.end(), items.begin(), items.end());
+    put(next);
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
 Result<void> Document::setScene(ProjectScene scene, std::string name, Gesture gesture)
 {
     if (auto valid = validate(scene); !valid)

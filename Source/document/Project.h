@@ -49,7 +49,7 @@ struct ProjectProfile
 }
 
 /// Breakpoint curve of one parameter of a scene's part, from its start on: levels, pan and delay glide between the
-/// points, the pitch steps at each.
+/// points, pitch and stretch step at each.
 struct SceneCurve
 {
     SceneParameter parameter = SceneParameter::pan;
@@ -60,14 +60,9 @@ struct SceneCurve
 /// A clip of the project in the scene.
 struct ScenePart
 {
-    int clip = 0;  ///< its id; a part whose clip is gone stays, and is not played
-    int track = 0; ///< from 0: where it is shown
-    double start = 0.0;
-    double gain = 0.0; ///< dB
-    double pan = 0.5;
-    double transposition = 0.0; ///< semitones
-    double delay = 0.0;         ///< s
-    int priority = 0;           ///< 0 is kept longest
+    int clip = 0;        ///< its id; a part whose clip is gone stays, and is not played
+    int track = 0;       ///< from 0: where it is shown
+    ScenePlay play = {}; ///< how it plays, but for its clip; a loop that is longer than the clip repeats all of it
     std::vector<SceneCurve> curves = {};
     bool operator==(const ScenePart&) const = default;
 };
@@ -75,8 +70,12 @@ struct ScenePart
 /// Clips of the project on tracks, which play together; see sceneOf().
 struct ProjectScene
 {
-    int actuators = 1; ///< 1 to 16
+    std::string name;
+    double duration = 0.0; ///< s; 0: until its last part ends
+    double gain = 0.0;     ///< dB
+    int actuators = 1;     ///< 1 to 16
     PanLaw panLaw = PanLaw::constantPower;
+    double panDelay = 0.01; ///< s, of the far end, for panning by delay
     std::vector<ScenePart> parts;
     bool operator==(const ProjectScene&) const = default;
 };

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -76,6 +77,21 @@ void visitWhole(Number& value, const char* name, Visitor& visitor)
     if constexpr (isReader<Visitor>)
         if (std::from_chars(text.data(), text.data() + text.size(), value).ptr != text.data() + text.size())
             visitor.fail(name, "must be a whole number in quotes");
+}
+
+/// A whole number, of any size that a double holds.
+template <typename Number, typename Visitor>
+void visitCount(Number& value, const char* name, double lowest, double highest, Visitor& visitor)
+{
+    double number = static_cast<double>(value);
+    visitor.number(name, number, Need::usual);
+    if constexpr (isReader<Visitor>)
+    {
+        if (number == std::floor(number) && number >= lowest && number <= highest)
+            value = static_cast<Number>(number);
+        else
+            visitor.fail(name, "must be a whole number within its range");
+    }
 }
 
 template <typename Lane, typename Visitor>
@@ -236,22 +252,46 @@ void visitProfile(Chosen& chosen, Visitor& visitor)
     visitor.number("strength", chosen.strength, Need::usual);
 }
 
+template <typename Play, typename Visitor>
+void visitPlay(Play& play, Visitor& visitor)
+{
+    visitor.optionalText("name", play.name);
+    visitor.number("start", play.start, Need::usual);
+    visitor.number("loop", play.loop, Need::usual);
+    visitCount(play.passes, "passes", 0.0, 1e9, visitor);
+    visitor.number("gain", play.gain, Need::usual);
+    visitor.number("pan", play.pan, Need::usual);
+    visitor.number("transposition", play.transposition, Need::usual);
+    visitor.number("stretch", play.stretch, Need::usual);
+    visitor.number("delay", play.delay, Need::usual);
+    visitor.number("tones", play.tones, Need::usual);
+    visitor.number("events", play.events, Need::usual);
+    visitor.number("noise", play.noise, Need::usual);
+    visitCount(play.priority, "priority", std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), visitor);
+    visitor.object("variation", play.variation, Need::optional,
+                   [&](auto& variation)
+                   {
+                       visitor.number("amount", variation.amount, Need::required);
+                       visitor.choice("scope", variation.scope, sceneFields::variationScopes, Need::required);
+                       visitWhole(variation.seed, "seed", visitor);
+                   });
+}
+
 template <typename Scene, typename Visitor>
 void visitScene(Scene& scene, Visitor& visitor)
 {
+    visitor.optionalText("name", scene.name);
+    visitor.number("duration", scene.duration, Need::usual);
+    visitor.number("gain", scene.gain, Need::usual);
     visitor.integer("actuators", scene.actuators, "must be a whole number");
     visitor.choice("panLaw", scene.panLaw, sceneFields::panLaws, Need::usual);
+    visitor.number("panDelay", scene.panDelay, Need::usual);
     visitor.list("parts", scene.parts, limits::plays, "parts",
                  [&](auto& part)
                  {
                      visitor.integer("clipId", part.clip, "must be a whole number");
                      visitor.integer("track", part.track, "must be a whole number");
-                     visitor.number("start", part.start, Need::usual);
-                     visitor.number("gain", part.gain, Need::usual);
-                     visitor.number("pan", part.pan, Need::usual);
-                     visitor.number("transposition", part.transposition, Need::usual);
-                     visitor.number("delay", part.delay, Need::usual);
-                     visitor.integer("priority", part.priority, "must be a whole number");
+                     visitPlay(part.play, visitor);
                      visitor.list("curves", part.curves, most, "curves",
                                   [&](auto& curve)
                                   {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scene of a project as the engine plays it: parts become plays, curves become changes.
+// Scene of a project and the scene that the engine plays: parts are plays, curves are changes.
 
 #include "document/Project.h"
 
@@ -16,6 +16,19 @@ namespace pacini
 /// Checks values, not whether clips are there; errors (invalidArgument) name the place, such as `parts[2].pan`.
 [[nodiscard]] Result<void> validate(const ProjectScene& scene);
 
+/// The value with which a part begins.
+[[nodiscard]] double& valueOf(ScenePlay& play, SceneParameter parameter) noexcept;
+[[nodiscard]] double valueOf(const ScenePlay& play, SceneParameter parameter) noexcept;
+
+/// The value of a curve with at least one point; of levels in dB the gain goes in straight lines.
+[[nodiscard]] double valueAt(SceneParameter parameter, const Curve& points, double time) noexcept;
+
+/// s that a part lasts, from where its delay lets it begin; of one that is repeated without end, until the scene ends.
+/// 0 where its clip is gone.
+[[nodiscard]] double lengthOf(const Project& project, const ScenePart& part);
+/// s: when the scene ends.
+[[nodiscard]] double sceneEnd(const Project& project);
+
 /// A scene with the clips that it needs, and the part of the project's scene that each play is.
 struct BuiltScene
 {
@@ -27,5 +40,9 @@ struct BuiltScene
 /// clips are gone. Curves are points in seconds of a part, from where its delay lets it begin; each becomes a change
 /// that glides from the point before it, so that levels, pan and delay go in straight lines; pitches step.
 [[nodiscard]] BuiltScene sceneOf(const Project& project);
+
+/// The other way round: a project's scene that sceneOf() makes a valid scene of again, whose clips are `clipIds` of the
+/// project. Parts that overlap are on tracks of their own.
+[[nodiscard]] ProjectScene projectSceneOf(const Scene& scene, const std::vector<int>& clipIds);
 
 } // namespace pacini

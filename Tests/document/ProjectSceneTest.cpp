@@ -6,6 +6,15 @@
 #include "document/ProjectJson.h"
 #include "io/SceneJson.h"
 #include "support/Catch.h"
+#include "support/RandomScene.h"
+
+#include <pacini/synthesis/SceneTimeline.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
 
 using namespace pacini;
 
@@ -29,9 +38,15 @@ Document sceneDocument()
     ProjectScene scene;
     scene.actuators = 3;
     scene.panLaw = PanLaw::both;
-    scene.parts = {{.clip = first, .start = 0.5, .gain = -6.0, .pan = 0.25},
-                   {.clip = second, .track = 1, .start = 1.0, .transposition = 3.0, .delay = 0.1, .priority = 2},
-                   {.clip = first, .track = 1, .start = 3.0}};
+    scene.parts = {{.clip = first}, {.clip = second, .track = 1}, {.clip = first, .track = 1}};
+    scene.parts[0].play.start = 0.5;
+    scene.parts[0].play.gain = -6.0;
+    scene.parts[0].play.pan = 0.25;
+    scene.parts[1].play.start = 1.0;
+    scene.parts[1].play.transposition = 3.0;
+    scene.parts[1].play.priority = 2;
+    scene.parts[1].play.delay = 0.1;
+    scene.parts[2].play.start = 3.0;
     scene.parts[2].curves = {{SceneParameter::pan, {{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}},
                              {SceneParameter::transposition, {{0.0, 0.0}, {0.5, 12.0}}}};
     REQUIRE(document.setScene(scene, "Scene"));
@@ -58,7 +73,7 @@ TEST_CASE("Parts of a scene become plays of their clips, and curves become chang
     CHECK(scene.changes[1] == SceneChange{3.5, 2, SceneParameter::transposition, 12.0, 0.0});
     // A part that comes later takes its curves along.
     ProjectScene later = document.project().scene;
-    later.parts[2].delay = 0.25;
+    later.parts[2].play.delay = 0.25;
     Document moved = sceneDocument();
     REQUIRE(moved.setScene(later, "Delay"));
     CHECK(sceneOf(moved.project()).scene.changes[0].time == 3.25);
@@ -89,9 +104,21 @@ TEST_CASE("Project files keep the scene, and old files have none")
     const Document document = sceneDocument();
     const std::string text = projectJson(document.project());
     const auto read = readProjectJson(text, {});
+    CAPTURE(read ? "" : read.error().text());
     REQUIRE(read);
     CHECK(read->project.scene == document.project().scene);
     CHECK(read->project == document.project());
+    // One of a version that did not know what is as usual here.
+    auto json = nlohmann::json::parse(text);
+    for (const char* key : {"duration", "gain", "panDelay"})
+        json["scene"].erase(key);
+    for (auto& part : json["scene"]["parts"])
+        for (const char* key : {"passes", "loop", "stretch", "tones", "events", "noise"})
+            CHECK(part.erase(key) == 1);
+    const std::string older = json.dump();
+    const auto old = readProjectJson(older, {});
+    REQUIRE(old);
+    CHECK(old->project.scene == document.project().scene);
     Document plain;
     REQUIRE(plain.addClip(hum("one", 1.0)));
     CHECK(projectJson(plain.project()).find("\"scene\"") == std::string::npos);
@@ -118,16 +145,111 @@ TEST_CASE("A gesture over the scene is one step, and a scene that is not valid c
     for (const double start : {0.6, 0.7, 0.8})
     {
         ProjectScene moved = document.project().scene;
-        moved.parts[0].start = start;
+        moved.parts[0].play.start = start;
         REQUIRE(document.setScene(moved, "Move", gesture));
     }
     CHECK(document.steps().size() == steps + 1);
     document.undo();
-    CHECK(document.project().scene.parts[0].start == 0.5);
+    CHECK(document.project().scene.parts[0].play.start == 0.5);
     ProjectScene bad = document.project().scene;
-    bad.parts[1].pan = 2.0;
+    bad.parts[1].play.pan = 2.0;
     const auto refused = document.setScene(bad, "Pan");
     REQUIRE_FALSE(refused);
     CHECK(refused.error().where == "parts[1].pan");
-    CHECK(document.project().scene.parts[1].pan == 0.5);
+    CHECK(document.project().scene.parts[1].play.pan == 0.5);
+}
+
+TEST_CASE("Scenes of any shape become parts that play as they did")
+{
+    for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    {
+        CAPTURE(seed);
+        Scene scene = test::randomScene(seed);
+        if (seed % 3 == 0) // some without an end of their own
+        {
+            scene.duration = 0.0;
+            for (ScenePlay& play : scene.plays)
+                play.passes = std::max<std::size_t>(1, play.passes);
+        }
+        Document document;
+        REQUIRE(document.openScene(scene, "scene", "Open scene"));
+        const Project& project = document.project();
+        CHECK(project.clips.size() == scene.clips.size());
+        CHECK(project.clips.front()->group == "scene");
+        const Scene again = sceneOf(project).scene;
+        REQUIRE(validate(again));
+        REQUIRE(again.plays.size() == scene.plays.size());
+        const SceneTimeline before = timelineOf(scene), after = timelineOf(again);
+        CHECK(after.duration == Approx(before.duration));
+        for (std::size_t i = 0; i < scene.plays.size(); ++i)
+        {
+            CAPTURE(i);
+            const ScenePlay &was = scene.plays[i], &is = again.plays[i];
+            CHECK(again.clips[is.clip] == scene.clips[was.clip]);
+            CHECK(is.name == was.name);
+            CHECK(is.variation == was.variation);
+            CHECK(is.loop == was.loop);
+            const TimedPlay &old = before.plays[i], &now = after.plays[i];
+            CHECK(now.end == Approx(old.end).margin(1e-6));
+            for (double time = is.start + is.delay; time < old.end; time += 0.037)
+            {
+                CAPTURE(time);
+                CHECK(valueAt(now.timeline.level, time) == Approx(valueAt(old.timeline.level, time)).margin(1e-9));
+                if (!old.timeline.delay.empty())
+                    CHECK(valueAt(now.timeline.delay, time) == Approx(valueAt(old.timeline.delay, time)).margin(1e-9));
+                for (std::size_t a = 0; a < old.timeline.gains.size(); ++a)
+                    CHECK(valueAt(now.timeline.gains[a], time) ==
+                          Approx(valueAt(old.timeline.gains[a], time)).margin(1e-4));
+            }
+        }
+        // No two parts lie over each other, and files keep all of it.
+        const auto& parts = project.scene.parts;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                if (parts[i].track == parts[k].track)
+                    CHECK((parts[i].play.start + lengthOf(project, parts[i]) <= parts[k].play.start + 1e-9 ||
+                           parts[k].play.start + lengthOf(project, parts[k]) <= parts[i].play.start + 1e-9));
+        const auto read = readProjectJson(projectJson(project), {});
+        REQUIRE(read);
+        CHECK(read->project.scene == project.scene);
+    }
+}
+
+TEST_CASE("A scene that is opened into another one takes its place until that is undone")
+{
+    Document document = sceneDocument();
+    const ProjectScene before = document.project().scene;
+    REQUIRE(document.openScene(test::randomScene(5), "other", "Open scene"));
+    CHECK(document.project().clips.size() > 2);
+    CHECK(document.project().scene != before);
+    document.undo();
+    CHECK(document.project().scene == before);
+    CHECK(document.project().clips.size() == 2);
+    // Into a project without one it has been there from the start, as sounds that are opened.
+    Document begun;
+    REQUIRE(begun.openScene(test::randomScene(5), "other", "Open scene"));
+    CHECK_FALSE(begun.canUndo());
+    Scene bad = test::randomScene(5);
+    bad.plays.front().pan = 2.0;
+    CHECK_FALSE(begun.openScene(bad, "bad", "Open scene"));
+}
+
+TEST_CASE("Parts that are repeated last as long as their passes, and without end until the others end")
+{
+    Document document = sceneDocument(); // of 2 s and 1 s
+    ProjectScene scene = document.project().scene;
+    scene.parts[0].play.loop = limits::duration;
+    scene.parts[0].play.passes = 3;
+    scene.parts[1].play.loop = 0.5;
+    scene.parts[1].play.stretch = 2.0;
+    scene.parts.resize(2);
+    REQUIRE(document.setScene(scene, "Loops"));
+    const Project& project = document.project();
+    CHECK(lengthOf(project, project.scene.parts[0]) == 6.0);
+    CHECK(sceneEnd(project) == 6.5);
+    CHECK(lengthOf(project, project.scene.parts[1]) == Approx(6.5 - 1.1));
+    const Scene built = sceneOf(project).scene;
+    REQUIRE(validate(built));
+    CHECK(built.plays[0].loop == 2.0);
+    CHECK(built.duration == 6.5);
 }

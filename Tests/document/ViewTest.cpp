@@ -1,5 +1,6 @@
 #include "document/view/Columns.h"
 #include "document/view/HitTest.h"
+#include "document/view/LevelCurve.h"
 #include "document/view/Snap.h"
 #include "document/view/TimeAxis.h"
 #include "document/view/TimeTicks.h"
@@ -159,4 +160,24 @@ TEST_CASE("Times of a ruler are round and at least 90 pixels apart, and its line
         }
         CHECK(rulerGrid(perPixel).step == Approx(step / 5.0));
     }
+}
+
+TEST_CASE("A clip without an envelope has the power sum of its bands for its level")
+{
+    Clip clip;
+    clip.duration = 2.0;
+    clip.bands = {{80.0, 100.0, 120.0, 0, {{0.0, 0.3}, {2.0, 0.3}}, {}},
+                  {180.0, 200.0, 220.0, 0, {{0.5, 0.0}, {1.5, 0.8}}, {}}};
+    LevelCurves levels;
+    const Curve level = levels.of(std::make_shared<const Clip>(clip));
+    CHECK(valueAt(level, 0.0) == Approx(0.3));
+    CHECK(level[2].time == 1.5);
+    CHECK(level[2].value == Approx(std::sqrt(0.09 + 0.64)));
+    CHECK(level.back().value == Approx(std::sqrt(0.09 + 0.64)));
+    auto another = std::make_shared<Clip>(clip);
+    another->envelope = {{0.0, 0.1}};
+    CHECK(levels.of(another) == another->envelope);
+    another->envelope.clear();
+    another->bands.clear();
+    CHECK(levels.of(another).empty());
 }

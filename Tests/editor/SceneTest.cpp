@@ -4,9 +4,11 @@
 #include "editor/Pump.h"
 #include "editor/clip/scene/SceneSheet.h"
 #include "io/SceneFile.h"
+#include "support/RandomScene.h"
 #include "support/TempFolder.h"
 
 #include <chrono>
+#include <fstream>
 
 using namespace pacini;
 using namespace pacini::test;
@@ -49,12 +51,12 @@ TEST_CASE("Clips are added to the scene, moved by mouse and keys, each as one st
     CHECK(page.scene().parts[1].track == 1); // the first is in its way
     const std::size_t steps = page.session.model.document().steps().size();
     Mouse(line).dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(203.0f, 50.0f), 8);
-    CHECK(page.scene().parts[1].start > 0.1);
+    CHECK(page.scene().parts[1].play.start > 0.1);
     CHECK(page.scene().parts[1].track == 2);
     CHECK(page.session.model.document().steps().size() == steps + 1);
-    const double before = page.scene().parts[1].start;
+    const double before = page.scene().parts[1].play.start;
     CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
-    CHECK(page.scene().parts[1].start == Approx(before + 0.01));
+    CHECK(page.scene().parts[1].play.start == Approx(before + 0.01));
     CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::upKey)));
     CHECK(page.scene().parts[1].track == 1);
     CHECK(line.keyPressed(juce::KeyPress(juce::KeyPress::deleteKey)));
@@ -73,11 +75,11 @@ TEST_CASE("A part snaps to the end of another, and Alt leaves it where it is")
     auto& line = page.sheet->timeline();
     const auto edge = static_cast<float>(line.areaOf(0).getRight());
     Mouse(line).dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(edge + 4.0f, 0.0f), 6);
-    CHECK(page.scene().parts[1].start == Approx(end).margin(1e-9));
+    CHECK(page.scene().parts[1].play.start == Approx(end).margin(1e-9));
     page.session.model.undo();
     Mouse(line, juce::ModifierKeys::altModifier)
         .dragFromTo(page.middleOf(1), page.middleOf(1) + juce::Point<float>(edge + 4.0f, 0.0f), 6);
-    CHECK(page.scene().parts[1].start != Approx(end).margin(1e-9));
+    CHECK(page.scene().parts[1].play.start != Approx(end).margin(1e-9));
 }
 
 TEST_CASE("Points of a curve are added by mouse and by keys, and the scene file has them")
@@ -106,6 +108,41 @@ TEST_CASE("Points of a curve are added by mouse and by keys, and the scene file 
     CHECK(read->plays[0].pan > 0.7);
 }
 
+TEST_CASE("A part is repeated, and its length and the file follow")
+{
+    ScenePage page;
+    page.sheet->parts().add(page.first, 0.0);
+    const int once = page.sheet->timeline().areaOf(0).getWidth();
+    auto& repeats = get<juce::Slider>(*page.sheet, "Repeats");
+    CHECK(repeats.getValue() == 1.0);
+    repeats.setValue(3.0, juce::sendNotificationSync);
+    CHECK(page.scene().parts[0].play.passes == 3);
+    CHECK(page.sheet->timeline().areaOf(0).getWidth() == Approx(3 * once).margin(3));
+    repeats.setValue(1.0, juce::sendNotificationSync);
+    CHECK(page.scene().parts[0].play.loop == 0.0);
+}
+
+TEST_CASE("A scene file opens with its clips, its loops and what changes, and shows its page")
+{
+    const TempFolder folder;
+    Scene scene = test::randomScene(7);
+    REQUIRE(writeScene(folder / "made.scene.json", scene));
+    ScenePage page;
+    page.view.showSheet(nullptr);
+    const std::size_t clips = page.session.model.document().project().clips.size();
+    page.session.sounds.openFiles({folder / "made.scene.json"});
+    REQUIRE(pumpUntil([&] { return !page.session.sounds.workNow() && !page.scene().parts.empty(); }));
+    CHECK(page.scene().parts.size() == scene.plays.size());
+    CHECK(page.session.model.document().project().clips.size() == clips + scene.clips.size());
+    CHECK(pumpUntil([&] { return dynamic_cast<editor::SceneSheet*>(page.view.sheet()) != nullptr; }));
+    // What is not one is said.
+    editor::SceneSheet other(page.session);
+    std::ofstream(folder / "bad.json") << "{\"format\": \"pacini.scene\", \"plays\": [{\"clip\": 3}]}";
+    other.read(folder / "bad.json");
+    CHECK(pumpUntil([&] { return other.summary().contains("bad.json"); }));
+    CHECK(page.scene().parts.size() == scene.plays.size());
+}
+
 TEST_CASE("What nobody would feel is said, and shown on the part")
 {
     ScenePage page;
@@ -113,7 +150,7 @@ TEST_CASE("What nobody would feel is said, and shown on the part")
     parts.add(page.first, 0.0);
     CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 clip"); }));
     parts.add(page.second, 3.0);
-    parts.editPart("Softer", [](ScenePart& part) { part.gain = -110.0; });
+    parts.editPart("Softer", [](ScenePart& part) { part.play.gain = -110.0; });
     CHECK(pumpUntil([&] { return page.sheet->summary().contains("1 left out"); }));
 }
 

@@ -4,6 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "editor/clip/commands/ContextMenu.h"
+#include "editor/clip/scene/SceneSheet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,7 @@ EditorView::EditorView(Session& shared, HostServices around)
     subscriptions.on({&open.model.contentChanged, &open.model.projectChanged, &open.sounds.workChanged},
                      [this] { arrange(); });
     subscriptions.on({&open.outputs.changed}, [this] { resized(); });
+    subscriptions.on({&open.model.sceneOpened}, [this] { showOpenedScene(); });
     subscriptions.on({&open.model.projectChanged, &open.model.versionChanged, &open.clipSelection.changed,
                       &open.clipSelection.rangeChanged, &open.transport.changed, &open.transport.loopChanged,
                       &open.sounds.workChanged},
@@ -283,6 +285,17 @@ void EditorView::showMessage(std::unique_ptr<Sheet> wanted)
         messages.push_back(std::move(wanted));
     else
         showSheet(std::move(wanted));
+}
+
+/// Behind what is told of the files that were opened.
+void EditorView::showOpenedScene()
+{
+    juce::MessageManager::callAsync(
+        [self = SafePointer(this)]
+        {
+            if (self != nullptr && dynamic_cast<SceneSheet*>(self->sheetNow.get()) == nullptr)
+                self->showMessage(std::make_unique<SceneSheet>(self->open));
+        });
 }
 
 void EditorView::filesDropped(const juce::StringArray& files, int, int)

@@ -98,6 +98,7 @@ public:
     void resized() override;
 
 private:
+    void showOpenedScene();
     bool isInterestedInFileDrag(const juce::StringArray&) override { return true; }
     void fileDragEnter(const juce::StringArray&, int, int) override { start.setDropping(true); }
     void fileDragExit(const juce::StringArray&) override { start.setDropping(false); }

@@ -21,7 +21,7 @@ Menu toolsMenu(EditorView& view)
         [&session]
         {
             SceneSelection scene(session.model);
-            scene.add(session.model.activeId(), scene.end());
+            scene.add(session.model.activeId(), sceneEnd(session.model.document().project()));
         },
         hasClip(session));
     menu.addLine();

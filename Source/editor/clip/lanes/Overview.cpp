@@ -25,7 +25,8 @@ Overview::Overview(const EditorModel& project, ViewState& sight) : model(project
                      [this]
                      {
                          const auto last = std::exchange(drawn, model.clip());
-                         if (!last || !drawn || last->duration != drawn->duration || last->envelope != drawn->envelope)
+                         if (!last || !drawn || last->duration != drawn->duration ||
+                             last->envelope != drawn->envelope || (drawn->envelope.empty() && last != drawn))
                              repaint();
                      });
 }
@@ -61,7 +62,7 @@ void Overview::paint(juce::Graphics& g)
     if (!clip)
         return;
     std::vector<Column> columns(static_cast<std::size_t>(std::max(0, plot.getWidth())));
-    curveColumns(clip->envelope, whole(), columns);
+    curveColumns(levels.of(clip), whole(), columns);
     double highest = 1e-6;
     for (const Column& column : columns)
         highest = std::max(highest, static_cast<double>(column.high));

@@ -3,6 +3,7 @@
 
 // Overview of the whole clip, which scrolls and zooms the clip view.
 
+#include "document/view/LevelCurve.h"
 #include "editor/clip/commands/ContextMenu.h"
 #include "editor/clip/session/ViewState.h"
 
@@ -40,6 +41,7 @@ private:
     };
     Drag drag = Drag::frame;
     std::shared_ptr<const Clip> drawn;
+    LevelCurves levels;
     TimeRange before; // the visible range when a drag began
     Subscriptions subscriptions;
 };

@@ -295,7 +295,7 @@ juce::PopupMenu ClipList::menuOf(int row)
          {
              SceneSelection scene(self.model);
              for (const int id : self.clipsFor(at))
-                 scene.add(id, scene.end());
+                 scene.add(id, sceneEnd(self.model.document().project()));
          });
     item("Remove", [](ClipList& self, int at) { self.remove(at); });
     menu.addSeparator();

@@ -28,22 +28,15 @@ SceneRange sceneRangeOf(SceneParameter parameter) noexcept
         return {0.0, 1.0, 0.0, " s"};
     case SceneParameter::transposition:
         return {-24.0, 24.0, 0.0, " st"};
-    case SceneParameter::gain:
     case SceneParameter::stretch:
+        return {0.25, 4.0, 1.0, ""};
+    case SceneParameter::gain:
     case SceneParameter::tones:
     case SceneParameter::events:
     case SceneParameter::noise:
         break;
     }
     return {-60.0, 12.0, 0.0, " dB"};
-}
-
-double& sceneValueOf(ScenePart& part, SceneParameter parameter)
-{
-    return parameter == SceneParameter::pan             ? part.pan
-           : parameter == SceneParameter::delay         ? part.delay
-           : parameter == SceneParameter::transposition ? part.transposition
-                                                        : part.gain;
 }
 
 SceneCurveLane::SceneCurveLane(EditorModel& project, SceneSelection& selected) : model(project), selection(selected)
@@ -81,8 +74,8 @@ const Curve* SceneCurveLane::curve() const
 double SceneCurveLane::length() const
 {
     const ScenePart* part = selection.part();
-    const auto item = part != nullptr ? model.document().clip(part->clip) : nullptr;
-    return item ? item->clip->duration : 1.0;
+    const double s = part != nullptr ? lengthOf(model.document().project(), *part) : 0.0;
+    return s > 0.0 ? s : 1.0;
 }
 
 juce::Point<float> SceneCurveLane::placeOf(Breakpoint point) const
@@ -184,8 +177,7 @@ bool SceneCurveLane::keyPressed(const juce::KeyPress& key)
     {
         // Between the last point and the end, so that a curve can be made by keys alone.
         Curve more = points != nullptr ? *points : Curve();
-        ScenePart part = *selection.part();
-        const double value = more.empty() ? sceneValueOf(part, shown) : more.back().value;
+        const double value = more.empty() ? valueOf(selection.part()->play, shown) : more.back().value;
         more.push_back({more.empty() ? 0.0 : 0.5 * (more.back().time + length()), value});
         chosen = more.size() - 1;
         return setPoints("Add point to curve", std::move(more));
@@ -248,19 +240,16 @@ void SceneCurveLane::paint(juce::Graphics& g)
                    juce::Justification::centredLeft, false);
     }
     const Curve* points = curve();
-    ScenePart copy = *part;
-    const Curve flat{{0.0, sceneValueOf(copy, shown)}};
+    const Curve flat{{0.0, valueOf(part->play, shown)}};
     const Curve& drawn = points != nullptr && !points->empty() ? *points : flat;
     juce::Path line;
-    const bool steps = shown == SceneParameter::transposition;
-    line.startNewSubPath(placeOf({0.0, drawn.front().value}));
-    for (std::size_t i = 0; i < drawn.size(); ++i)
+    constexpr int fineness = 2; // pixels
+    for (int x = 0; x <= getWidth() - 2 * sceneMargin; x += fineness)
     {
-        if (steps && i > 0)
-            line.lineTo(placeOf({drawn[i].time, drawn[i - 1].value}));
-        line.lineTo(placeOf(drawn[i]));
+        const double time = length() * x / std::max(1, getWidth() - 2 * sceneMargin);
+        const auto place = placeOf({time, valueAt(shown, drawn, time)});
+        x == 0 ? line.startNewSubPath(place) : line.lineTo(place);
     }
-    line.lineTo(placeOf({length(), drawn.back().value}));
     g.setColour(points != nullptr ? p.accent : p.dim);
     g.strokePath(line, juce::PathStrokeType(2.0f));
     for (std::size_t i = 0; points != nullptr && i < points->size(); ++i)

@@ -21,8 +21,6 @@ struct SceneRange
     const char* unit = "";
 };
 [[nodiscard]] SceneRange sceneRangeOf(SceneParameter parameter) noexcept;
-/// The value that a part has where it has no curve.
-[[nodiscard]] double& sceneValueOf(ScenePart& part, SceneParameter parameter);
 
 class SceneCurveLane final : public juce::Component, public juce::SettableTooltipClient
 {

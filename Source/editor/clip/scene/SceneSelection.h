@@ -59,16 +59,6 @@ public:
     }
     [[nodiscard]] Gesture beginGesture() { return model.beginGesture(); }
 
-    /// s: when the last part has ended.
-    [[nodiscard]] double end() const
-    {
-        double last = 0.0;
-        for (const ScenePart& one : scene().parts)
-            if (const auto item = model.document().clip(one.clip))
-                last = std::max(last, one.start + one.delay + item->clip->duration);
-        return last;
-    }
-
     /// Puts a clip at a time on the first track that is free there, and selects it.
     void add(int clip, double start)
     {
@@ -76,18 +66,13 @@ public:
         const auto item = project.find(clip);
         if (!item)
             return;
-        const auto lengthOf = [&](const ScenePart& one)
-        {
-            const auto of = project.find(one.clip);
-            return of ? of->clip->duration : 0.0;
-        };
         ScenePart added;
         added.clip = clip;
-        added.start = std::max(0.0, start);
+        added.play.start = std::max(0.0, start);
         const auto overlaps = [&](const ScenePart& one)
         {
-            return one.track == added.track && one.start < added.start + item->clip->duration &&
-                   added.start < one.start + lengthOf(one);
+            return one.track == added.track && one.play.start < added.play.start + item->clip->duration &&
+                   added.play.start < one.play.start + lengthOf(project, one);
         };
         while (std::any_of(project.scene.parts.begin(), project.scene.parts.end(), overlaps))
             ++added.track;

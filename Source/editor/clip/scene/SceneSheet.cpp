@@ -5,6 +5,7 @@
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
+#include "editor/clip/session/Sound.h"
 #include "io/SceneFile.h"
 
 #include <pacini/synthesis/CompilePlan.h>
@@ -24,8 +25,10 @@ namespace
 constexpr int wholeWindow = 4000; // more than any has
 constexpr int controlHeight = 30;
 constexpr double sceneRate = 48000.0;
-constexpr std::array<SceneParameter, 4> offered{SceneParameter::pan, SceneParameter::gain,
-                                                SceneParameter::transposition, SceneParameter::delay};
+constexpr std::array<SceneParameter, 8> offered{
+    SceneParameter::pan,   SceneParameter::gain,  SceneParameter::transposition, SceneParameter::stretch,
+    SceneParameter::delay, SceneParameter::tones, SceneParameter::events,        SceneParameter::noise};
+constexpr int mostRepeats = 100;
 
 /// What the worker finds out about a scene.
 struct SceneNews
@@ -90,6 +93,7 @@ SceneSheet::SceneSheet(Session& shared)
       removeButton("Remove"),
       removeCurveButton("Remove curve"),
       fitButton("Fit"),
+      openButton(toText("Open scene…")),
       exportButton(toText("Export scene…"))
 {
     const auto label = [this](juce::Label& one, const juce::String& text)
@@ -105,6 +109,7 @@ SceneSheet::SceneSheet(Session& shared)
     label(parameterLabel, "Curve");
     label(valueLabel, "Value");
     label(priorityLabel, "Priority");
+    label(repeatsLabel, "Repeats");
     label(note, {});
     note.setAccessible(true);
     clips.setTitle("Add clip");
@@ -135,7 +140,7 @@ SceneSheet::SceneSheet(Session& shared)
     };
     parameter.setTitle("Curve");
     parameter.setTooltip("What the curve changes while the clip plays");
-    parameter.addItemList({"Position", "Gain", "Pitch", "Delay"}, 1);
+    parameter.addItemList({"Position", "Gain", "Pitch", "Stretch", "Delay", "Tones", "Events", "Noise"}, 1);
     parameter.setSelectedId(1, juce::dontSendNotification);
     parameter.onChange = [this]
     {
@@ -157,7 +162,7 @@ SceneSheet::SceneSheet(Session& shared)
     value.onValueChange = [this]
     {
         selection.editPart(
-            "Change in scene", [this](ScenePart& part) { sceneValueOf(part, curve.parameter()) = value.getValue(); },
+            "Change in scene", [this](ScenePart& part) { valueOf(part.play, curve.parameter()) = value.getValue(); },
             sliding);
     };
     priority.setTitle("Priority");
@@ -168,9 +173,20 @@ SceneSheet::SceneSheet(Session& shared)
     priority.onValueChange = [this]
     {
         selection.editPart("Priority in scene",
-                           [this](ScenePart& part) { part.priority = juce::roundToInt(priority.getValue()); });
+                           [this](ScenePart& part) { part.play.priority = juce::roundToInt(priority.getValue()); });
     };
-    for (juce::TextButton* button : {&playButton, &removeButton, &removeCurveButton, &fitButton, &exportButton})
+    repeats.setTitle("Repeats");
+    repeats.setTooltip("How often the clip plays; 0 repeats it until the scene ends");
+    repeats.setSliderStyle(juce::Slider::IncDecButtons);
+    repeats.setRange(0.0, mostRepeats, 1.0);
+    repeats.setValue(1.0, juce::dontSendNotification);
+    repeats.setTextBoxStyle(juce::Slider::TextBoxLeft, false, 5 * grid, 3 * grid);
+    repeats.onValueChange = [this]
+    {
+        setRepeats(juce::roundToInt(repeats.getValue()));
+    };
+    for (juce::TextButton* button :
+         {&playButton, &removeButton, &removeCurveButton, &fitButton, &openButton, &exportButton})
         button->setTitle(button->getButtonText());
     prepareButton(playButton, "Plays the scene on the haptic outputs from the cursor on, or stops (Space)",
                   [this] { plays ? stop() : play(); });
@@ -178,10 +194,11 @@ SceneSheet::SceneSheet(Session& shared)
                   [this] { selection.removeSelected(); });
     prepareButton(removeCurveButton, "Plays the value instead of the curve", [this] { curve.removeCurve(); });
     prepareButton(fitButton, "Shows the whole scene", [this] { line.fit(); });
+    prepareButton(openButton, "Opens a scene file with its clips in place of this scene", [this] { openScene(); });
     prepareButton(exportButton, "Writes a scene file with all clips, for pacini render and the game library",
                   [this] { exportScene(); });
     addAll(*this, {&line, &clips, &actuators, &law, &playButton, &removeButton, &fitButton, &parameter, &value,
-                   &priority, &removeCurveButton, &curve, &exportButton});
+                   &priority, &repeats, &removeCurveButton, &curve, &openButton, &exportButton});
     setAnswers({{"Close", {}}});
     subscriptions.on({&session.model.projectChanged, &session.actuators.changed},
                      [this]
@@ -229,12 +246,16 @@ void SceneSheet::follow()
     value.setDoubleClickReturnValue(true, range.usual);
     if (part != nullptr)
     {
-        ScenePart copy = *part;
-        value.setValue(sceneValueOf(copy, curve.parameter()), juce::dontSendNotification);
-        priority.setValue(part->priority, juce::dontSendNotification);
+        value.setValue(valueOf(part->play, curve.parameter()), juce::dontSendNotification);
+        priority.setRange(std::min(0, part->play.priority), std::max(10, part->play.priority), 1.0);
+        priority.setValue(part->play.priority, juce::dontSendNotification);
+        const int passes = part->play.loop == 0.0 ? 1 : static_cast<int>(part->play.passes);
+        repeats.setRange(0.0, std::max(mostRepeats, passes), 1.0);
+        repeats.setValue(passes, juce::dontSendNotification);
     }
     value.setEnabled(part != nullptr && !curved);
     priority.setEnabled(part != nullptr);
+    repeats.setEnabled(part != nullptr);
     removeButton.setEnabled(part != nullptr);
     removeCurveButton.setEnabled(curved);
 }
@@ -330,12 +351,65 @@ bool SceneSheet::keyPressed(const juce::KeyPress& key)
     return Sheet::keyPressed(key);
 }
 
+/// A part of a clip that is repeated stays that part; else it is all of it.
+void SceneSheet::setRepeats(int passes)
+{
+    selection.editPart(
+        "Repeats in scene",
+        [passes](ScenePart& part)
+        {
+            part.play.loop = passes == 1 ? 0.0 : part.play.loop == 0.0 ? limits::duration : part.play.loop;
+            part.play.passes = passes == 1 ? 0 : static_cast<std::size_t>(passes);
+        });
+}
+
+namespace
+{
+/// Where scenes are looked for first: beside the project.
+juce::File folderOf(const EditorModel& model)
+{
+    const auto& path = model.document().path();
+    return path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                        : juce::File(pathText(path.parent_path()));
+}
+} // namespace
+
+void SceneSheet::openScene()
+{
+    using Browser = juce::FileBrowserComponent;
+    chooser = std::make_unique<juce::FileChooser>(tr("Open scene"), folderOf(session.model), "*.json");
+    chooser->launchAsync(Browser::openMode | Browser::canSelectFiles,
+                         [this](const juce::FileChooser& done)
+                         {
+                             if (done.getResult() != juce::File())
+                                 read(pathOf(done.getResult()));
+                         });
+}
+
+void SceneSheet::read(const std::filesystem::path& file)
+{
+    jobs.run([file] { return readFile(file); },
+             [this, file](Result<Imported> imported)
+             {
+                 Result<void> done = imported ? Result<void>() : Result<void>(imported.error());
+                 if (done && !imported->scene)
+                     done = Error{ErrorCode::invalidData, "", "is not a scene"};
+                 if (done)
+                     done = session.model.openScene(*imported->scene, file.stem().string());
+                 if (!done)
+                     note.setText(tr("{0} not opened: {1}",
+                                     {pathText(file.filename()), translateMessage(toText(done.error().text()))}),
+                                  juce::dontSendNotification);
+                 else
+                     line.fit();
+             });
+}
+
 void SceneSheet::exportScene()
 {
     using Browser = juce::FileBrowserComponent;
     const auto& path = session.model.document().path();
-    const juce::File folder = path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
-                                           : juce::File(pathText(path.parent_path()));
+    const juce::File folder = folderOf(session.model);
     const juce::String name = path.empty() ? tr("Untitled") : pathText(path.stem());
     chooser =
         std::make_unique<juce::FileChooser>(tr("Export scene"), folder.getChildFile(name + ".scene.json"), "*.json");
@@ -371,6 +445,8 @@ void SceneSheet::layOut(juce::Rectangle<int> area)
     put(lawLabel, 8 * grid);
     put(law, 14 * grid);
     exportButton.setBounds(row.removeFromRight(16 * grid).withSizeKeepingCentre(16 * grid, controlHeight - 2));
+    row.removeFromRight(grid);
+    openButton.setBounds(row.removeFromRight(15 * grid).withSizeKeepingCentre(15 * grid, controlHeight - 2));
     area.removeFromTop(grid);
     note.setBounds(area.removeFromBottom(3 * grid));
     curve.setBounds(area.removeFromBottom(15 * grid));
@@ -379,10 +455,12 @@ void SceneSheet::layOut(juce::Rectangle<int> area)
     put(parameterLabel, 6 * grid);
     put(parameter, 14 * grid);
     put(valueLabel, 6 * grid);
-    put(value, 30 * grid);
+    put(value, 26 * grid);
     put(removeCurveButton, 16 * grid);
+    put(repeatsLabel, 8 * grid);
+    put(repeats, 11 * grid);
     put(priorityLabel, 8 * grid);
-    put(priority, 20 * grid);
+    put(priority, 18 * grid);
     area.removeFromBottom(grid / 2);
     line.setBounds(area);
 }

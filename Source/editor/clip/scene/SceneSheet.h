@@ -9,6 +9,7 @@
 #include "editor/clip/session/Session.h"
 #include "editor/clip/sheets/Sheet.h"
 
+#include <filesystem>
 #include <memory>
 
 namespace pacini::editor
@@ -22,6 +23,8 @@ public:
 
     [[nodiscard]] SceneSelection& parts() noexcept { return selection; }
     [[nodiscard]] SceneTimeline& timeline() noexcept { return line; }
+    /// A scene file in place of the scene; what is wrong with it is said on the page.
+    void read(const std::filesystem::path& file);
     [[nodiscard]] juce::String summary() const { return note.getText(); }
 
 private:
@@ -36,16 +39,18 @@ private:
     void begin();
     [[nodiscard]] Playback playback() const;
     void stop();
+    void openScene();
     void exportScene();
+    void setRepeats(int passes);
 
     Session& session;
     SceneSelection selection;
     SceneTimeline line;
     SceneCurveLane curve;
     juce::ComboBox clips, actuators, law, parameter;
-    juce::Label clipsLabel, actuatorsLabel, lawLabel, parameterLabel, valueLabel, priorityLabel, note;
-    juce::TextButton playButton, removeButton, removeCurveButton, fitButton, exportButton;
-    juce::Slider value, priority;
+    juce::Label clipsLabel, actuatorsLabel, lawLabel, parameterLabel, valueLabel, priorityLabel, repeatsLabel, note;
+    juce::TextButton playButton, removeButton, removeCurveButton, fitButton, openButton, exportButton;
+    juce::Slider value, priority, repeats;
     std::unique_ptr<juce::FileChooser> chooser;
     Gesture sliding = 0;
     bool plays = false;

@@ -17,6 +17,13 @@ namespace
 {
 constexpr double snapReach = 8.0; // pixels
 constexpr double keyStep = 0.01;  // s
+
+/// s of the clip that is played `time` s after a part's start.
+double placeInClip(const ScenePlay& play, double duration, double time)
+{
+    const double loop = std::min(play.loop, duration);
+    return loop > 0.0 ? std::fmod(time / play.stretch, loop) : time / play.stretch;
+}
 } // namespace
 
 SceneTimeline::SceneTimeline(EditorModel& project, SceneSelection& selected) : model(project), selection(selected)
@@ -50,15 +57,12 @@ void SceneTimeline::showPlayhead(double time)
 
 double SceneTimeline::lengthOf(const ScenePart& part) const
 {
-    const auto item = model.document().clip(part.clip);
-    return item ? item->clip->duration : 0.1;
+    return std::max(0.1, pacini::lengthOf(model.document().project(), part));
 }
 
 void SceneTimeline::fit()
 {
-    double end = 4.0;
-    for (const ScenePart& part : selection.scene().parts)
-        end = std::max(end, part.start + part.delay + lengthOf(part));
+    const double end = std::max(4.0, sceneEnd(model.document().project()));
     axis = {0.0, 1.05 * end / std::max(1, getWidth())};
     firstTrack = 0;
     repaint();
@@ -73,8 +77,8 @@ void SceneTimeline::resized()
 juce::Rectangle<int> SceneTimeline::areaOf(std::size_t part) const
 {
     const ScenePart& one = selection.scene().parts[part];
-    const double from = std::clamp(axis.xOf(one.start + one.delay), -1e5, 1e5);
-    const double to = std::clamp(axis.xOf(one.start + one.delay + lengthOf(one)), -1e5, 1e5);
+    const double from = std::clamp(axis.xOf(one.play.start + one.play.delay), -1e5, 1e5);
+    const double to = std::clamp(axis.xOf(one.play.start + one.play.delay + lengthOf(one)), -1e5, 1e5);
     return {juce::roundToInt(from), rulerHeight + (one.track - firstTrack) * trackHeight + 2,
             std::max(6, juce::roundToInt(to - from)), trackHeight - 4};
 }
@@ -149,12 +153,19 @@ void SceneTimeline::paintPart(juce::Graphics& g, std::size_t index, juce::Rectan
         if (last > first)
         {
             std::vector<Column> columns(static_cast<std::size_t>(last - first));
-            curveColumns(item->clip->envelope, TimeAxis{first * axis.secondsPerPixel, axis.secondsPerPixel}, columns);
+            const Curve& level = levels.of(item->clip);
+            if (part.play.loop == 0.0 && part.play.stretch == 1.0)
+                curveColumns(level, TimeAxis{first * axis.secondsPerPixel, axis.secondsPerPixel}, columns);
+            else
+                for (std::size_t i = 0; i < columns.size(); ++i)
+                    columns[i].high = static_cast<float>(
+                        valueAt(level, placeInClip(part.play, item->clip->duration,
+                                                   (first + static_cast<double>(i)) * axis.secondsPerPixel)));
             g.setColour((out ? p.dim : p.accent).withAlpha(out ? 0.25f : 0.5f));
             for (std::size_t i = 0; i < columns.size(); ++i)
             {
-                const double level = 20.0 * std::log10(std::max(1e-3, static_cast<double>(columns[i].high)));
-                const int height = juce::roundToInt((1.0 + level / 60.0) * (area.getHeight() - 2));
+                const double dB = 20.0 * std::log10(std::max(1e-3, static_cast<double>(columns[i].high)));
+                const int height = juce::roundToInt((1.0 + dB / 60.0) * (area.getHeight() - 2));
                 g.fillRect(area.getX() + first + static_cast<int>(i), area.getBottom() - 1 - height, 1, height);
             }
         }
@@ -198,14 +209,14 @@ void SceneTimeline::mouseDrag(const juce::MouseEvent& event)
     const auto index = selection.selected();
     if (!index || !event.mouseWasDraggedSinceMouseDown())
         return;
-    const double start = grabbed.start + event.getDistanceFromDragStartX() * axis.secondsPerPixel;
+    const double start = grabbed.play.start + event.getDistanceFromDragStartX() * axis.secondsPerPixel;
     const int track =
         grabbed.track + juce::roundToInt(static_cast<double>(event.getDistanceFromDragStartY()) / trackHeight);
     selection.editPart(
         "Move in scene",
         [&](ScenePart& part)
         {
-            part.start = std::max(0.0, event.mods.isAltDown() ? start : snapped(*index, start));
+            part.play.start = std::max(0.0, event.mods.isAltDown() ? start : snapped(*index, start));
             part.track = std::clamp(track, 0, 999);
         },
         gesture);
@@ -232,8 +243,8 @@ double SceneTimeline::snapped(std::size_t part, double start) const
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (i != part)
         {
-            offer(parts[i].start);
-            offer(parts[i].start + lengthOf(parts[i]));
+            offer(parts[i].play.start);
+            offer(parts[i].play.start + lengthOf(parts[i]));
         }
     return best;
 }
@@ -298,7 +309,7 @@ bool SceneTimeline::keyPressed(const juce::KeyPress& key)
     selection.editPart("Move in scene",
                        [&](ScenePart& part)
                        {
-                           part.start = std::max(0.0, part.start + time);
+                           part.play.start = std::max(0.0, part.play.start + time);
                            part.track = std::clamp(part.track + track, 0, 999);
                        });
     say();
@@ -314,7 +325,7 @@ void SceneTimeline::say()
     const auto item = model.document().clip(part->clip);
     const juce::String text =
         tr("{0} at {1} s on track {2}", {item ? toText(item->clip->name) : tr("Clip is gone"),
-                                         juce::String(part->start, 2), juce::String(part->track + 1)});
+                                         juce::String(part->play.start, 2), juce::String(part->track + 1)});
     setDescription(text);
     if (hasKeyboardFocus(false))
         juce::AccessibilityHandler::postAnnouncement(text, juce::AccessibilityHandler::AnnouncementPriority::medium);

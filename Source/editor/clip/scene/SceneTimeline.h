@@ -3,6 +3,7 @@
 
 // Timeline of the project's scene: clips on tracks, and which of them are not felt.
 
+#include "document/view/LevelCurve.h"
 #include "document/view/TimeAxis.h"
 #include "editor/clip/scene/SceneSelection.h"
 
@@ -61,6 +62,7 @@ private:
     std::map<std::size_t, juce::String> leftOut;
     Gesture gesture = 0;
     ScenePart grabbed; ///< as it was
+    mutable LevelCurves levels;
     bool fitted = false;
     Subscriptions subscriptions;
 };

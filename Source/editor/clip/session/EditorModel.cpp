@@ -346,6 +346,15 @@ Result<int> EditorModel::insert(const std::function<Result<int>(Document&)>& ste
     return id;
 }
 
+Result<void> EditorModel::openScene(const Scene& scene, const std::string& group)
+{
+    if (auto done = open->openScene(scene, group, "Open scene"); !done)
+        return done;
+    documentChanged();
+    sceneOpened.emit();
+    return {};
+}
+
 void EditorModel::duplicate()
 {
     const auto id = open->duplicateClip(active, "Duplicate clip");

@@ -46,6 +46,7 @@ public:
     Signal projectChanged;
     /// What is kept to compare with, or whether it is shown.
     Signal versionChanged;
+    Signal sceneOpened; ///< a scene has come from a file
 
     std::function<void(const juce::String& title, const juce::String& text)> onError;
     void report(const std::string& title, const Error& error) const;
@@ -127,6 +128,8 @@ public:
     bool change(const std::function<Result<void>(Document&)>& step);
     /// A step that adds a clip, which is not shown for it: its id.
     Result<int> insert(const std::function<Result<int>(Document&)>& step);
+    /// See Document::openScene(); says sceneOpened.
+    Result<void> openScene(const Scene& scene, const std::string& group);
     void duplicate();
     void removeClip();
     /// Two clips of one.

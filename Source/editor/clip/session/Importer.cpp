@@ -109,6 +109,8 @@ void Importer::read(const std::filesystem::path& file)
                 return fail(file, imported.error());
             if (imported->sound)
                 return analyseSound(std::move(imported).value());
+            if (imported->scene)
+                return putScene(file, *imported);
             put(std::move(imported).value());
         });
 }
@@ -151,6 +153,16 @@ void Importer::put(Imported imported)
     else if (shown)
         model.show(*id);
     anyShown = true;
+    next();
+}
+
+void Importer::putScene(const std::filesystem::path& file, const Imported& imported)
+{
+    const juce::String name = pathText(file.filename());
+    for (const auto& warning : imported.warnings)
+        gaps.add(name + ": " + translateMessage(toText(warning)));
+    if (const auto opened = model.openScene(*imported.scene, file.stem().string()); !opened)
+        failures.add(name + ": " + translateMessage(toText(opened.error().text())));
     next();
 }
 

@@ -70,6 +70,7 @@ private:
     void read(const std::filesystem::path& file);
     void analyseSound(Imported read);
     void put(Imported imported);
+    void putScene(const std::filesystem::path& file, const Imported& imported);
     void fail(const std::filesystem::path& file, const Error& error);
     void finish();
     void tellWork();

@@ -26,11 +26,16 @@ Result<Imported> readFile(const std::filesystem::path& path)
     auto described = describeAudio(path);
     if (!described && mayBeClip(path))
     {
-        auto read = readClip(path);
+        auto read = readClipOrScene(path);
         if (!read)
             return read.error();
-        result.clip = std::move(read->clip);
         result.warnings = std::move(read->warnings);
+        if (auto* scene = std::get_if<Scene>(&read->content))
+        {
+            result.scene = std::move(*scene);
+            return result;
+        }
+        result.clip = std::get<Clip>(std::move(read->content));
         if (result.clip.name.empty())
             result.clip.name = path.stem().string();
         return result;

@@ -9,9 +9,12 @@
 #include "document/view/MonoSource.h"
 #include "io/StoredAudio.h"
 
+#include <pacini/synthesis/Scene.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -51,18 +54,19 @@ private:
     return sound ? std::shared_ptr<const StoredAudio>(sound, &sound->audio) : nullptr;
 }
 
-/// Content of an imported file: a sound with its analysis, or a clip.
+/// Content of an imported file: a sound with its analysis, a clip, or a scene with its clips.
 struct Imported
 {
     AudioReference reference; ///< of the sound
     std::shared_ptr<const Sound> sound;
     EncoderParams encoder;
     Clip clip;
-    std::vector<std::string> warnings; ///< what was let pass in a clip of another format
+    std::optional<Scene> scene = {};
+    std::vector<std::string> warnings = {}; ///< what was let pass in a scene, or in a clip of another format
 };
 
-/// Reads a sound, whose clip is still empty, or a clip of any format, which has no sound. Errors: those of
-/// describeAudio() and readClip(); for a file that is neither, why it is no sound. [worker]
+/// Reads a sound, whose clip is still empty, a clip of any format, which has no sound, or a scene. Errors: those of
+/// describeAudio() and readClipOrScene(); for a file that is neither, why it is no sound. [worker]
 [[nodiscard]] Result<Imported> readFile(const std::filesystem::path& path);
 
 /// readFile(), and a sound is analysed. Errors: also those of analyse(). [worker]
