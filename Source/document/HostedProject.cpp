@@ -44,6 +44,13 @@ std::string HostedProject::text() const
     if (project == Project{})
         return {};
     std::string text = projectJson(project);
+    if (text.size() > largestText)
+    {
+        // Rather the clips without their sounds than nothing.
+        for (AudioReference& sound : project.sources)
+            sound.embedded.reset();
+        text = projectJson(project);
+    }
     return text.size() <= largestText ? text : std::string();
 }
 

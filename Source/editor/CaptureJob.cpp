@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/CaptureJob.h"
 
+#include "editor/Text.h"
+#include "io/AudioWriter.h"
+
 #include <pacini/analysis/EncodeSound.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,22 +27,37 @@ Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std:
     return clip;
 }
 
+Result<DescribedAudio> soundOfCapture(const Capture& capture, double sampleRate, const std::string& name)
+{
+    const bool beyond = std::any_of(capture.samples.begin(), capture.samples.end(),
+                                    [](float sample) { return !(std::abs(sample) < 1.0f); });
+    const juce::TemporaryFile file(beyond ? ".wav" : ".flac");
+    const auto path = pathOf(file.getFile());
+    AudioWriteParams params;
+    params.sampleRate = static_cast<int>(std::lround(sampleRate));
+    params.encoding = beyond ? SampleEncoding::float32 : SampleEncoding::pcm24;
+    params.expectedFrames = capture.samples.size();
+    if (const auto written = writeAudio(path, capture.samples, params); !written)
+        return written.error();
+    auto sound = describeAudio(path, true);
+    if (sound)
+        sound->reference.path = name + path.extension().string();
+    return sound;
+}
+
 CaptureJob::~CaptureJob()
 {
     cancelPendingUpdate();
     stopThread(-1);
 }
 
-bool CaptureJob::begin(Capture capture, double sampleRate, const juce::String& name,
-                       std::function<void(Result<Clip>)> done)
+bool CaptureJob::begin(Wanted wanted, std::function<void(Result<CapturedClip>)> done)
 {
     if (busy)
         return false;
     stopThread(-1);
     busy = true;
-    samples = std::move(capture);
-    fs = sampleRate;
-    clipName = name.toStdString();
+    now = std::move(wanted);
     finished = std::move(done);
     startThread();
     return true;
@@ -46,7 +65,16 @@ bool CaptureJob::begin(Capture capture, double sampleRate, const juce::String& n
 
 void CaptureJob::run()
 {
-    result.emplace(clipOfCapture(samples, fs, clipName));
+    auto clip = clipOfCapture(now.capture, now.sampleRate, now.name);
+    if (!clip)
+        result.emplace(clip.error());
+    else
+    {
+        CapturedClip captured{std::move(clip).value(), {}};
+        if (now.keepSound)
+            captured.sound = soundOfCapture(now.capture, now.sampleRate, now.name);
+        result.emplace(std::move(captured));
+    }
     triggerAsyncUpdate();
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Background encoding of captured sound to a clip.
+// Background encoding of captured sound to a clip, with the sound where it is kept.
+
+#include "document/AudioReference.h"
 
 #include <pacini/clip/Clip.h>
 #include <pacini/foundation/Result.h>
@@ -12,6 +14,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace pacini::editor
 {
@@ -20,6 +23,17 @@ namespace pacini::editor
 /// less than a tenth of a second, invalidArgument for rates that the encoder does not know (8 to 768 kHz).
 [[nodiscard]] Result<Clip> clipOfCapture(const Capture& capture, double sampleRate, const std::string& name);
 
+/// The sound of a capture as an embedded FLAC file of 24 bits, or of floats as a WAV where it is beyond full scale.
+/// Errors: those of AudioWriter and describeAudio().
+[[nodiscard]] Result<DescribedAudio> soundOfCapture(const Capture& capture, double sampleRate, const std::string& name);
+
+/// What became of a capture.
+struct CapturedClip
+{
+    Clip clip;
+    std::optional<Result<DescribedAudio>> sound; ///< where it was to be kept
+};
+
 /// Encodes one capture on a thread of its own.
 class CaptureJob final : private juce::Thread, private juce::AsyncUpdater
 {
@@ -27,18 +41,23 @@ public:
     CaptureJob() : juce::Thread("Pacini capture") {}
     ~CaptureJob() override;
 
+    struct Wanted
+    {
+        Capture capture;
+        double sampleRate = 0.0;
+        std::string name;
+        bool keepSound = false;
+    };
     /// `done` is called on the message thread. While a job runs nothing is begun and false returned. [message]
-    bool begin(Capture capture, double sampleRate, const juce::String& name, std::function<void(Result<Clip>)> done);
+    bool begin(Wanted wanted, std::function<void(Result<CapturedClip>)> done);
 
 private:
     void run() override;
     void handleAsyncUpdate() override;
 
-    Capture samples;
-    double fs = 0.0;
-    std::string clipName;
-    std::function<void(Result<Clip>)> finished;
-    std::optional<Result<Clip>> result;
+    Wanted now;
+    std::function<void(Result<CapturedClip>)> finished;
+    std::optional<Result<CapturedClip>> result;
     bool busy = false;
 };
 

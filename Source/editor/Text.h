@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Conversion of UTF-8 texts and paths to those of JUCE, and back.
+// Conversion of UTF-8 texts and paths to those of JUCE, and back; where files are looked for first.
 
 #include <juce_core/juce_core.h>
 
@@ -33,6 +33,15 @@ namespace pacini::editor
 [[nodiscard]] inline std::filesystem::path pathOf(const juce::File& file)
 {
     return pathOf(file.getFullPathName());
+}
+
+/// Where users keep their documents; where there is no such folder, the next one above it.
+[[nodiscard]] inline juce::File documentsFolder()
+{
+    juce::File folder = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
+    while (!folder.isDirectory() && folder != folder.getParentDirectory())
+        folder = folder.getParentDirectory();
+    return folder;
 }
 
 } // namespace pacini::editor

@@ -1,5 +1,6 @@
 #include "document/ClipPlayer.h"
 
+#include "document/Document.h"
 #include "document/HostedProject.h"
 #include "document/ProjectJson.h"
 #include "support/Catch.h"
@@ -202,4 +203,22 @@ TEST_CASE("A plugin hears its editor's player at the host's rate and nobody else
     hosted.setPlayer(nullptr);
     player.play(0.0);
     CHECK_FALSE(hosted.process(block, {}));
+}
+
+TEST_CASE("A session that has too much sound to be kept keeps the clips")
+{
+    Document document;
+    AudioReference sound;
+    sound.path = "capture 1.wav";
+    sound.embedded = std::make_shared<const std::string>(HostedProject::largestText, 'x');
+    sound.hash = contentHash(*sound.embedded);
+    REQUIRE(document.addSound(sound, {}, *tone(1.0)));
+    HostedProject hosted;
+    hosted.keep(document.project());
+    const auto read = readProjectJson(hosted.text());
+    REQUIRE(read);
+    REQUIRE(read->project.clips.size() == 1);
+    CHECK(*read->project.clips[0]->clip == *tone(1.0));
+    REQUIRE(read->project.sources.size() == 1);
+    CHECK(read->project.sources[0].embedded == nullptr);
 }

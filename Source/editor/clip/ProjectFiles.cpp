@@ -195,8 +195,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
 {
     const bool saving = purpose == Purpose::saving;
     const auto& path = view.session().model.document().path();
-    juce::File start =
-        path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : juce::File(pathText(path));
+    juce::File start = path.empty() ? documentsFolder() : juce::File(pathText(path));
     if (saving && path.empty())
         start = start.getChildFile("Untitled.pacini");
     if (!wantedStart.empty())

@@ -196,7 +196,7 @@ void MeasurePage::resized()
 void MeasurePage::askForFile(const juce::String& title, const juce::String& pattern, bool saving,
                              const juce::String& name, std::function<void(const juce::File&)> chosen)
 {
-    const auto folder = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
+    const auto folder = documentsFolder();
     chooser = std::make_unique<juce::FileChooser>(tr(title), folder.getChildFile(name), pattern);
     using Browser = juce::FileBrowserComponent;
     chooser->launchAsync(Browser::canSelectFiles |

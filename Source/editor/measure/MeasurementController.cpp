@@ -470,8 +470,7 @@ void MeasurementController::readRecording(const std::filesystem::path& file, boo
 
 std::filesystem::path MeasurementController::profileFolder() const
 {
-    return around.profileFolder.empty() ? pathOf(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory))
-                                        : around.profileFolder;
+    return around.profileFolder.empty() ? pathOf(documentsFolder()) : around.profileFolder;
 }
 
 Result<void> MeasurementController::save(const std::string& name, const std::filesystem::path& file, bool use)

@@ -218,6 +218,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& block)
     state.clips = clips.text();
     state.windowWidth = windowWidth.load();
     state.windowHeight = windowHeight.load();
+    state.keepsCaptures = keepsCaptures();
     const std::string text = stateText(state);
     block.replaceAll(text.data(), text.size());
 }
@@ -244,6 +245,7 @@ void PluginProcessor::setStateInformation(const void* data, int size)
     setValues(state.values); // the host may wait for another thread of ours here: no lock
     catchUp();
     program.store(juce::jlimit(0, getNumPrograms() - 1, state.program));
+    setKeepsCaptures(state.keepsCaptures);
     if (state.windowWidth > 0 && state.windowHeight > 0)
         setWindowSize(state.windowWidth, state.windowHeight);
     if (const auto restored = clips.setText(state.clips); !restored)

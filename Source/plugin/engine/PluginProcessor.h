@@ -60,6 +60,9 @@ public:
     juce::AudioProcessorEditor* createEditor() override { return nullptr; }
     bool hasEditor() const override { return false; }
     /// The size that a session wants; 0 if it does not say.
+    /// Whether captured clips keep their sound, in the session. [any]
+    [[nodiscard]] bool keepsCaptures() const noexcept { return keepsSounds.load(); }
+    void setKeepsCaptures(bool wanted) noexcept { keepsSounds.store(wanted); }
     [[nodiscard]] juce::Point<int> windowSize() const noexcept { return {windowWidth.load(), windowHeight.load()}; }
     void setWindowSize(int width, int height) noexcept;
 
@@ -129,6 +132,7 @@ private:
 
     std::atomic<int> program{0};
     std::atomic<int> windowWidth{0}, windowHeight{0};
+    std::atomic<bool> keepsSounds{true};
     juce::SharedResourcePointer<SetupWorker> worker;
 
     JUCE_DECLARE_NON_COPYABLE_WITH_LEAK_DETECTOR(PluginProcessor)

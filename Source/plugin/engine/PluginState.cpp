@@ -75,6 +75,8 @@ std::string stateText(const PluginState& state)
             tree["furtherProfiles"][channelName(i)] = Json::parse(profileJson(*profile));
     if (state.windowWidth > 0 && state.windowHeight > 0)
         tree["window"] = {{"width", state.windowWidth}, {"height", state.windowHeight}};
+    if (!state.keepsCaptures)
+        tree["keepsCaptures"] = false;
     if (!state.clips.empty())
         tree["clips"] = Json::parse(state.clips);
     return tree.dump();
@@ -102,6 +104,8 @@ Result<ReadState> readState(std::string_view text)
         read.state.windowWidth = sizeOf(*window, "width");
         read.state.windowHeight = sizeOf(*window, "height");
     }
+    if (const auto keeps = tree->find("keepsCaptures"); keeps != tree->end() && keeps->is_boolean())
+        read.state.keepsCaptures = keeps->get<bool>();
     if (const auto clips = tree->find("clips"); clips != tree->end() && clips->is_object())
         read.state.clips = clips->dump();
     const auto readContent = [&read](const Json& from, const std::string& name, const std::string& what)

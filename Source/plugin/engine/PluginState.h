@@ -32,6 +32,7 @@ struct PluginState
     std::string clips;   ///< the project of the clip editor, as text; empty: none
     int windowWidth = 0; ///< 0: as it comes
     int windowHeight = 0;
+    bool keepsCaptures = true; ///< captured clips keep their sound
     bool operator==(const PluginState&) const = default;
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 namespace pacini::plugin
@@ -24,7 +25,7 @@ constexpr std::array<int, 4> lengths{3, 5, 10, 30}; // s
 } // namespace
 
 CapturePanel::CapturePanel(PluginProcessor& heard)
-    : source(heard), button("Capture"), editButton("Edit"), saveButton(toText("Save…"))
+    : source(heard), button("Capture"), editButton("Edit"), saveButton(toText("Save…")), keepButton("Keep sound")
 {
     for (const int seconds : lengths)
         length.addItem(editor::tr("Last {0} s", {juce::String(seconds)}), seconds);
@@ -39,14 +40,17 @@ CapturePanel::CapturePanel(PluginProcessor& heard)
                           [this]
                           {
                               if (onEdit)
-                                  onEdit(*clip);
+                                  onEdit(*captured);
                           });
     saveButton.setDescription("Saves the captured clip, as JSON or packed");
     saveButton.setEnabled(false);
     editor::prepareButton(saveButton, "Saves the captured clip, as JSON or packed", [this] { chooseFile(); });
+    keepButton.setToggleState(source.keepsCaptures(), juce::dontSendNotification);
+    editor::prepareButton(keepButton, "Keeps the captured sound in the session, to analyse it again",
+                          [this] { source.setKeepsCaptures(keepButton.getToggleState()); });
     message.setFont(editor::smallFont());
     message.setJustificationType(juce::Justification::centredLeft);
-    editor::addAll(*this, {&length, &button, &editButton, &saveButton, &message});
+    editor::addAll(*this, {&length, &button, &keepButton, &editButton, &saveButton, &message});
     addChildComponent(chip);
 }
 
@@ -57,6 +61,8 @@ void CapturePanel::resized()
     button.setBounds(row.removeFromLeft(11 * grid));
     row.removeFromLeft(grid);
     length.setBounds(row.removeFromLeft(13 * grid));
+    row.removeFromLeft(grid);
+    keepButton.setBounds(row.removeFromLeft(13 * grid));
     row.removeFromLeft(grid);
     editButton.setBounds(row.removeFromLeft(9 * grid));
     row.removeFromLeft(grid);
@@ -70,13 +76,14 @@ void CapturePanel::captureNow()
 {
     auto capture = source.capture(static_cast<double>(length.getSelectedId()));
     ++captures;
-    const bool begun = job.begin(std::move(capture), source.sampleRate(), "capture " + juce::String(captures),
-                                 [this](Result<Clip> made) { take(std::move(made)); });
+    const bool begun = job.begin(
+        {std::move(capture), source.sampleRate(), "capture " + std::to_string(captures), source.keepsCaptures()},
+        [this](Result<editor::CapturedClip> made) { take(std::move(made)); });
     if (begun)
         button.setEnabled(false);
 }
 
-void CapturePanel::take(Result<Clip> made)
+void CapturePanel::take(Result<editor::CapturedClip> made)
 {
     button.setEnabled(true);
     if (!made)
@@ -84,13 +91,18 @@ void CapturePanel::take(Result<Clip> made)
         say(editor::tr("No clip: {0}", {editor::translateMessage(juce::String(made.error().text()))}), true);
         return;
     }
-    clip = std::move(made).value();
-    const auto written = editor::writeForDragging(*clip);
+    captured = std::move(made).value();
+    const Clip& clip = captured->clip;
+    const auto written = editor::writeForDragging(clip);
     file = written ? *written : juce::File();
     say(written ? juce::String()
                 : editor::tr("Cannot be dragged: {0}", {editor::translateMessage(toText(written.error().text()))}),
         !written);
-    chip.show(*clip, [this] { return file; });
+    chip.show(clip, [this] { return file; });
+    if (captured->sound && !*captured->sound)
+        say(editor::tr("Sound not kept: {0}",
+                       {editor::translateMessage(juce::String(captured->sound->error().text()))}),
+            true);
     saveButton.setEnabled(true);
     editButton.setEnabled(true);
 }
@@ -98,9 +110,7 @@ void CapturePanel::take(Result<Clip> made)
 void CapturePanel::chooseFile()
 {
     chooser = std::make_unique<juce::FileChooser>(
-        editor::tr("Save clip"),
-        juce::File::getSpecialLocation(juce::File::userDocumentsDirectory).getChildFile(file.getFileName()),
-        "*.json;*.pacb");
+        editor::tr("Save clip"), editor::documentsFolder().getChildFile(file.getFileName()), "*.json;*.pacb");
     chooser->launchAsync(juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::warnAboutOverwriting,
                          [this](const juce::FileChooser& chosen)
                          {
@@ -114,7 +124,7 @@ void CapturePanel::save(const juce::File& chosen)
     const bool packed = chosen.hasFileExtension("pacb");
     const juce::File target = packed || chosen.hasFileExtension("json") ? chosen : chosen.withFileExtension("json");
     const auto written =
-        writeClip(target.getFullPathName().toStdString(), *clip, packed ? packedFormat() : jsonFormat());
+        writeClip(target.getFullPathName().toStdString(), captured->clip, packed ? packedFormat() : jsonFormat());
     if (!written)
         say(editor::tr("Not saved: {0}", {editor::translateMessage(juce::String(written.error().text()))}), true);
 }

@@ -20,13 +20,13 @@ class CapturePanel final : public juce::Component
 public:
     explicit CapturePanel(PluginProcessor& heard);
 
-    std::function<void(const Clip&)> onEdit; ///< opens the clip in an editor; null: there is none
+    std::function<void(const editor::CapturedClip&)> onEdit; ///< opens the clip in an editor; null: there is none
 
     void resized() override;
 
 private:
     void captureNow();
-    void take(Result<Clip> clip);
+    void take(Result<editor::CapturedClip> made);
     void chooseFile();
     void save(const juce::File& chosen);
     void say(const juce::String& text, bool wrong);
@@ -34,9 +34,10 @@ private:
     PluginProcessor& source;
     juce::ComboBox length;
     juce::TextButton button, editButton, saveButton;
+    juce::ToggleButton keepButton;
     editor::ClipChip chip;
     juce::Label message;
-    std::optional<Clip> clip;
+    std::optional<editor::CapturedClip> captured;
     juce::File file; ///< of the clip, to be dragged
     std::unique_ptr<juce::FileChooser> chooser;
     int captures = 0;

@@ -14,6 +14,7 @@ namespace
 {
 using editor::grid;
 
+constexpr std::size_t mostKeptSound = std::size_t(16) << 20; // bytes, of a session
 constexpr int usualWidth = 1024;
 constexpr int usualHeight = 648;
 constexpr int leastWidth = 936;
@@ -142,9 +143,9 @@ PluginWindow::PluginWindow(Plugin& shown)
     gateThreshold = slider(Id::gateThreshold, Shape::knob);
     gateRelease = slider(Id::gateRelease, Shape::knob);
 
-    capture.onEdit = [this](const Clip& clip)
+    capture.onEdit = [this](const editor::CapturedClip& captured)
     {
-        editClip(clip);
+        editCaptured(captured);
     };
     adopt(capture, nullptr);
     status.setFont(editor::smallFont());
@@ -256,18 +257,35 @@ bool PluginWindow::keyPressed(const juce::KeyPress& key)
            clipView->menus().keys()->keyPressed(key, clipView.get());
 }
 
-void PluginWindow::editClip(const Clip& clip)
+void PluginWindow::editCaptured(const editor::CapturedClip& captured)
 {
     show(Page::clips);
-    editor::Imported captured;
-    captured.clip = clip;
+    editor::Imported imported;
+    imported.clip = captured.clip;
     editor::Session& session = processor.clips().session();
     if (session.model.isEmpty())
     {
         session.actuators.setProfile(std::string(profileNameOf(processor.values().index(ParameterId::profile))));
         session.actuators.setStrength(processor.values()[ParameterId::strength]);
     }
-    session.sounds.add(std::move(captured));
+    std::size_t kept = 0;
+    for (const AudioReference& sound : session.model.document().project().sources)
+        kept += sound.embedded ? sound.embedded->size() : 0;
+    if (captured.sound && *captured.sound)
+    {
+        const DescribedAudio& sound = **captured.sound;
+        if (kept + sound.reference.embedded->size() <= mostKeptSound)
+        {
+            imported.reference = sound.reference;
+            imported.sound = std::make_shared<const editor::Sound>(StoredAudio(sound.audio));
+        }
+        else
+            session.model.onError("Sound not kept",
+                                  editor::tr("The clips of this session have {0} MB of sound already. The new clip is "
+                                             "there, but cannot be analysed again.",
+                                             {juce::String(kept >> 20)}));
+    }
+    session.sounds.add(std::move(imported));
 }
 
 void PluginWindow::refresh()

@@ -46,6 +46,8 @@ public:
     void show(Page wanted);
     [[nodiscard]] editor::EditorView* clipEditor() const noexcept { return clipView.get(); }
     std::function<void()> onThemeChange; ///< for what shares the look
+    /// Puts a captured clip into the session's project, with its sound where it has been kept, and shows it.
+    void editCaptured(const editor::CapturedClip& captured);
 
 private:
     using Shape = editor::ParameterSlider::Shape;
@@ -59,7 +61,6 @@ private:
     void chooseActuator(std::size_t channel);
     void showMeters();
     void showRouting();
-    void editClip(const Clip& clip);
     void placeHeader(juce::Rectangle<int> area);
     void placeKnobs(juce::Rectangle<int> area, std::initializer_list<editor::ParameterSlider*> knobs);
     [[nodiscard]] juce::String statusText() const;

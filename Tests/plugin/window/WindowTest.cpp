@@ -1,12 +1,14 @@
 // The window, without any screen.
 
 #include "editor/CaptureJob.h"
+#include "editor/Pump.h"
 #include "editor/Unmarked.h"
 #include "io/ClipFile.h"
 #include "plugin/engine/Rig.h"
 #include "plugin/window/PluginWindow.h"
 #include "support/TempFolder.h"
 
+#include <array>
 #include <atomic>
 #include <set>
 #include <thread>
@@ -238,6 +240,62 @@ TEST_CASE("The size of the window is kept")
     CHECK(window.getHeight() == 800);
     window.setSize(1200, 700);
     CHECK(rig.plugin.windowSize() == juce::Point<int>(1200, 700));
+}
+
+TEST_CASE("A capture keeps its sound in the session, and is analysed again from it")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    WindowRig rig;
+    (void)rig.run(liveSounds(2, 4 * 48000, 3));
+    const auto capture = rig.plugin.capture(2.0);
+    auto sound = editor::soundOfCapture(capture, 48000.0, "capture 1");
+    REQUIRE(sound);
+    CHECK(sound->reference.embedded->substr(0, 4) == "fLaC");
+    CHECK(sound->reference.path == "capture 1.flac");
+    std::vector<float> read(capture.samples.size());
+    sound->audio.readMean(0, read);
+    for (std::size_t i = 0; i < read.size(); ++i)
+        REQUIRE(read[i] == Approx(capture.samples[i]).margin(1.0 / (1 << 23)));
+    // What is beyond full scale stays so.
+    Capture loud = capture;
+    loud.samples[100] = 1.5f;
+    const auto floats = editor::soundOfCapture(loud, 48000.0, "loud");
+    REQUIRE(floats);
+    CHECK(floats->reference.embedded->substr(0, 4) == "RIFF");
+    std::array<float, 1> one{};
+    floats->audio.readMean(100, one);
+    CHECK(one[0] == 1.5f);
+
+    CHECK(rig.plugin.keepsCaptures());
+    plugin::PluginWindow window(rig.plugin);
+    window.editCaptured({editor::clipOfCapture(capture, 48000.0, "capture 1").value(), std::move(sound)});
+    editor::Session& session = rig.plugin.clips().session();
+    REQUIRE(session.model.clip());
+    const Clip before = *session.model.clip();
+    REQUIRE(session.sounds.soundOfClip());
+    // From the session's own text, in another instance.
+    juce::MemoryBlock state;
+    rig.plugin.getStateInformation(state);
+    WindowRig other;
+    other.plugin.setStateInformation(state.getData(), static_cast<int>(state.getSize()));
+    editor::Session& again = other.plugin.clips().session();
+    REQUIRE(again.model.clip());
+    CHECK(again.model.clip()->name == before.name);
+    CHECK(again.model.clip()->duration == before.duration);
+    CHECK(again.model.clip()->envelope == before.envelope);
+    CHECK(again.model.clip()->bands == before.bands);
+    CHECK(again.model.clip()->transients == before.transients);
+    REQUIRE(again.model.document().project().sources.size() == 1);
+    EncoderParams finer = again.model.item()->encoder;
+    finer.bands += 2;
+    REQUIRE(pumpUntil([&] { return again.sounds.soundOfClip() != nullptr; }));
+    again.sounds.reanalyse(finer);
+    CHECK(pumpUntil([&] { return again.model.clip()->bands.size() != before.bands.size(); }));
+    // Not where it is not wanted.
+    rig.plugin.setKeepsCaptures(false);
+    rig.plugin.getStateInformation(state);
+    other.plugin.setStateInformation(state.getData(), static_cast<int>(state.getSize()));
+    CHECK_FALSE(other.plugin.keepsCaptures());
 }
 
 TEST_CASE("What was heard last becomes a clip")

@@ -369,8 +369,7 @@ namespace
 juce::File folderOf(const EditorModel& model)
 {
     const auto& path = model.document().path();
-    return path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
-                        : juce::File(pathText(path.parent_path()));
+    return path.empty() ? documentsFolder() : juce::File(pathText(path.parent_path()));
 }
 } // namespace
 

@@ -133,7 +133,7 @@ ExportSheet::ExportSheet(const EditorModel& project, const Actuators& profiles, 
     std::error_code gone;
     const juce::File folder = !memory.folder.empty() && std::filesystem::is_directory(memory.folder, gone)
                                   ? juce::File(pathText(memory.folder))
-                              : path.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory)
+                              : path.empty() ? documentsFolder()
                                              : juce::File(pathText(path.parent_path()));
     target.setText(folder.getFullPathName(), false);
     chooseUsualEvents();
