@@ -437,6 +437,22 @@ Result<void> Document::setNotes(int id, std::string notes, std::string name)
     return replaceItem(std::move(item), std::move(name));
 }
 
+Result<void> Document::setTags(const std::vector<int>& ids, const std::vector<std::string>& tags, std::string name)
+{
+    Project next = content;
+    for (const int id : ids)
+    {
+        const auto old = clip(id);
+        if (!old)
+            return noSuchClip(id);
+        ClipItem item = *old;
+        item.tags = tags;
+        replaceClip(next, std::move(item));
+    }
+    commit(std::move(name), std::move(next));
+    return {};
+}
+
 // Hand edits.
 
 std::shared_ptr<const Clip> Document::gestureStart(int id, Gesture gesture) const

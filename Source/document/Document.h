@@ -141,6 +141,8 @@ public:
         return setGroup(std::span(&id, 1), group, std::move(name));
     }
     Result<void> setNotes(int id, std::string notes, std::string name);
+    /// Of several clips, in one step.
+    Result<void> setTags(const std::vector<int>& ids, const std::vector<std::string>& tags, std::string name);
     void setProjectNotes(std::string notes, std::string name);
     void setGroups(std::vector<std::string> groups, std::string name);
 

@@ -26,6 +26,7 @@ struct ClipItem
     int id = 0;        ///< in its project, from 1
     std::string group; ///< empty: none
     std::string notes;
+    std::vector<std::string> tags = {};   ///< words to find it by
     int source = 0;                       ///< id of an AudioReference; 0: none
     EncoderParams encoder;                ///< of the analysis
     std::shared_ptr<const Clip> analysis; ///< without edits; never null
@@ -119,8 +120,8 @@ struct Project
     for (std::size_t i = 0; i < editsOfA.size(); ++i)
         if (!same(editsOfA[i], editsOfB[i]))
             return false;
-    return a.id == b.id && a.group == b.group && a.notes == b.notes && a.source == b.source && a.encoder == b.encoder &&
-           a.unfitting == b.unfitting && same(a.analysis, b.analysis) && same(a.clip, b.clip);
+    return a.id == b.id && a.group == b.group && a.notes == b.notes && a.tags == b.tags && a.source == b.source &&
+           a.encoder == b.encoder && a.unfitting == b.unfitting && same(a.analysis, b.analysis) && same(a.clip, b.clip);
 }
 
 [[nodiscard]] inline bool operator==(const Project& a, const Project& b)

@@ -132,6 +132,7 @@ void visitItem(Item& item, Visitor& visitor)
     visitor.integer("id", item.id, "must be a whole number");
     visitor.optionalText("group", item.group);
     visitor.optionalText("notes", item.notes);
+    visitor.list("tags", item.tags, most, "tags", [&](auto& tag) { visitor.text("name", tag); });
     visitor.integer("source", item.source, "must be a whole number");
     visitor.object("encoder", item.encoder, Need::usual, [&](auto& params) { visitEncoder(params, visitor); });
     visitor.clip("clip", item.clip);

@@ -1,4 +1,5 @@
 #include "document/Document.h"
+#include "document/ProjectJson.h"
 #include "document/view/ClipRows.h"
 #include "support/Catch.h"
 
@@ -142,4 +143,22 @@ TEST_CASE("A new group has a name that no other has")
     }
     CHECK(names.contains("Group"));
     CHECK(names.contains("Group 5"));
+}
+
+TEST_CASE("Tags of several clips are one step, and files keep them")
+{
+    Document document;
+    Clip clip;
+    clip.duration = 1.0;
+    const int first = document.addClip(clip).value(), second = document.addClip(clip).value();
+    const std::size_t steps = document.steps().size();
+    REQUIRE(document.setTags({first, second}, {"ui", "soft"}, "Clip tags"));
+    CHECK(document.steps().size() == steps + 1);
+    const auto read = readProjectJson(projectJson(document.project()), {});
+    REQUIRE(read);
+    CHECK(read->project == document.project());
+    CHECK(read->project.find(second)->tags == std::vector<std::string>{"ui", "soft"});
+    document.undo();
+    CHECK(document.clip(first)->tags.empty());
+    CHECK_FALSE(document.setTags({99}, {"ui"}, "Clip tags"));
 }

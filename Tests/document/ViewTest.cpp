@@ -1,4 +1,5 @@
 #include "document/view/Columns.h"
+#include "document/view/EventKind.h"
 #include "document/view/HitTest.h"
 #include "document/view/LevelCurve.h"
 #include "document/view/Snap.h"
@@ -180,4 +181,17 @@ TEST_CASE("A clip without an envelope has the power sum of its bands for its lev
     another->envelope.clear();
     another->bands.clear();
     CHECK(levels.of(another).empty());
+}
+
+TEST_CASE("Events of the kinds that are selected are all selected")
+{
+    Clip clip;
+    clip.duration = 1.0;
+    clip.transients = {{0.1, 0.5, 0.1}, {0.2, 0.5, 0.5}, {0.3, 0.5, 0.9}, {0.4, 0.5, 0.2}, {0.5, 0.5, 0.55}};
+    Selection selected;
+    selected.transients = {3};
+    CHECK(selectKinds(clip, selected).transients == Indices{0, 3});
+    selected.transients = {1, 2, 99};
+    CHECK(selectKinds(clip, selected).transients == Indices{1, 2, 4});
+    CHECK(selectKinds(clip, {}).transients.empty());
 }

@@ -269,6 +269,16 @@ TEST_CASE("Several selected clips are grouped, exported and removed in one step 
     CHECK(find<juce::ToggleButton>(*pages.view.sheet(), "Export all clips")->getToggleState());
     CHECK(find<juce::ToggleButton>(*pages.view.sheet(), "Export all clips")->getButtonText() == "2 selected clips");
     pages.view.showSheet(nullptr);
+    get<juce::TextEditor>(pages.project, "Clip tags").setText("doors, Soft,, soft", true);
+    CHECK(pumpUntil([&] { return session.model.document().steps().size() == steps + 2; }));
+    CHECK(session.model.item()->tags == std::vector<std::string>{"doors", "Soft"});
+    list.search("soft");
+    CHECK(pages.names() == Names{"drums_tabla_pattern", "impact_boom"});
+    list.search("");
+    session.model.undo();
+    CHECK(session.model.item()->tags.empty());
+    box.selectRow(3);
+    box.selectRow(4, false, false);
     list.remove(3);
     CHECK(pages.names() == Names{"knock_wood_bridge", "click_clock", "[Doors]"});
     CHECK(session.model.document().steps().size() == steps + 2);

@@ -144,3 +144,45 @@ TEST_CASE("The first steps are shown until each was done once")
     bench.view.showSheet(nullptr);
     CHECK(bench.view.statusBar().steps().all());
 }
+
+TEST_CASE("Connected devices are offered, play along, and new sounds are fitted to them")
+{
+    StartBench bench;
+    auto& page = bench.view.startPage();
+    bool chosen = false, refuses = false;
+    std::vector<editor::FoundDevice> connected;
+    page.foundDevices = [&]
+    {
+        return connected;
+    };
+    page.findDevices();
+    CHECK(find<juce::Button>(page, "Wireless Controller (connected)") == nullptr);
+    connected.push_back({"Wireless Controller", "dualsense-voice-coil", false,
+                         [&]() -> Result<void>
+                         {
+                             if (refuses)
+                                 return Error{ErrorCode::io, "", "no permission"};
+                             chosen = true;
+                             return {};
+                         }});
+    page.findDevices();
+    auto& button = get<juce::Button>(page, "Wireless Controller (connected)");
+    button.onClick();
+    CHECK(chosen);
+    CHECK(bench.session.actuators.usual() == "dualsense-voice-coil");
+    CHECK(bench.session.actuators.profileName() == "dualsense-voice-coil");
+    // What fails is told, and changes nothing.
+    bench.session.actuators.setUsual("");
+    refuses = true;
+    juce::String told;
+    bench.session.model.onError = [&](const juce::String& title, const juce::String&)
+    {
+        told = title;
+    };
+    button.onClick();
+    CHECK(told.contains("Wireless Controller"));
+    CHECK(bench.session.actuators.usual().empty());
+    connected.clear();
+    page.findDevices();
+    CHECK(find<juce::Button>(page, "Wireless Controller (connected)") == nullptr);
+}

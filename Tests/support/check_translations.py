@@ -47,7 +47,7 @@ LITERALS = {
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders and settings": [
-        "Pacini capture", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
+        "Pacini capture", "Pacini taps", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "names that a new thing gets in the project, which is the same file in every language": [

@@ -25,6 +25,7 @@ void forAll(editor::ViewOptions& view, SnapTargets& snap, Visit&& visit)
     visit("wholeSpectrum", view.wholeSpectrum);
     visit("actuatorRows", view.actuator);
     visit("technicalTerms", view.technicalTerms);
+    visit("reducedMotion", view.reducedMotion);
     visit("snap", snap.on);
     visit("snapToGrid", snap.grid);
     visit("snapToTransients", snap.transients);

@@ -7,10 +7,34 @@
 namespace pacini::app
 {
 
+namespace
+{
+/// The shipped profile of what a controller has; empty: none is known.
+const char* profileFor(devices::ControllerHaptics haptics)
+{
+    switch (haptics)
+    {
+    case devices::ControllerHaptics::hdRumble:
+        return "joycon-hd-rumble";
+    case devices::ControllerHaptics::dualSense:
+        return "dualsense-voice-coil";
+    case devices::ControllerHaptics::dualShock4:
+    case devices::ControllerHaptics::xbox:
+        return "erm-coin";
+    case devices::ControllerHaptics::waveforms:
+    case devices::ControllerHaptics::steamController:
+    case devices::ControllerHaptics::steamDeck:
+        break;
+    }
+    return "";
+}
+} // namespace
+
 EditorWindow::EditorWindow(editor::Session& session, PreviewDevices& wanted, editor::HostServices around)
     : DocumentWindow("Pacini Editor", juce::Colours::black, DocumentWindow::allButtons),
       rig(wanted),
       controllers(session.model, session.clipSelection, session.transport),
+      taps(session.tapping, session.transport),
       content(session, completed(std::move(around)))
 {
     setUsingNativeTitleBar(true);
@@ -38,8 +62,31 @@ editor::HostServices EditorWindow::completed(editor::HostServices around)
     {
         return rig.outputNames();
     };
+    around.foundDevices = [this]
+    {
+        return found();
+    };
     around.measureRig = std::make_shared<MeasureDevice>(rig.devices());
     return around;
+}
+
+std::vector<editor::FoundDevice> EditorWindow::found()
+{
+    std::vector<editor::FoundDevice> list;
+    const auto connected = ControllerOutput::connected();
+    for (const devices::Controller& each : connected ? *connected : std::vector<devices::Controller>())
+    {
+        editor::FoundDevice device;
+        device.name = each.name.empty() ? editor::tr("Game controller") : editor::toText(each.name);
+        device.profile = profileFor(each.haptics);
+        device.chosen = controllers.chosen() && controllers.chosen()->path == each.path;
+        device.choose = [this, each]
+        {
+            return controllers.choose(each);
+        };
+        list.push_back(std::move(device));
+    }
+    return list;
 }
 
 EditorWindow::~EditorWindow()

@@ -5,6 +5,7 @@
 
 #include "app/editor/ControllerOutput.h"
 #include "app/editor/PreviewDevices.h"
+#include "app/editor/TapInput.h"
 #include "editor/clip/EditorView.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
@@ -28,10 +29,12 @@ public:
 
 private:
     [[nodiscard]] editor::HostServices completed(editor::HostServices around);
+    [[nodiscard]] std::vector<editor::FoundDevice> found();
     void showDevices();
 
     PreviewDevices& rig;
     ControllerOutput controllers;
+    TapInput taps;
     editor::EditorView content;
 };
 

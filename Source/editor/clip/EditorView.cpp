@@ -45,7 +45,7 @@ EditorView::EditorView(Session& shared, HostServices around)
       meters(shared.actuators, shared.outputs, shared.transport, shared.player),
       start(shared.model, shared.actuators, shared.filePreview, host.demoSounds),
       status(shared, host.outputNames),
-      workBar(shared.model, shared.sounds)
+      workBar(shared.model, shared.sounds, shared.viewState)
 {
     setLookAndFeel(&look);
     tooltips.setLookAndFeel(&look);
@@ -72,6 +72,11 @@ EditorView::EditorView(Session& shared, HostServices around)
     {
         fileQuestions.askWhatToOpen();
     };
+    start.onOutputs = [this]
+    {
+        doCommand(hapticOutputs);
+    };
+    start.foundDevices = host.foundDevices;
     start.onFile = [this](const std::filesystem::path& file)
     {
         fileQuestions.open({file});

@@ -38,6 +38,7 @@ struct HostServices
     std::function<void()> quit;                                   ///< null: the host closes the window
     std::function<void()> showDevices;                            ///< null: the host has the devices
     std::function<juce::StringArray()> outputNames = {};          ///< of the device; null: the host has one output
+    std::function<std::vector<FoundDevice>()> foundDevices = {};  ///< for the start page; null: nobody looks
     std::shared_ptr<MeasureRig> measureRig = {};                  ///< null: only simulated actuators can be measured
     std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
     juce::String language = {};                                   ///< code of the chosen one; empty: that of the system

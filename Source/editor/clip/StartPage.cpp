@@ -146,7 +146,12 @@ private:
 
 StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& playing,
                      const std::vector<std::filesystem::path>& sounds)
-    : model(project), actuators(profiles), preview(playing), openButton(toText("Open…")), hoverButton("Play on hover")
+    : model(project),
+      actuators(profiles),
+      preview(playing),
+      openButton(toText("Open…")),
+      outputsButton(toText("Outputs…")),
+      hoverButton("Play on hover")
 {
     setTitle("Start");
     setFocusContainerType(FocusContainerType::focusContainer);
@@ -161,6 +166,13 @@ StartPage::StartPage(EditorModel& project, Actuators& profiles, FilePreview& pla
     }
     prepareButton(openButton, "Opens sounds, clips and projects (Ctrl+O)", [this] { onOpen(); });
     addAndMakeVisible(openButton);
+    prepareButton(outputsButton, "Chooses which output plays on which actuator",
+                  [this]
+                  {
+                      if (onOutputs)
+                          onOutputs();
+                  });
+    addAndMakeVisible(outputsButton);
     words.setTitle("Search sounds");
     words.setJustification(juce::Justification::centredLeft);
     words.setTextToShowWhenEmpty(tr("Search sounds"), juce::Colours::grey);
@@ -219,6 +231,53 @@ void StartPage::followActuator()
 {
     for (std::size_t i = 0; i < feltBy.size(); ++i)
         feltBy[i]->setToggleState(actuators.usual() == feltByChoices[i].profile, juce::dontSendNotification);
+}
+
+void StartPage::visibilityChanged()
+{
+    constexpr int poll = 1000; // ms
+    isVisible() && foundDevices ? startTimer(poll) : stopTimer();
+}
+
+void StartPage::timerCallback()
+{
+    if (isShowing())
+        findDevices();
+}
+
+void StartPage::findDevices()
+{
+    if (!foundDevices)
+        return;
+    auto now = foundDevices();
+    const bool same = std::equal(now.begin(), now.end(), devices.begin(), devices.end(),
+                                 [](const FoundDevice& a, const FoundDevice& b) { return a.name == b.name; });
+    devices = std::move(now);
+    if (!same)
+    {
+        found.clear();
+        for (std::size_t i = 0; i < devices.size(); ++i)
+        {
+            auto button = std::make_unique<juce::TextButton>(tr("{0} (connected)", {devices[i].name}));
+            button->setTitle(button->getButtonText());
+            prepareButton(*button, "Plays along, and new sounds are fitted to it", [this, i] { chooseDevice(i); });
+            addAndMakeVisible(*button);
+            found.push_back(std::move(button));
+        }
+        resized();
+        repaint();
+    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+        found[i]->setToggleState(devices[i].chosen, juce::dontSendNotification);
+}
+
+void StartPage::chooseDevice(std::size_t index)
+{
+    if (const auto done = devices[index].choose(); !done)
+        return model.report(tr("{0} not opened", {devices[index].name}).toStdString(), done.error());
+    if (!devices[index].profile.empty())
+        actuators.setUsual(devices[index].profile);
+    findDevices();
 }
 
 void StartPage::fillRecent()
@@ -338,6 +397,12 @@ void StartPage::resized()
         button->setBounds(area.removeFromTop(startRowHeight));
         area.removeFromTop(grid / 2);
     }
+    for (const auto& button : found)
+    {
+        button->setBounds(area.removeFromTop(startRowHeight));
+        area.removeFromTop(grid / 2);
+    }
+    outputsButton.setBounds(area.removeFromTop(startRowHeight));
     area.removeFromTop(5 * grid);
     for (const auto& button : recentButtons)
     {

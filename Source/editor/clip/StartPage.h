@@ -15,7 +15,16 @@
 namespace pacini::editor
 {
 
-class StartPage final : public juce::Component
+/// A haptic device that is connected.
+struct FoundDevice
+{
+    juce::String name;
+    std::string profile; ///< that fits it; empty: none is known
+    bool chosen = false; ///< it plays along
+    std::function<Result<void>()> choose;
+};
+
+class StartPage final : public juce::Component, private juce::Timer
 {
 public:
     /// `sounds` are those that come with the program, the library's and recordings.
@@ -25,6 +34,10 @@ public:
 
     std::function<void()> onOpen;
     std::function<void(const std::filesystem::path&)> onFile;
+    std::function<void()> onOutputs;                        ///< to choose where it is felt
+    std::function<std::vector<FoundDevice>()> foundDevices; ///< null: nobody looks
+    /// Looks for them now; else every second while the page is shown.
+    void findDevices();
 
     void setDropping(bool dropping);
     void paint(juce::Graphics& g) override;
@@ -36,9 +49,12 @@ public:
 private:
     class Tile;
 
+    void timerCallback() override;
+    void visibilityChanged() override;
     void fillRecent();
     void search();
     void followActuator();
+    void chooseDevice(std::size_t index);
     [[nodiscard]] juce::Rectangle<int> left() const;
     [[nodiscard]] juce::Rectangle<int> right() const;
     void layOutTiles();
@@ -46,8 +62,9 @@ private:
     EditorModel& model;
     Actuators& actuators;
     FilePreview& preview;
-    std::vector<std::unique_ptr<juce::TextButton>> feltBy, recentButtons;
-    juce::TextButton openButton;
+    std::vector<std::unique_ptr<juce::TextButton>> feltBy, found, recentButtons;
+    std::vector<FoundDevice> devices;
+    juce::TextButton openButton, outputsButton;
     juce::TextEditor words;
     juce::TextButton hoverButton;
     juce::Viewport viewport;

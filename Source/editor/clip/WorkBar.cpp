@@ -16,8 +16,8 @@ constexpr int ticksPerSecond = 20;
 constexpr int barHeight = 4;
 } // namespace
 
-WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds)
-    : model(project), sounds(projectSounds), stopButton("Stop")
+WorkBar::WorkBar(const EditorModel& project, ProjectSounds& projectSounds, const ViewState& sight)
+    : model(project), sounds(projectSounds), viewState(sight), stopButton("Stop")
 {
     setTitle("Progress");
     stopButton.setTitle("Cancel import");
@@ -57,7 +57,7 @@ void WorkBar::timerCallback()
     if (!isVisible() || shown.text != now->text)
         setDescription(now->text);
     setVisible(true);
-    const bool moves = now->progress < 0.0;
+    const bool moves = now->progress < 0.0 && !viewState.viewOptions().reducedMotion;
     if (moves || shown != *now)
         repaint();
     shown = *now;
@@ -91,7 +91,9 @@ void WorkBar::paint(juce::Graphics& g)
     g.setColour(p.accent);
     // How far reading is nobody knows: a piece runs along.
     const float share = whole.getWidth() / 4.0f;
-    const float place = static_cast<float>(ticks % ticksPerSecond) / static_cast<float>(ticksPerSecond);
+    const float place = viewState.viewOptions().reducedMotion
+                            ? 0.5f
+                            : static_cast<float>(ticks % ticksPerSecond) / static_cast<float>(ticksPerSecond);
     g.fillRoundedRectangle(shown.progress >= 0.0
                                ? whole.withWidth(whole.getWidth() * static_cast<float>(std::min(1.0, shown.progress)))
                                : whole.withWidth(share).translated(place * (whole.getWidth() - share), 0.0f),

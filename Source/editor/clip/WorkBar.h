@@ -4,6 +4,7 @@
 // Progress bar of reading and analysing, with a button that stops the work.
 
 #include "editor/clip/session/ProjectSounds.h"
+#include "editor/clip/session/ViewState.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -14,7 +15,7 @@ namespace pacini::editor
 class WorkBar final : public juce::Component, private juce::Timer
 {
 public:
-    WorkBar(const EditorModel& project, ProjectSounds& projectSounds);
+    WorkBar(const EditorModel& project, ProjectSounds& projectSounds, const ViewState& sight);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -27,6 +28,7 @@ private:
 
     const EditorModel& model;
     ProjectSounds& sounds;
+    const ViewState& viewState;
     juce::TextButton stopButton;
     WorkState shown;
     int ticks = 0; ///< since the work began

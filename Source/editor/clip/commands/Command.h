@@ -29,6 +29,7 @@ enum Command : int
     paste,
     deleteSelection,
     selectAll,
+    selectKind,
     selectNone,
 
     changeGain,

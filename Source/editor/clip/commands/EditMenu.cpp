@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/view/EventKind.h"
 #include "editor/clip/EditorView.h"
 #include "editor/clip/commands/Action.h"
 #include "editor/clip/lanes/CurveLane.h"
@@ -73,6 +74,12 @@ Menu editMenu(EditorView& view)
     menu.addLine();
     menu.add(selectAll, "Select all", "Selects all points of the focused lane, or all transients",
              [&session] { session.clipSelection.select(everything(*session.model.clip())); }, anyClip, {ctrl('a')});
+    menu.add(
+        selectKind, "Select events of this kind", "Selects all thuds, knocks or clicks, as the selected ones are",
+        [&session]
+        { session.clipSelection.select(selectKinds(*session.model.clip(), session.clipSelection.selected())); },
+        [&session] { return session.model.clip() && !session.clipSelection.selected().transients.empty(); },
+        {Key('a', juce::ModifierKeys::commandModifier | juce::ModifierKeys::altModifier, 0)});
     menu.add(selectNone, "Deselect all", "Clears the selection", [&session] { session.clipSelection.select({}); },
              anySelected, {ctrlShift('a')});
     return menu;

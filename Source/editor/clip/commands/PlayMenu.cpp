@@ -19,8 +19,8 @@ void playOrStop(Session& session)
 /// Tenths of what is visible.
 void step(Session& session, int tenths)
 {
-    session.transport.setPlayhead(session.transport.playhead() + 0.1 * tenths * session.viewState.viewWidth() *
-                                                                     session.viewState.axis().secondsPerPixel);
+    session.transport.scrub(session.transport.playhead() +
+                            0.1 * tenths * session.viewState.viewWidth() * session.viewState.axis().secondsPerPixel);
 }
 
 TimeRange rangeOrAll(const Session& session)
@@ -77,7 +77,7 @@ Menu playMenu(EditorView& view)
         [&session] { return session.transport.isLooping(); }, {ctrl('l')});
     menu.addLine();
     menu.add(tapEvent, "Tap an event",
-             "Adds an event at the playhead, also during playback; taps of one pass are one step",
+             "Adds an event at the playhead; during playback also by MIDI pads and game controllers",
              [&session] { session.tapping.tap(); }, anyClip, {Key('t')});
     menu.addLine();
     hear(hearHaptic, "Haptic only", "Plays only the drive signal", Heard::haptic, '1');

@@ -284,7 +284,7 @@ void ClipView::placePlayhead()
         return overlay->setPlayhead(-100);
     const double time = transport.playhead();
     if (transport.isPlaying() && !isMouseButtonDownAnywhere())
-        viewState.setAxis(followed(viewState.axis(), time, viewState.viewWidth(), viewState.viewOptions().follow));
+        viewState.setAxis(followed(viewState.axis(), time, viewState.viewWidth(), viewState.viewOptions().followNow()));
     const double x = viewState.axis().xOf(time);
     overlay->setPlayhead(x < 0.0 || x > viewState.viewWidth() ? -100 : laneHeadWidth + juce::roundToInt(x));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/clip/lanes/EventLane.h"
 
+#include "document/view/EventKind.h"
 #include "editor/Text.h"
 #include "editor/Theme.h"
 #include "editor/Translation.h"
@@ -17,13 +18,13 @@ namespace
 {
 constexpr float eventPickRadius = 8.0f; // pixels
 
-/// Round for dull, pointed for crisp events.
-juce::Path headOf(juce::Point<float> centre, float size, double sharpness)
+/// Round for thuds, square for knocks, pointed for clicks.
+juce::Path headOf(juce::Point<float> centre, float size, EventKind kind)
 {
     juce::Path path;
-    if (sharpness < 0.34)
+    if (kind == EventKind::thud)
         path.addEllipse(juce::Rectangle<float>(size, size).withCentre(centre));
-    else if (sharpness < 0.67)
+    else if (kind == EventKind::knock)
         path.addRectangle(juce::Rectangle<float>(0.85f * size, 0.85f * size).withCentre(centre));
     else
         path.addTriangle(centre.x, centre.y - 0.6f * size, centre.x + 0.55f * size, centre.y + 0.45f * size,
@@ -36,10 +37,10 @@ EventLane::EventLane(EditorModel& project, ClipSelection& selected, ViewState& s
     : PlotLane(project, selected, sight, playing), shows(wanted)
 {
     setTitle(shows == Shows::amplitude ? "Transients" : "Sharpness of transients");
-    setDescription(
-        shows == Shows::amplitude
-            ? "Short events and their levels: round heads are dull, pointed heads crisp. Double-click to add one"
-            : "How crisp events feel: 0 % dull, 100 % crisp");
+    setDescription(shows == Shows::amplitude
+                       ? "Short events and their levels: round heads are thuds, squares knocks, pointed heads clicks. "
+                         "Double-click to add one"
+                       : "How crisp events feel: 0 % dull, 100 % crisp");
 }
 
 PlotLane::Style EventLane::style() const
@@ -93,7 +94,7 @@ void EventLane::paintPlot(juce::Graphics& g, juce::Rectangle<int> plot, int firs
         g.fillRect(juce::roundToInt(at.x), juce::roundToInt(at.y), 1, juce::roundToInt(bottom - at.y));
         if (crowded)
             continue;
-        g.fillPath(headOf(at, isChosen ? 12.0f : 9.0f, event->sharpness));
+        g.fillPath(headOf(at, isChosen ? 12.0f : 9.0f, kindOf(*event)));
     }
 }
 

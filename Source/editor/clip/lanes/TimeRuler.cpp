@@ -36,7 +36,8 @@ TimeRuler::TimeRuler(const EditorModel& project, ClipSelection& selected, const 
 {
     setOpaque(true);
     setTitle("Time ruler");
-    setTooltip("Click to move the playhead. Drag to set the time range for loops and edits, or one of its ends (Alt: "
+    setTooltip("Click to move the playhead. Ctrl-drag to scrub. Drag to set the time range for loops and edits, or one "
+               "of its ends (Alt: "
                "no snapping). Double-click to clear it");
     subscriptions.on({&viewState.axisChanged, &clipSelection.rangeChanged, &transport.loopChanged},
                      [this] { repaint(); });
@@ -108,6 +109,8 @@ void TimeRuler::mouseMove(const juce::MouseEvent& event)
 
 void TimeRuler::mouseDown(const juce::MouseEvent& event)
 {
+    if (event.mods.isCommandDown())
+        return transport.scrub(timeAt(event.position.x));
     const auto fixed = otherEdge(event.position.x);
     anchorIsEdge = fixed.has_value();
     anchor = fixed.value_or(timeAt(event.position.x));
@@ -117,6 +120,8 @@ void TimeRuler::mouseDown(const juce::MouseEvent& event)
 
 void TimeRuler::mouseDrag(const juce::MouseEvent& event)
 {
+    if (event.mods.isCommandDown())
+        return transport.scrub(timeAt(event.position.x));
     if (!event.mouseWasDraggedSinceMouseDown())
         return;
     Snapping snapping;

@@ -77,7 +77,9 @@ void ClipList::refresh()
         const auto fits = [&](const ClipRow& row)
         {
             const auto item = row.clip != 0 ? project.find(row.clip) : nullptr;
-            const juce::String all = item ? nameOf(row) + " " + toText(row.group) + " " + toText(item->notes) : "";
+            juce::String all;
+            if (item)
+                all << nameOf(row) << " " << toText(row.group) << " " << toText(item->notes) << " " << tagText(*item);
             return std::all_of(wordsNow.begin(), wordsNow.end(),
                                [&](const juce::String& word) { return all.containsIgnoreCase(word); });
         };

@@ -18,6 +18,15 @@ namespace pacini::editor
 /// The chosen clip is the one that is shown; several can be selected, to remove, group or export them at once. Return
 /// or F2 renames, Delete removes, Alt with the arrows moves, a drag moves too; the menu of a row has it all. With many
 /// clips there is a field to search them by words of their names, groups and notes.
+/// The tags of a clip, with commas between them.
+[[nodiscard]] inline juce::String tagText(const ClipItem& item)
+{
+    juce::StringArray words;
+    for (const std::string& tag : item.tags)
+        words.add(juce::String::fromUTF8(tag.data(), static_cast<int>(tag.size())));
+    return words.joinIntoString(", ");
+}
+
 class ClipList final : public juce::Component,
                        public juce::DragAndDropContainer,
                        public juce::DragAndDropTarget,

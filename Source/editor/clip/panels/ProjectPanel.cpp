@@ -13,8 +13,21 @@ namespace pacini::editor
 namespace
 {
 constexpr int projectRowHeight = 3 * grid;
-constexpr int projectPreferredHeight = 76 * grid;
+constexpr int projectPreferredHeight = 81 * grid;
 constexpr int projectPause = 600; // ms without a change
+
+/// Words between commas, each once.
+std::vector<std::string> tagsIn(const juce::String& text)
+{
+    auto words = juce::StringArray::fromTokens(text, ",", {});
+    words.trim();
+    words.removeEmptyStrings();
+    words.removeDuplicates(true);
+    std::vector<std::string> found;
+    for (const juce::String& word : words)
+        found.push_back(word.toStdString());
+    return found;
+}
 
 juce::String sizeText(std::uint64_t bytes)
 {
@@ -68,8 +81,10 @@ ProjectPanel::ProjectPanel(EditorView& shown)
     label(copyNote, {});
     copyNote.setJustificationType(juce::Justification::topLeft);
     label(clipNotesLabel, "Clip");
+    label(tagsLabel, "Tags");
     label(projectNotesLabel, "Project");
     clipNotesLabel.setAccessible(false);
+    tagsLabel.setAccessible(false);
     projectNotesLabel.setAccessible(false);
     const auto notes = [this](juce::TextEditor& one, const juce::String& title, const juce::String& help)
     {
@@ -90,6 +105,13 @@ ProjectPanel::ProjectPanel(EditorView& shown)
         addAndMakeVisible(one);
     };
     notes(clipNotes, "Clip notes", "Notes on the clip, saved with the project");
+    notes(tags, "Clip tags", "Words to find the selected clips by, with commas between them");
+    tags.setMultiLine(false);
+    tags.setReturnKeyStartsNewLine(false);
+    tags.onReturnKey = [this]
+    {
+        keepNotes();
+    };
     notes(projectNotes, "Project notes", "Notes on the project, saved with it");
     setSize(200, projectPreferredHeight);
     subscriptions.on({&model.projectChanged, &sounds.changed}, [this] { show(); });
@@ -107,6 +129,9 @@ void ProjectPanel::keepNotes()
     const int id = notesOf;
     if (const auto item = model.document().clip(id); item && item->notes != ofClip)
         model.change([&](Document& document) { return document.setNotes(id, ofClip, "Clip notes"); });
+    const auto wanted = tagsIn(tags.getText());
+    if (const auto item = model.document().clip(id); item && item->tags != wanted)
+        model.change([&](Document& document) { return document.setTags(tagsOf, wanted, "Clip tags"); });
     if (model.document().project().notes != ofProject)
         model.change(
             [&](Document& document) -> Result<void>
@@ -130,7 +155,11 @@ void ProjectPanel::show()
     };
     put(clipNotes, item ? item->notes : std::string());
     put(projectNotes, model.document().project().notes);
+    put(tags, item ? tagText(*item).toStdString() : std::string());
+    if (!typed)
+        tagsOf = model.selectedClips();
     clipNotes.setEnabled(item != nullptr);
+    tags.setEnabled(item != nullptr);
     duplicateButton.setEnabled(item != nullptr);
     removeButton.setEnabled(!list.rows().empty());
     const AudioReference* sound = item ? model.document().project().findSource(item->source) : nullptr;
@@ -147,9 +176,9 @@ void ProjectPanel::show()
 void ProjectPanel::lookAndFeelChanged()
 {
     const Palette& p = paletteFor(*this);
-    for (juce::Label* one : {&copyNote, &clipNotesLabel, &projectNotesLabel})
+    for (juce::Label* one : {&copyNote, &clipNotesLabel, &tagsLabel, &projectNotesLabel})
         one->setColour(juce::Label::textColourId, p.dim);
-    for (juce::TextEditor* one : {&clipNotes, &projectNotes})
+    for (juce::TextEditor* one : {&clipNotes, &tags, &projectNotes})
     {
         one->setColour(juce::TextEditor::backgroundColourId, p.well);
         one->setColour(juce::TextEditor::outlineColourId, p.line);
@@ -170,7 +199,7 @@ void ProjectPanel::paint(juce::Graphics& g)
 void ProjectPanel::resized()
 {
     auto area = getLocalBounds().reduced(grid);
-    notesCard = area.removeFromBottom(26 * grid);
+    notesCard = area.removeFromBottom(31 * grid);
     area.removeFromBottom(grid);
     soundCard = area.removeFromBottom(11 * grid);
     area.removeFromBottom(grid);
@@ -191,10 +220,15 @@ void ProjectPanel::resized()
     copyNote.setBounds(inside.withTrimmedTop(2));
 
     inside = insideOfCard(notesCard);
-    const int half = inside.getHeight() / 2;
+    const int tagsHeight = 3 * grid + 4;
+    const int half = (inside.getHeight() - tagsHeight - grid) / 2;
     auto upper = inside.removeFromTop(half);
     clipNotesLabel.setBounds(upper.removeFromTop(2 * grid));
     clipNotes.setBounds(upper.withTrimmedBottom(grid / 2));
+    auto ofTags = inside.removeFromTop(tagsHeight);
+    tagsLabel.setBounds(ofTags.removeFromLeft(5 * grid));
+    tags.setBounds(ofTags);
+    inside.removeFromTop(grid);
     projectNotesLabel.setBounds(inside.removeFromTop(2 * grid));
     projectNotes.setBounds(inside);
 }

@@ -37,9 +37,10 @@ private:
     ClipList list;
     juce::TextButton duplicateButton, removeButton, groupButton;
     juce::ToggleButton keepCopy;
-    juce::Label copyNote, clipNotesLabel, projectNotesLabel;
-    juce::TextEditor clipNotes, projectNotes;
-    int notesOf = 0; ///< the clip whose notes are shown
+    juce::Label copyNote, clipNotesLabel, tagsLabel, projectNotesLabel;
+    juce::TextEditor clipNotes, tags, projectNotes;
+    int notesOf = 0;         ///< the clip whose notes are shown
+    std::vector<int> tagsOf; ///< the clips whose tags are shown
     bool typed = false;
     Subscriptions subscriptions;
 };

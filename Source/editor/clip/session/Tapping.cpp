@@ -13,7 +13,7 @@ Tapping::Tapping(EditorModel& project, Transport& playing) : model(project), tra
     subscriptions.on({&transport.changed, &model.shownChanged}, [this] { pass = transport.isPlaying() ? pass : 0; });
 }
 
-void Tapping::tap()
+void Tapping::tap(double amplitude)
 {
     if (!model.clip())
         return;
@@ -26,8 +26,7 @@ void Tapping::tap()
     const auto start = model.gestureStart(pass);
     if (!start)
         return;
-    tapped.push_back(
-        {std::clamp(transport.playhead(), 0.0, start->duration), usualEvent.amplitude, usualEvent.sharpness});
+    tapped.push_back({std::clamp(transport.playhead(), 0.0, start->duration), amplitude, usualEvent.sharpness});
     Clip edited = *start;
     for (const Transient& event : tapped)
         edited = addTransient(std::move(edited), event);

@@ -22,7 +22,7 @@ public:
     Tapping(EditorModel& project, Transport& playing);
 
     /// Adds an event where the clip is heard and felt now, or at the playhead while nothing plays.
-    void tap();
+    void tap(double amplitude = usualEvent.amplitude);
 
 private:
     EditorModel& model;

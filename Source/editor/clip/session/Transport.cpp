@@ -31,6 +31,7 @@ Transport::Transport(const EditorModel& project, const ProjectSounds& projectSou
 /// For another clip.
 void Transport::reset()
 {
+    endScrub();
     player.stop();
     auditionNow = {};
     startTime = 0.0;
@@ -77,6 +78,7 @@ void Transport::setHeard(Heard wanted)
 void Transport::lendPlayer()
 {
     lent = true;
+    endScrub();
     player.stop();
     player.setSound(nullptr);
 }
@@ -84,6 +86,7 @@ void Transport::lendPlayer()
 void Transport::takePlayer()
 {
     lent = false;
+    endScrub();
     player.stop();
     send();
     player.setSound(audioOf(sounds.soundOfClip()));
@@ -109,6 +112,7 @@ void Transport::play()
     const auto clip = model.clip();
     if (!clip)
         return;
+    endScrub();
     if (startTime >= clip->duration - 1e-3)
         startTime = 0.0;
     if (const auto& range = selection.timeRange();
@@ -120,20 +124,40 @@ void Transport::play()
 
 void Transport::stop()
 {
+    endScrub();
     player.stop();
     changed.emit();
 }
 
+void Transport::scrub(double time)
+{
+    constexpr int moment = 90; // ms
+    const bool heardNow = scrubbing || !player.isPlaying();
+    setPlayhead(time);
+    if (!heardNow || !model.clip() || lent)
+        return;
+    scrubbing = true;
+    player.play(startTime);
+    startTimer(moment);
+}
+
+void Transport::endScrub()
+{
+    stopTimer();
+    if (std::exchange(scrubbing, false))
+        player.stop();
+}
+
 double Transport::playhead() const
 {
-    return player.isPlaying() ? player.position() : startTime;
+    return isPlaying() ? player.position() : startTime;
 }
 
 void Transport::setPlayhead(double time)
 {
     const auto clip = model.clip();
     startTime = clip ? std::clamp(time, 0.0, clip->duration) : 0.0;
-    if (player.isPlaying())
+    if (isPlaying())
         player.play(startTime);
     changed.emit();
 }

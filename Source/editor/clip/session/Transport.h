@@ -20,7 +20,7 @@ enum class Heard
 };
 
 /// Tells the player what to play, and follows what is shown, selected and chosen. [message]
-class Transport
+class Transport : private juce::Timer
 {
 public:
     Transport(const EditorModel& project, const ProjectSounds& projectSounds, const Actuators& profiles,
@@ -46,14 +46,18 @@ public:
 
     void play();
     void stop();
-    [[nodiscard]] bool isPlaying() const noexcept { return player.isPlaying(); }
+    [[nodiscard]] bool isPlaying() const noexcept { return player.isPlaying() && !scrubbing; }
     /// s: of what plays, or where playing will begin.
     [[nodiscard]] double playhead() const;
     void setPlayhead(double time);
+    /// The same; while nothing plays, a moment of what is there is heard and felt.
+    void scrub(double time);
     /// Whether it is inside of the clip.
     [[nodiscard]] bool canSplit() const;
 
 private:
+    void timerCallback() override { endScrub(); }
+    void endScrub();
     void reset();
     void send();
 
@@ -65,6 +69,7 @@ private:
     ClipPlayer& player;
     bool looping = false;
     bool lent = false;
+    bool scrubbing = false;
     Heard hear = Heard::haptic;
     Audition auditionNow;
     PlayControls live;

@@ -26,8 +26,14 @@ struct ViewOptions
     bool wholeSpectrum = false; ///< up to half the sample rate, not 2 kHz
     bool actuator = true;       ///< the rows of what it plays
     Follow follow = Follow::page;
+    bool reducedMotion = false;  ///< nothing slides: the view follows by page, and bars stand still
     bool technicalTerms = false; ///< names of lanes as in research, not in the words of designers
     bool operator==(const ViewOptions&) const = default;
+
+    [[nodiscard]] Follow followNow() const noexcept
+    {
+        return reducedMotion && follow == Follow::smooth ? Follow::page : follow;
+    }
 };
 
 /// Zoom and options. All of another clip is shown at first, and of one whose whole length is shown also when that

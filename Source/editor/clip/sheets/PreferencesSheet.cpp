@@ -31,7 +31,7 @@ int nearest(const Values& values, double wanted)
 }
 } // namespace
 
-PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 520), view(shown)
+PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560, 560), view(shown)
 {
     ViewState& viewState = view.session().viewState;
     if (view.hostServices().chooseLanguage)
@@ -65,6 +65,8 @@ PreferencesSheet::PreferencesSheet(EditorView& shown) : Sheet("Preferences", 560
               [option](bool on) { option(&ViewOptions::actuator, on); });
     addSwitch("Technical terms", "Names lanes as in research: Transients, Envelope, Centroid", options.technicalTerms,
               [option](bool on) { option(&ViewOptions::technicalTerms, on); });
+    addSwitch("Reduced motion", "The view turns pages instead of sliding, and progress bars stand still",
+              options.reducedMotion, [option](bool on) { option(&ViewOptions::reducedMotion, on); });
     const auto target = [&viewState](bool SnapTargets::*member, bool on)
     {
         SnapTargets targets = viewState.snapTargets();

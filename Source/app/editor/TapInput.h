@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Taps by pads and game controllers: events where the clip is while it plays.
+
+#include "editor/clip/session/Tapping.h"
+
+#include <juce_audio_devices/juce_audio_devices.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace pacini::app
+{
+
+/// Notes of all MIDI inputs, and buttons of the joysticks that Linux lists, become taps while a clip plays and the
+/// program is in front. A note's velocity is the event's level. Devices may come and go.
+class TapInput final : private juce::MidiInputCallback,
+                       private juce::Thread,
+                       private juce::AsyncUpdater,
+                       private juce::Timer
+{
+public:
+    /// `joysticks`: the folder that has them, as `js0`. [message]
+    TapInput(editor::Tapping& wanted, const editor::Transport& playing, std::filesystem::path joysticks = "/dev/input");
+    ~TapInput() override;
+
+    /// For tests: taps also while another program is in front.
+    std::atomic<bool> inBackground{false};
+
+    /// A tap with a level of 0 to 1, heard when the message thread is next free. [any]
+    void tap(double level);
+
+private:
+    void handleIncomingMidiMessage(juce::MidiInput* source, const juce::MidiMessage& message) override;
+    void run() override;
+    void handleAsyncUpdate() override;
+    void timerCallback() override;
+
+    editor::Tapping& tapping;
+    const editor::Transport& transport;
+    const std::filesystem::path folder;
+    std::mutex mutex; ///< of what waits
+    std::vector<double> waiting;
+    std::vector<std::unique_ptr<juce::MidiInput>> inputs;
+};
+
+} // namespace pacini::app
