@@ -2,6 +2,7 @@
 
 #include "editor/Bench.h"
 #include "editor/clip/lanes/ColumnFill.h"
+#include "editor/clip/scene/SceneSelection.h"
 #include "support/Paths.h"
 
 #include <pacini/foundation/Random.h>
@@ -316,4 +317,48 @@ TEST_CASE("A frame of a ten-minute clip with 50 000 breakpoints is drawn within 
         }
         WARN("   of the playhead alone: " << strip << " ms");
     }
+}
+
+TEST_CASE("The whole window with ten minutes, 500 clips and a scene of 40 parts is drawn within 16 ms", "[.bench]")
+{
+    EditorBench bench({shipped("l5-wristband")});
+    bench.session.actuators.setProfile("l5-wristband");
+    addLong(bench.session);
+    const Clip knock = editor::importFile(demoSound("knock_wood_bridge"), {}).value().clip;
+    std::vector<int> ids;
+    for (int i = 1; i < 500; ++i)
+        ids.push_back(bench.session.model.insert([&](Document& document) { return document.addClip(knock); }).value());
+    editor::SceneSelection scene(bench.session.model);
+    for (std::size_t i = 0; i < 40; ++i)
+        scene.add(ids[i], 0.25 * static_cast<double>(i));
+    bench.view.sidePanel().setCurrentTabIndex(2); // Project
+    juce::Image image(juce::Image::RGB, bench.view.getWidth(), bench.view.getHeight(), true);
+    const auto frames = [&](const char* what, const std::function<void(int)>& change)
+    {
+        std::vector<double> times;
+        for (int i = 0; i < 60; ++i)
+        {
+            const double start = threadMilliseconds();
+            change(i);
+            juce::Graphics g(image);
+            bench.view.paintEntireComponent(g, true);
+            times.push_back(threadMilliseconds() - start);
+        }
+        std::sort(times.begin(), times.end());
+        WARN(what << ": median " << times[30] << " ms, 95 % " << times[57] << " ms, worst " << times.back() << " ms");
+        CHECK(times[57] < 16.0);
+    };
+    auto& clips = get<juce::ListBox>(bench.view, "Clips of the project");
+    bench.session.viewState.showRange({10.0, 70.0});
+    frames("scrolling the clip and the list",
+           [&](int i)
+           {
+               TimeAxis axis = bench.session.viewState.axis();
+               axis.start += 17.0 * axis.secondsPerPixel;
+               bench.session.viewState.setAxis(axis);
+               clips.setVerticalPosition(i / 60.0);
+           });
+    REQUIRE(bench.view.doCommand(editor::editScene));
+    frames("the scene, one part moved in each frame", [&](int i)
+           { scene.edit("Move in scene", [&](ProjectScene& wanted) { wanted.parts[0].play.start = 0.01 * i; }); });
 }
