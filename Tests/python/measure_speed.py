@@ -6,7 +6,6 @@ hangs less on what else the machine does:
 No test: a busy machine gives other figures. Wanted are 1.03 times the command's time, and 1.8 of two processors.
 """
 
-
 import os
 import resource
 import shutil

@@ -242,5 +242,27 @@ class Concurrency(FolderTest):
         self.assertTrue({path.name for path in self.folder.iterdir()} <= {"0.wav"})
 
 
+class Interpreters(unittest.TestCase):
+    def test_another_interpreter_is_refused_and_the_main_one_goes_on(self):
+        script = """
+import sys
+import pacini
+try:
+    import _interpreters as interpreters
+except ImportError:
+    import _xxsubinterpreters as interpreters
+before = pacini.Clip(1.0)
+other = interpreters.create()
+code = "try:\\n import pacini\\nexcept ImportError as error:\\n print(error, flush=True)"
+run = getattr(interpreters, "exec", None) or interpreters.run_string
+run(other, code)
+assert pacini.Clip(2.0).duration == 2.0 and before.duration == 1.0
+print("goes on")
+"""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, "(?s)main interpreter only.*goes on")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import atexit as _atexit
 
-from . import _native, measure
+# The first one before NumPy, which breaks for the main interpreter what another one touches.
+from . import _interpreter, _native, measure  # noqa: F401
 from ._clip import Band, Clip, NoiseBand, SimplifiedLane, Source
 from ._errors import Error
 from ._formats import Format, Loss, formats
