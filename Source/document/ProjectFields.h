@@ -259,14 +259,7 @@ void visitPlay(Play& play, Visitor& visitor)
     visitor.number("start", play.start, Need::usual);
     visitor.number("loop", play.loop, Need::usual);
     visitCount(play.passes, "passes", 0.0, 1e9, visitor);
-    visitor.number("gain", play.gain, Need::usual);
-    visitor.number("pan", play.pan, Need::usual);
-    visitor.number("transposition", play.transposition, Need::usual);
-    visitor.number("stretch", play.stretch, Need::usual);
-    visitor.number("delay", play.delay, Need::usual);
-    visitor.number("tones", play.tones, Need::usual);
-    visitor.number("events", play.events, Need::usual);
-    visitor.number("noise", play.noise, Need::usual);
+    sceneFields::levelFields(play, visitor);
     visitCount(play.priority, "priority", std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), visitor);
     visitor.object("variation", play.variation, Need::optional,
                    [&](auto& variation)

@@ -158,13 +158,9 @@ inline constexpr auto takeAmount = [](auto& variation, JsonScalar& value)
     return takeAny<double>(variation.amount, value);
 };
 
-inline constexpr auto playFields = [](auto& play, auto& visitor)
+/// What can change while a play plays. Of projects too.
+inline constexpr auto levelFields = [](auto& play, auto& visitor)
 {
-    visitor.text("name", play.name, Need::usual);
-    visitReference("clip", play.clip, "the index, the file or the name of a clip", visitor);
-    visitor.number("start", play.start, Need::usual);
-    visitLoop(play, visitor);
-    visitor.integer("passes", play.passes, passes);
     visitor.number("gain", play.gain, Need::usual);
     visitor.number("pan", play.pan, Need::usual);
     visitor.number("delay", play.delay, Need::usual);
@@ -173,6 +169,16 @@ inline constexpr auto playFields = [](auto& play, auto& visitor)
     visitor.number("tones", play.tones, Need::usual);
     visitor.number("events", play.events, Need::usual);
     visitor.number("noise", play.noise, Need::usual);
+};
+
+inline constexpr auto playFields = [](auto& play, auto& visitor)
+{
+    visitor.text("name", play.name, Need::usual);
+    visitReference("clip", play.clip, "the index, the file or the name of a clip", visitor);
+    visitor.number("start", play.start, Need::usual);
+    visitLoop(play, visitor);
+    visitor.integer("passes", play.passes, passes);
+    levelFields(play, visitor);
     visitor.integer("priority", play.priority, priority);
     visitor.object("variation", play.variation, Need::usual, variationFields,
                    "a number, or an object with amount, scope and seed", takeAmount);

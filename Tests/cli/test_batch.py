@@ -157,6 +157,11 @@ class Batch(CommandTest):
         text = (self.folder / "run.manifest.json").read_text()
         self.put("other.json", text.replace('"command": "encode"', '"command": "bench"'))
         self.fails(1, ["manifest", "retry", "other.json"], "only encode, render and compare can be retried")
+        # Nor can a manifest of others send the run to a cluster of theirs.
+        manifest = json.loads(text)
+        manifest["arguments"] += ["--ray=ray://elsewhere:10001"]
+        self.put("sent.manifest.json", json.dumps(manifest))
+        self.fails(2, ["manifest", "retry", "sent.manifest.json"], "does not go with --ray")
 
 
 if __name__ == "__main__":

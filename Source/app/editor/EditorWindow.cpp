@@ -3,6 +3,8 @@
 
 #include "app/editor/DevicesSheet.h"
 #include "app/editor/MeasureDevice.h"
+#include "editor/Text.h"
+#include "editor/Translation.h"
 
 namespace pacini::app
 {
