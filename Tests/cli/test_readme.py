@@ -41,7 +41,6 @@ ELSEWHERE = {
     "python3 Tests/mutate.py": (".ci/run", "Tests/mutate.py"),
     "python3 Resources/docs/make_measurements.py": ("Resources/docs/make_measurements.py", "__main__"),
     "python3 Resources/docs/make_editor_pictures.py": ("Resources/docs/make_editor_pictures.py", "__main__"),
-    "pip install 'pacini[ray]'": ("pyproject.toml", "ray = ["),
     "pacini encode sounds/ -o clips/ --format packed --ray auto": ("Tests/python/test_ray.py", "--ray"),
     "build/python-venv/bin/python Resources/docs/make_site.py": ("Tests/python/test_site.py", "make_site"),
     "Tests/hosts/check_standalone.py PROGRAM PICTURE": ("Tests/hosts/CMakeLists.txt", "check_standalone.py"),
