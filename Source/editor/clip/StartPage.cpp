@@ -402,6 +402,7 @@ void StartPage::resized()
         button->setBounds(area.removeFromTop(startRowHeight));
         area.removeFromTop(grid / 2);
     }
+    area.removeFromTop(grid); // it is no choice of these
     outputsButton.setBounds(area.removeFromTop(startRowHeight));
     area.removeFromTop(5 * grid);
     for (const auto& button : recentButtons)
