@@ -186,3 +186,28 @@ TEST_CASE("Connected devices are offered, play along, and new sounds are fitted 
     page.findDevices();
     CHECK(find<juce::Button>(page, "Wireless Controller (connected)") == nullptr);
 }
+
+TEST_CASE("A device is offered a moment after it is connected, from the first start page on")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    editor::Session session({}, {});
+    editor::HostServices services;
+    bool plugged = false;
+    services.foundDevices = [&]
+    {
+        std::vector<editor::FoundDevice> found;
+        if (plugged)
+            found.push_back({"Pad", "", false,
+                             []
+                             {
+                                 return Result<void>();
+                             }});
+        return found;
+    };
+    editor::EditorView view(session, services);
+    view.setBounds(0, 0, 1280, 800);
+    plugged = true;
+    CHECK(pumpUntil([&] { return find<juce::Button>(view.startPage(), "Pad (connected)") != nullptr; }, 5.0));
+    plugged = false;
+    CHECK(pumpUntil([&] { return find<juce::Button>(view.startPage(), "Pad (connected)") == nullptr; }, 5.0));
+}

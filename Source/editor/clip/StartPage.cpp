@@ -235,14 +235,13 @@ void StartPage::followActuator()
 
 void StartPage::visibilityChanged()
 {
-    constexpr int poll = 1000; // ms
-    isVisible() && foundDevices ? startTimer(poll) : stopTimer();
+    constexpr int poll = 1000;                    // ms
+    isVisible() ? startTimer(poll) : stopTimer(); // who looks may be told later
 }
 
 void StartPage::timerCallback()
 {
-    if (isShowing())
-        findDevices();
+    findDevices();
 }
 
 void StartPage::findDevices()
