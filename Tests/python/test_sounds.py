@@ -217,7 +217,9 @@ class Concurrency(FolderTest):
             "pacini.write_audio('0.wav', sound, 48000); list(pacini.encode_files(['0.wav'] * 9))",
         ):
             script = (
-                "import numpy as np, pacini, sys, time\n"
+                "import numpy as np, pacini, signal, sys, time\n"
+                # Jobs in the background of a script ignore it.
+                "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
                 "sound = np.random.default_rng(1).standard_normal(48000 * 600, dtype=np.float32)\n"
                 "print('ready', flush=True)\n"
                 "try:\n"

@@ -302,13 +302,15 @@ ExportedClip exported(const ClipHandle& handle, const std::string& format, const
     const ExportParams params = exportParams(wanted, options);
     if (quantise != 0 && (quantise < 4 || quantise > 16))
         raise({ErrorCode::invalidArgument, "quantise", "must be 4 to 16 bits"});
-    return take(abandonable(
-        [clip = handle.clip(), &wanted, params, quantise]() mutable
-        {
-            if (quantise > 0)
-                setQuantise(clip, quantise);
-            return wanted.write(clip, params);
-        }));
+    auto work = [clip = handle.clip(), &wanted, params, quantise]() mutable
+    {
+        if (quantise > 0)
+            setQuantise(clip, quantise);
+        return wanted.write(clip, params);
+    };
+    // Over long before a Ctrl+C could count, and a twentieth of what it takes to encode and save would be the thread's.
+    constexpr double shortClip = 10.0; // s
+    return take(handle.clip().duration <= shortClip ? unlocked(work) : abandonable(std::move(work)));
 }
 
 /// The clip with what its reader let pass, and the name of the format.
