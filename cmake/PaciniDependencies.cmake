@@ -10,6 +10,9 @@ if(PACINI_BUILD_CLI OR PACINI_BUILD_LIBRARY OR PACINI_BUILD_PYTHON OR PACINI_BUI
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 endif()
+if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS OR PACINI_BUILD_PLUGIN)
+    find_package(Boost 1.74 REQUIRED) # headers: Boost.Math's distributions, for what studies report
+endif()
 if(PACINI_BUILD_CLI OR PACINI_BUILD_TESTS)
     find_package(CLI11 REQUIRED)
     find_package(Threads REQUIRED)

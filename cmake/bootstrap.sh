@@ -12,7 +12,7 @@ set -euo pipefail
 help=$(sed -n '2,10p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libcli11-dev libsndfile1-dev
+build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
     libeigen3-dev libcairo2-dev libhidapi-dev)
 # The plugin, the hosts that it is tried in, and a game controller that does not exist.
 plugin_packages=(juce-modules-source libjack-jackd2-dev fonts-dejavu-core)

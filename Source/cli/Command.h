@@ -36,6 +36,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> compareCommand();
 [[nodiscard]] std::unique_ptr<Command> manifestCommand();
 [[nodiscard]] std::unique_ptr<Command> measureCommand();
+[[nodiscard]] std::unique_ptr<Command> studyCommand();
 [[nodiscard]] std::unique_ptr<Command> plotCommand();
 [[nodiscard]] std::unique_ptr<Command> benchCommand();
 [[nodiscard]] std::unique_ptr<Command> helpCommand();
@@ -48,6 +49,14 @@ public:
 [[nodiscard]] std::unique_ptr<Command> fitSubcommand();
 [[nodiscard]] std::unique_ptr<Command> verifySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateSubcommand();
+
+/// Those of `pacini study`.
+[[nodiscard]] std::unique_ptr<Command> newStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> checkStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> simulateStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> reportStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> exportStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> forgetStudySubcommand();
 
 /// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here.
 [[nodiscard]] int runCommandLine(int argc, const char* const* argv);

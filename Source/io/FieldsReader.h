@@ -194,6 +194,24 @@ public:
         }
     }
 
+    /// Texts that say something; none where the entry is missing.
+    void textList(const char* name, std::vector<std::string>& values, std::size_t most)
+    {
+        const nlohmann::json* entry = find(name, Need::optional);
+        if (entry == nullptr)
+            return;
+        if (!entry->is_array())
+            return fail(name, "must be a list of texts");
+        if (entry->size() > most)
+            return fail(name, fmt::format("has more than {} texts", most), ErrorCode::tooLarge);
+        for (const nlohmann::json& element : *entry)
+        {
+            if (!element.is_string() || element.get_ref<const std::string&>().empty())
+                return fail(fmt::format("{}[{}]", name, values.size()), "must be a text in quotes that says something");
+            values.push_back(element.get<std::string>());
+        }
+    }
+
     /// Pairs of a name and a text that says something.
     template <typename Texts>
     void texts(const char* name, Texts& values)

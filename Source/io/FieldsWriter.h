@@ -155,6 +155,21 @@ public:
         json(name, fmt::format("[{}]", fmt::join(values, ", ")));
     }
 
+    /// Nothing for no texts.
+    void textList(std::string_view name, const std::vector<std::string>& values, std::size_t)
+    {
+        if (values.empty())
+            return;
+        key(name);
+        const char* before = "[";
+        for (const std::string& value : values)
+        {
+            output += std::exchange(before, ", ");
+            appendJsonString(output, value);
+        }
+        output += ']';
+    }
+
     /// Pairs of a name and a text, on lines of their own.
     template <typename Texts>
     void texts(std::string_view name, const Texts& values)

@@ -4,6 +4,13 @@
 #include <string>
 #include <system_error>
 
+#if defined(_WIN32)
+#include <io.h>
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
 namespace pacini
 {
 
@@ -63,6 +70,21 @@ FileHandle openStream(const std::filesystem::path& path, const char* mode)
     return FileHandle(_wfopen(path.c_str(), wideMode.c_str()));
 #else
     return FileHandle(std::fopen(path.c_str(), mode));
+#endif
+}
+
+bool syncStream(std::FILE* file) noexcept
+{
+    if (std::fflush(file) != 0)
+        return false;
+#if defined(_WIN32)
+    return _commit(_fileno(file)) == 0;
+#elif defined(F_FULLFSYNC)
+    // fsync() of macOS leaves it in the memory of the drive. Drives that cannot do better refuse.
+    return fcntl(fileno(file), F_FULLFSYNC) == 0 || fsync(fileno(file)) == 0;
+#else
+    // Pipes and some file systems have no such thing.
+    return fsync(fileno(file)) == 0 || errno == EINVAL;
 #endif
 }
 

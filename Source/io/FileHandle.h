@@ -26,6 +26,9 @@ using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 /// fopen for paths of any alphabet; null and errno on failure. `mode` as in fopen; "x" fails when the file exists.
 [[nodiscard]] FileHandle openStream(const std::filesystem::path& path, const char* mode);
 
+/// Waits until what was written is on the disk, so that it outlives a power cut; whether it is, else errno.
+bool syncStream(std::FILE* file) noexcept;
+
 /// fseek and ftell with 64-bit offsets. seekStream returns whether it worked, tellStream -1 on failure.
 bool seekStream(std::FILE* file, std::int64_t offset, int origin) noexcept;
 [[nodiscard]] std::int64_t tellStream(std::FILE* file) noexcept;

@@ -1,0 +1,123 @@
+#include "cli/Command.h"
+#include "cli/Counted.h"
+#include "cli/Options.h"
+#include "cli/study/OpenStudy.h"
+#include "io/AtomicFile.h"
+#include "study/Session.h"
+#include "study/StudyExport.h"
+#include "study/StudyResults.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// `study export`: for other programs.
+class ExportSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command =
+            app.add_subcommand("export", "Write all answers as tables for other programs (CSV, and folders like BIDS)");
+        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        addOption(*command, "-o,--output", output, "New folder for the tables", "DIR")->required();
+        command->footer(
+            "answers.csv has a line for each answer; ratings.csv is what 'study report' reads. Below bids every\n"
+            "participant has a folder with sub-P001_task-NAME_beh.tsv, as the Brain Imaging Data Structure has\n"
+            "behaviour.\n\nExample:\n  pacini study export coherence -o tables");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        const auto results = study::readResults(named);
+        if (!results)
+            return console.fail(named, results.error());
+        console.warnings(named, results->warnings);
+        std::error_code failed;
+        if (fs::exists(output, failed) && !fs::is_empty(output, failed))
+            return console.fail(output, {ErrorCode::io, "", "exists and is not empty; name a new folder"});
+        const auto files = study::exportedFiles(*results);
+        for (const auto& [name, text] : files)
+        {
+            const fs::path file = fs::path(output) / name;
+            fs::create_directories(file.parent_path(), failed);
+            if (failed)
+                return console.fail(file.parent_path().string(), fileError(failed.value()));
+            if (const auto written = writeFileAtomically(file, text); !written)
+                return console.fail(file.string(), written.error());
+        }
+        console.addToReport({{"output", output}, {"files", files.size()}});
+        console.note(fmt::format("{}: {} of {}", printable(output), counted(files.size(), "file", "files"),
+                                 counted(results->sessions.size(), "session", "sessions")));
+        return Exit::ok;
+    }
+
+private:
+    std::string named, output;
+};
+
+/// `study forget`: a participant's answers, all of them.
+class ForgetSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand("forget", "Delete all that a participant has answered");
+        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+        addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
+        command->add_flag("--yes", sure, "Delete without being asked; without it only what would be deleted is said");
+        command->footer(
+            "The place becomes free: the next session takes it, with its group and orders. Reports and tables that\n"
+            "were written before still hold the answers.\n\nExample:\n  pacini study forget coherence P007 --yes");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        const fs::path folder = study::studyFileOf(named).parent_path();
+        for (const fs::path& log : study::sessionLogs(folder))
+        {
+            if (log.stem() != participant)
+                continue;
+            if (!sure)
+            {
+                console.print(fmt::format("{} would be deleted; --yes does it", printable(log.string())));
+                return Exit::ok;
+            }
+            std::error_code failed;
+            if (!fs::remove(log, failed))
+                return console.fail(log.string(), fileError(failed.value()));
+            console.addToReport({{"deleted", log.string()}});
+            console.note(fmt::format("{} is deleted", printable(log.string())));
+            return Exit::ok;
+        }
+        return console.fail(
+            named, {ErrorCode::invalidArgument, "", fmt::format("has no session of '{}'", printable(participant))});
+    }
+
+private:
+    std::string named, participant;
+    bool sure = false;
+};
+} // namespace
+
+std::unique_ptr<Command> exportStudySubcommand()
+{
+    return std::make_unique<ExportSubcommand>();
+}
+
+std::unique_ptr<Command> forgetStudySubcommand()
+{
+    return std::make_unique<ForgetSubcommand>();
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,132 @@
+#include "cli/Command.h"
+#include "cli/Counted.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "io/AtomicFile.h"
+#include "study/Plan.h"
+#include "study/StudyFile.h"
+#include "study/StudyResults.h"
+#include "study/StudyTemplates.h"
+
+#include <pacini/foundation/ParseNumber.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// Groups as NAME:SIZE.
+Result<std::vector<study::Group>> groupsOf(const std::vector<std::string>& texts)
+{
+    std::vector<study::Group> groups;
+    for (const std::string& text : texts)
+    {
+        const std::size_t colon = text.rfind(':');
+        const auto size = colon == std::string::npos ? std::nullopt : parseNumber<int>(text.substr(colon + 1));
+        if (!size || *size < 1 || *size > study::studyLimits::participants || colon == 0)
+            return Error{ErrorCode::invalidArgument, "--group",
+                         fmt::format("'{}' is not a name and a number of participants, such as A:11", text)};
+        groups.push_back({text.substr(0, colon), *size});
+    }
+    return groups;
+}
+
+/// `study new`: a study to begin with.
+class NewSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        std::vector<std::string> names;
+        std::string list;
+        for (const auto& one : study::studyTemplates())
+        {
+            names.emplace_back(one.name);
+            list += fmt::format("  {:<12}{}\n", one.name, one.purpose);
+        }
+        auto* command = app.add_subcommand("new", "Write a study to begin with");
+        addOption(*command, "output", output, "Folder for study.json and what is answered; or the name of a .json file",
+                  "STUDY")
+            ->required();
+        addOption(*command, "sounds", sounds, "Sounds to be heard and felt", "SOUND");
+        addOption(*command, "-t,--template", kind, "What is asked", oneOf(names), "NAME")->required();
+        addOption(*command, "-g,--group", groups,
+                  "Name and number of participants of a group; several times for several", "NAME:SIZE");
+        addOption(*command, "--seed", seed, "Seed of all random orders", countingNumber(), "N")->capture_default_str();
+        addOption(*command, "--profile", profile, "Actuator: a profile file, or the name of one that comes with Pacini",
+                  "PROFILE");
+        overwriting.declare(*command);
+        command->footer("Templates:\n" + list +
+                        "\nThe file is JSON, made to be changed: see Resources/docs/study.md.\n\nExample:\n"
+                        "  pacini study new coherence --template coherence sounds/*.wav");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        const fs::path named(output);
+        const bool isFile = named.extension() == ".json";
+        const fs::path file = isFile ? named : named / study::studyFileName;
+        const fs::path folder = file.parent_path();
+        std::error_code unknown;
+        if (overwriting.keepsAll() && isOccupied(file))
+        {
+            console.note(fmt::format("{} exists and was left", printable(file.string())));
+            return Exit::ok;
+        }
+        if (isOccupied(file) && !overwriting.replacesAll())
+            return console.fail(file.string(), {ErrorCode::io, "", "exists; -y replaces it"});
+        std::vector<std::string> moved;
+        for (const std::string& sound : sounds)
+        {
+            if (!fs::is_regular_file(sound, unknown))
+                return console.fail(sound, {ErrorCode::io, "", "is no file; name sounds"});
+            moved.push_back(sound);
+        }
+        auto made = study::makeStudy(kind, moved);
+        if (!made)
+            return console.fail("", made.error(), Exit::usage);
+        const auto own = groupsOf(groups);
+        if (!own)
+            return console.fail("", own.error(), Exit::usage);
+        if (!own->empty())
+            made->groups = *own;
+        made->seed = seed;
+        made->profile = profile;
+        const study::Study written = study::relocated(std::move(*made), fs::path(), folder);
+        if (const auto valid = study::validate(written); !valid)
+            return console.fail("", valid.error());
+        fs::create_directories(folder.empty() ? fs::path(".") : folder, unknown);
+        const auto done = writeFileAtomically(file, study::studyJson(written));
+        if (!done)
+            return console.fail(file.string(), done.error());
+        console.addToReport({{"study", file.string()}, {"participants", study::participantsOf(written)}});
+        console.wrote(file, fmt::format("{}, {}, {}", counted(written.stimuli.size(), "stimulus", "stimuli"),
+                                        counted(written.blocks.size(), "block", "blocks"),
+                                        counted(static_cast<std::size_t>(study::participantsOf(written)), "participant",
+                                                "participants")));
+        return Exit::ok;
+    }
+
+private:
+    std::string output, kind, profile;
+    std::vector<std::string> sounds, groups;
+    std::uint64_t seed = 1;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
+std::unique_ptr<Command> newStudySubcommand()
+{
+    return std::make_unique<NewSubcommand>();
+}
+
+} // namespace pacini::cli

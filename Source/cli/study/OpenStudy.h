@@ -1,0 +1,26 @@
+#pragma once
+
+// Opening of a study that was named on the command line.
+
+#include "cli/Console.h"
+#include "study/Study.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pacini::cli
+{
+
+/// A study and where it lies.
+struct OpenedStudy
+{
+    study::Study study;
+    std::filesystem::path file;
+    std::filesystem::path folder;
+};
+
+/// The study in a folder or file; nothing when it cannot be read, and the console has said why.
+[[nodiscard]] std::optional<OpenedStudy> openStudy(Console& console, const std::string& named);
+
+} // namespace pacini::cli

@@ -1,0 +1,144 @@
+#include "cli/Command.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "cli/study/StudyReport.h"
+#include "io/AtomicFile.h"
+#include "io/InputFile.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// `study report`: the statistics.
+class ReportSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command =
+            app.add_subcommand("report", "Write what a study found: tables, tests and pictures (HTML and Markdown)");
+        addOption(*command, "study", named, "Folder or file of the study, or a table of ratings (CSV)", "STUDY")
+            ->required();
+        addOption(*command, "-o,--output", output, "Folder for the report [report, beside the study]", "DIR");
+        addOption(*command, "--combine", combined,
+                  "Also compare these groups as one with the others; several times for several", "A+B");
+        addOption(*command, "--categories", categories,
+                  "Table of categories of words (lines of category,word; word* for all that begin so)", "CSV");
+        overwriting.declare(*command);
+        command->footer(
+            "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
+            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity.\n"
+            "A table of ratings has the columns stimulus and rating, and where there are any group, participant and\n"
+            "block.\n\nExamples:\n  pacini study report coherence\n"
+            "  pacini study report ratings.csv --combine A+B");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        StudyReportParams params;
+        for (const std::string& text : combined)
+        {
+            study::GroupUnion members;
+            for (std::size_t start = 0; start <= text.size();)
+            {
+                const std::size_t end = std::min(text.find('+', start), text.size());
+                members.push_back(text.substr(start, end - start));
+                start = end + 1;
+            }
+            if (members.size() < 2)
+                return console.fail("",
+                                    {ErrorCode::invalidArgument, "--combine",
+                                     fmt::format("'{}' does not name two groups, such as A+B", text)},
+                                    Exit::usage);
+            params.unions.push_back(std::move(members));
+        }
+        if (!categories.empty())
+        {
+            const auto text = readWholeFile(categories, 10'000'000);
+            auto table = text ? study::WordCategories::ofCsv(*text) : Result<study::WordCategories>(text.error());
+            if (!table)
+                return console.fail(categories, table.error());
+            params.categories = std::move(*table);
+        }
+        const fs::path path(named);
+        const bool isTable = path.extension() == ".csv";
+        auto report = isTable ? ofTable(path, params) : ofStudy(console, path, params);
+        if (!report)
+            return console.fail(named, report.error());
+        const fs::path beside =
+            isTable ? fs::path(path).replace_extension(".report") : study::studyFileOf(path).parent_path() / "report";
+        return write(console, *report, output.empty() ? beside : fs::path(output));
+    }
+
+private:
+    static Result<StudyReport> ofTable(const fs::path& path, const StudyReportParams& params)
+    {
+        const auto ratings = study::readRatings(path);
+        if (!ratings)
+            return ratings.error();
+        return reportOfRatings(*ratings, path.stem().string(), params);
+    }
+
+    static Result<StudyReport> ofStudy(Console& console, const fs::path& path, const StudyReportParams& params)
+    {
+        const auto results = study::readResults(path);
+        if (!results)
+            return results.error();
+        console.warnings(path.string(), results->warnings);
+        return reportOfStudy(*results, params);
+    }
+
+    Exit write(Console& console, StudyReport& report, const fs::path& folder) const
+    {
+        std::error_code failed;
+        fs::create_directories(folder, failed);
+        if (failed)
+            return console.fail(folder.string(), fileError(failed.value()));
+        std::vector<std::pair<fs::path, std::string>> files{{folder / "report.html", htmlOf(report.page)},
+                                                            {folder / "report.md", markdownOf(report.page)}};
+        for (const PagePart& part : report.page.parts)
+            if (const auto* picture = std::get_if<PagePicture>(&part))
+                files.emplace_back(folder / picture->file, picture->svg);
+        // All of it or nothing: a report half of which is older would be worse than none.
+        for (const auto& [file, text] : files)
+        {
+            if (!isOccupied(file) || overwriting.replacesAll())
+                continue;
+            const auto there = readWholeFile(file, 100'000'000);
+            if (overwriting.keepsAll() || !there || !isAsWritten(*there))
+                return console.fail(
+                    "",
+                    notReplaced(file, overwriting.keepsAll() ? "exists" : "exists, and pacini did not write it so"));
+        }
+        for (const auto& [file, text] : files)
+        {
+            if (const auto written = writeFileAtomically(file, stamped(text)); !written)
+                return console.fail(file.string(), written.error());
+            console.wrote(file);
+        }
+        console.addToReport(report.json);
+        return Exit::ok;
+    }
+
+    std::string named, output, categories;
+    std::vector<std::string> combined;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
+std::unique_ptr<Command> reportStudySubcommand()
+{
+    return std::make_unique<ReportSubcommand>();
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,54 @@
+// Command group for studies with people.
+
+#include "cli/Command.h"
+
+#include <memory>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// `pacini study`: from a question to its statistics.
+class StudyCommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command =
+            app.add_subcommand("study", "Find out what people feel: plan, check, simulate and evaluate studies");
+        command->require_subcommand(1);
+        for (const auto make : {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand,
+                                reportStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
+            declared.push_back(steps.emplace_back(make())->declare(*command));
+        command->footer("From a question to its answer:\n"
+                        "  pacini study new coherence --template coherence sounds/*.wav\n"
+                        "  pacini study check coherence --profile l5-wristband\n"
+                        "  pacini study simulate coherence --effect 1\n"
+                        "Participants go through it in the editor: File, Run study... Then\n"
+                        "  pacini study report coherence\n"
+                        "A study is a folder with study.json and, below sessions, one file for each participant.");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (declared[i]->parsed())
+                return steps[i]->run(console);
+        return Exit::usage;
+    }
+
+private:
+    std::vector<std::unique_ptr<Command>> steps;
+    std::vector<CLI::App*> declared;
+};
+} // namespace
+
+std::unique_ptr<Command> studyCommand()
+{
+    return std::make_unique<StudyCommand>();
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,650 @@
+#include "cli/study/StudyReport.h"
+
+#include "cli/Console.h"
+#include "cli/Counted.h"
+#include "cli/study/StudyFigures.h"
+#include "study/Exposure.h"
+#include "study/StudyFields.h"
+#include "study/statistics/Distributions.h"
+#include "study/statistics/Scaling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace pacini::cli
+{
+
+namespace
+{
+using namespace study;
+using Json = nlohmann::ordered_json;
+
+const plot::FigureStyle pictureStyle{{1200, 600}, false};
+
+/// p as papers print it: three decimals, or that it is below the smallest of them.
+std::string pText(double p)
+{
+    return p < 0.0005 ? "< .001" : decimalText(p, 3);
+}
+
+std::string intervalText(const Interval& interval, int decimals)
+{
+    return fmt::format("{} to {}", decimalText(interval.low, decimals), decimalText(interval.high, decimals));
+}
+
+Json jsonOf(const SampleSummary& sample)
+{
+    return {{"n", sample.count},
+            {"mean", sample.mean},
+            {"sd", sample.sd},
+            {"mean95", {sample.mean95.low, sample.mean95.high}},
+            {"median", sample.median},
+            {"quartiles", {sample.lowerQuartile, sample.upperQuartile}},
+            {"range", {sample.lowest, sample.highest}}};
+}
+
+/// A t beyond all numbers, of samples without variance, is null.
+Json jsonOf(const TTest& test)
+{
+    return {{"difference", test.difference},
+            {"t", test.t},
+            {"degrees", test.degrees},
+            {"sd", test.sd},
+            {"p", test.p},
+            {"difference95", {test.difference95.low, test.difference95.high}}};
+}
+
+/// Builds the page part by part.
+class Writer
+{
+public:
+    explicit Writer(StudyReport& toFill) : report(toFill) {}
+
+    void heading(int level, std::string text) { report.page.parts.emplace_back(PageHeading{level, std::move(text)}); }
+    void paragraph(std::string text) { report.page.parts.emplace_back(PageParagraph{std::move(text)}); }
+    void table(PageTable made)
+    {
+        if (!made.rows.empty())
+            report.page.parts.emplace_back(std::move(made));
+    }
+    [[nodiscard]] Result<void> picture(std::string file, std::string description, const plot::Figure& figure)
+    {
+        auto svg = svgOf(figure, pictureStyle);
+        if (!svg)
+            return svg.error();
+        report.page.parts.emplace_back(PagePicture{std::move(file), std::move(description), std::move(*svg)});
+        return {};
+    }
+
+private:
+    StudyReport& report;
+};
+
+std::string groupTitle(const std::string& name)
+{
+    return name.empty() ? std::string("all") : name;
+}
+
+PageTable meansTable(const RatingAnalysis& analysis)
+{
+    PageTable table{"Mean, standard deviation and 95 % interval of the mean", {"Stimulus"}, {}};
+    std::vector<const GroupRatings*> groups;
+    for (std::size_t i = 0; i < analysis.plainGroups; ++i)
+        groups.push_back(&analysis.groups[i]);
+    if (analysis.plainGroups > 1)
+        groups.push_back(&analysis.everybody);
+    for (const GroupRatings* group : groups)
+    {
+        const std::string name = group == &analysis.everybody ? "All" : groupTitle(group->name);
+        table.columns.insert(table.columns.end(), {name + " mean", "SD", "95 %"});
+    }
+    const auto row = [&](const std::string& name, auto valuesOf)
+    {
+        std::vector<std::string> cells{name};
+        for (const GroupRatings* group : groups)
+        {
+            const SampleSummary sample = summaryOf(valuesOf(*group));
+            if (sample.count == 0)
+                cells.insert(cells.end(), {"", "", ""});
+            else
+                cells.insert(cells.end(),
+                             {decimalText(sample.mean, 2), decimalText(sample.sd, 2), intervalText(sample.mean95, 2)});
+        }
+        table.rows.push_back(std::move(cells));
+    };
+    for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
+        row(analysis.stimuli[i], [i](const GroupRatings& group) { return group.byStimulus[i]; });
+    row("Total", [](const GroupRatings& group) { return group.all; });
+    return table;
+}
+
+PageTable participantsTable(const RatingAnalysis& analysis)
+{
+    PageTable table{
+        "Groups compared by a mean for each participant: people are the sample",
+        {"Groups", "Difference", "95 %", "t", "df", "p", "p, Holm", "p, Welch", "p, Mann-Whitney", "Hedges' g"},
+        {}};
+    for (const GroupComparison& one : analysis.comparisons)
+        if (one.byParticipant)
+            table.rows.push_back({one.first + " - " + one.second, signedText(one.byParticipant->difference, 2),
+                                  intervalText(one.byParticipant->difference95, 2),
+                                  decimalText(one.byParticipant->t, 2), decimalText(one.byParticipant->degrees, 0),
+                                  pText(one.byParticipant->p), pText(one.holm), pText(one.byParticipantWelch->p),
+                                  pText(one.byParticipantRanks->p), signedText(one.effect, 2)});
+    return table;
+}
+
+PageTable stimulusMeansTable(const RatingAnalysis& analysis)
+{
+    PageTable table{
+        "Groups compared by a mean for each stimulus: says something about more stimuli of this kind, not about "
+        "more people",
+        {"Groups", "t", "df", "SD", "p", "p, equal variances"},
+        {}};
+    for (const GroupComparison& one : analysis.comparisons)
+        if (one.byStimulus)
+            table.rows.push_back({one.first + " - " + one.second, decimalText(one.byStimulus->t, 2),
+                                  decimalText(one.byStimulus->degrees, 0), decimalText(one.byStimulus->sd, 2),
+                                  pText(one.byStimulus->p), pText(one.byStimulusEqualVarianceP)});
+    return table;
+}
+
+PageTable eachStimulusTable(const RatingAnalysis& analysis)
+{
+    PageTable table{"Groups compared for each stimulus, two-sided; corrected over all lines of this table",
+                    {"Groups", "Stimulus", "t", "df", "SD", "p", "p, Holm", "p, Bonferroni", "p, Welch",
+                     "p, Mann-Whitney", "Hedges' g"},
+                    {}};
+    for (const GroupComparison& one : analysis.comparisons)
+        for (const auto& test : one.stimuli)
+            table.rows.push_back({one.first + " - " + one.second, analysis.stimuli[test.stimulus],
+                                  decimalText(test.pooled.t, 3), decimalText(test.pooled.degrees, 0),
+                                  decimalText(test.pooled.sd, 3), pText(test.pooled.p), pText(test.holm),
+                                  pText(test.bonferroni), pText(test.welch.p), pText(test.ranks.p),
+                                  signedText(test.effect, 2)});
+    return table;
+}
+
+PageTable pairsTable(const RatingAnalysis& analysis)
+{
+    PageTable table{
+        "Stimuli compared by the participants who rated all of them (paired t-tests), what differs at 5 % after "
+        "Holm",
+        {"Stimuli", "Difference", "95 %", "t", "df", "p", "p, Holm"},
+        {}};
+    for (const StimulusComparison& one : analysis.pairs)
+        if (one.holm <= 0.05)
+            table.rows.push_back({analysis.stimuli[one.first] + " - " + analysis.stimuli[one.second],
+                                  signedText(one.paired.difference, 2), intervalText(one.paired.difference95, 2),
+                                  decimalText(one.paired.t, 2), decimalText(one.paired.degrees, 0), pText(one.paired.p),
+                                  pText(one.holm)});
+    return table;
+}
+
+/// What the tests amount to, in sentences.
+void writeFindings(Writer& writer, const RatingAnalysis& analysis)
+{
+    constexpr double level = 0.05;
+    std::string text;
+    for (const GroupComparison& one : analysis.comparisons)
+        if (!one.combined && one.byParticipant)
+            text += fmt::format("{} and {} {} (p = {}, after Holm {}). ", one.first, one.second,
+                                one.holm <= level ? "differ" : "do not differ beyond chance",
+                                pText(one.byParticipant->p), pText(one.holm));
+    std::size_t tests = 0, below = 0, left = 0;
+    for (const GroupComparison& one : analysis.comparisons)
+        for (const auto& test : one.stimuli)
+        {
+            ++tests;
+            below += test.pooled.p <= level ? 1u : 0u;
+            left += test.holm <= level ? 1u : 0u;
+        }
+    if (tests > 0)
+        text += fmt::format(
+            "Of {} tests of single stimuli {} are at or below .05 by themselves, {} after Holm's correction; "
+            "{:.0f} would be by chance alone.",
+            tests, below, left, static_cast<double>(tests) * level);
+    if (!text.empty())
+        writer.paragraph(text);
+}
+
+Json jsonOf(const RatingAnalysis& analysis)
+{
+    Json groups = Json::array();
+    const auto groupJson = [&](const GroupRatings& group)
+    {
+        Json stimuli = Json::object();
+        for (std::size_t i = 0; i < analysis.stimuli.size(); ++i)
+            if (!group.byStimulus[i].empty())
+                stimuli[analysis.stimuli[i]] = jsonOf(summaryOf(group.byStimulus[i]));
+        return Json{{"group", group.name},
+                    {"participants", group.participants.size()},
+                    {"total", jsonOf(summaryOf(group.all))},
+                    {"stimuli", std::move(stimuli)}};
+    };
+    for (const GroupRatings& group : analysis.groups)
+        groups.push_back(groupJson(group));
+    Json comparisons = Json::array();
+    for (const GroupComparison& one : analysis.comparisons)
+    {
+        Json entry{{"first", one.first}, {"second", one.second}};
+        if (one.byParticipant)
+            entry["byParticipant"] = {{"pooled", jsonOf(*one.byParticipant)},
+                                      {"welch", jsonOf(*one.byParticipantWelch)},
+                                      {"mannWhitneyP", one.byParticipantRanks->p},
+                                      {"hedgesG", one.effect},
+                                      {"holm", one.holm}};
+        if (one.byStimulus)
+        {
+            entry["byStimulus"] = jsonOf(*one.byStimulus);
+            entry["byStimulus"]["equalVarianceP"] = one.byStimulusEqualVarianceP;
+        }
+        Json stimuli = Json::object();
+        for (const auto& test : one.stimuli)
+        {
+            Json ofStimulus = jsonOf(test.pooled);
+            ofStimulus["welchP"] = test.welch.p;
+            ofStimulus["mannWhitneyP"] = test.ranks.p;
+            ofStimulus["hedgesG"] = test.effect;
+            ofStimulus["holm"] = test.holm;
+            ofStimulus["bonferroni"] = test.bonferroni;
+            stimuli[analysis.stimuli[test.stimulus]] = std::move(ofStimulus);
+        }
+        entry["stimuli"] = std::move(stimuli);
+        comparisons.push_back(std::move(entry));
+    }
+    return {{"groups", std::move(groups)},
+            {"everybody", groupJson(analysis.everybody)},
+            {"comparisons", std::move(comparisons)},
+            {"icc",
+             {{"single", analysis.agreement.single},
+              {"mean", analysis.agreement.mean},
+              {"single95", {analysis.agreement.single95.low, analysis.agreement.single95.high}}}},
+            {"friedman",
+             {{"chiSquared", analysis.order.chiSquared},
+              {"degrees", analysis.order.degrees},
+              {"p", analysis.order.p},
+              {"kendallsW", analysis.order.kendallsW}}}};
+}
+
+std::string fileNameOf(std::string_view text)
+{
+    std::string name;
+    for (const char c : text)
+        name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '-';
+    return name;
+}
+
+/// All about the ratings of one block.
+Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>& ratings, const std::string& title,
+                          const StudyReportParams& params)
+{
+    const RatingAnalysis analysis = analyseRatings(ratings, params.unions);
+    writer.heading(2, title);
+    writeFindings(writer, analysis);
+    if (auto drawn = writer.picture(fileNameOf(title) + ".svg", "Box plots of " + title,
+                                    boxPlots(analysis, title, pictureStyle));
+        !drawn)
+        return drawn;
+    writer.table(meansTable(analysis));
+    writer.table(participantsTable(analysis));
+    writer.table(stimulusMeansTable(analysis));
+    writer.table(eachStimulusTable(analysis));
+    writer.table(pairsTable(analysis));
+    if (analysis.everybody.complete.size() > 1 && analysis.stimuli.size() > 1)
+        writer.paragraph(fmt::format("Agreement of the {} who rated everything: ICC(2,1) {} (95 %: {}), of their mean "
+                                     "ICC(2,k) {}; Kendall's W {}, "
+                                     "Friedman's chi-squared({}) = {}, p = {}.",
+                                     counted(analysis.everybody.complete.size(), "participant", "participants"),
+                                     decimalText(analysis.agreement.single, 2),
+                                     intervalText(analysis.agreement.single95, 2),
+                                     decimalText(analysis.agreement.mean, 2), decimalText(analysis.order.kendallsW, 2),
+                                     decimalText(analysis.order.degrees, 0), decimalText(analysis.order.chiSquared, 2),
+                                     pText(analysis.order.p)));
+    json[title] = jsonOf(analysis);
+    return {};
+}
+
+/// Blocks in the order of their first rating.
+std::vector<std::pair<std::string, std::vector<Rating>>> byBlock(const std::vector<Rating>& ratings)
+{
+    std::vector<std::pair<std::string, std::vector<Rating>>> blocks;
+    for (const Rating& one : ratings)
+    {
+        auto found =
+            std::find_if(blocks.begin(), blocks.end(), [&](const auto& block) { return block.first == one.block; });
+        if (found == blocks.end())
+            found = blocks.insert(blocks.end(), {one.block, {}});
+        found->second.push_back(one);
+    }
+    return blocks;
+}
+
+/// Rating blocks that different groups do in place of each other, such as the unimodal and the bimodal one, are one
+/// question.
+std::vector<std::pair<std::string, std::vector<Rating>>> questionsOf(const StudyResults& results)
+{
+    auto blocks = byBlock(results.ratings);
+    std::vector<std::pair<std::string, std::vector<Rating>>> questions;
+    std::vector<std::set<std::string>> groups;
+    for (auto& [name, ratings] : blocks)
+    {
+        std::set<std::string> own;
+        std::set<std::string> stimuli;
+        for (const Rating& one : ratings)
+        {
+            own.insert(one.group);
+            stimuli.insert(one.stimulus);
+        }
+        bool joined = false;
+        for (std::size_t i = 0; i < questions.size() && !joined; ++i)
+        {
+            const bool othersOnly =
+                std::none_of(own.begin(), own.end(), [&](const auto& group) { return groups[i].contains(group); });
+            const bool sameStimuli = std::all_of(questions[i].second.begin(), questions[i].second.end(),
+                                                 [&](const Rating& one) { return stimuli.contains(one.stimulus); });
+            if (othersOnly && sameStimuli)
+            {
+                questions[i].first += " / " + name;
+                questions[i].second.insert(questions[i].second.end(), ratings.begin(), ratings.end());
+                groups[i].insert(own.begin(), own.end());
+                joined = true;
+            }
+        }
+        if (!joined)
+        {
+            questions.emplace_back(name, std::move(ratings));
+            groups.push_back(std::move(own));
+        }
+    }
+    return questions;
+}
+
+void writeWords(Writer& writer, Json& json, const StudyResults& results, const StudyReportParams& params)
+{
+    if (results.descriptions.empty())
+        return;
+    writer.heading(2, "Words");
+    std::set<std::string> groups;
+    for (const Description& one : results.descriptions)
+        groups.insert(one.group);
+    PageTable words{"The most frequent words", {"Group", "Descriptions", "Words", "Different", "Most frequent"}, {}};
+    PageTable categories{"Share of the words that have a category, by group", {"Category"}, {}};
+    std::map<std::string, std::map<std::string, std::size_t>> counts;
+    std::map<std::string, std::size_t> sums;
+    for (const std::string& group : groups)
+    {
+        const WordCounts found = countWords(results.descriptions, group);
+        std::size_t all = 0;
+        std::string most;
+        Json ofGroup = Json::object();
+        for (std::size_t i = 0; i < found.size(); ++i)
+        {
+            all += found[i].second;
+            if (i < 12)
+                most += fmt::format("{}{} ({})", i == 0 ? "" : ", ", found[i].first, found[i].second);
+            ofGroup[found[i].first] = found[i].second;
+            if (params.categories)
+            {
+                const std::string category = params.categories->categoryOf(found[i].first);
+                counts[category][group] += found[i].second;
+                sums[group] += category.empty() ? 0 : found[i].second;
+            }
+        }
+        const auto descriptions = std::count_if(results.descriptions.begin(), results.descriptions.end(),
+                                                [&](const auto& one) { return one.group == group; });
+        words.rows.push_back(
+            {groupTitle(group), fmt::to_string(descriptions), fmt::to_string(all), fmt::to_string(found.size()), most});
+        json["words"][group] = std::move(ofGroup);
+        categories.columns.push_back(groupTitle(group));
+        categories.columns.emplace_back("%");
+    }
+    writer.table(std::move(words));
+    if (!params.categories)
+        return;
+    const auto addRow = [&](const std::string& title, const std::string& category)
+    {
+        std::vector<std::string> row{title};
+        for (const std::string& group : groups)
+        {
+            const std::size_t count = counts[category][group];
+            row.push_back(fmt::to_string(count));
+            row.push_back(category.empty() || sums[group] == 0
+                              ? ""
+                              : decimalText(100.0 * static_cast<double>(count) / static_cast<double>(sums[group]), 1));
+            json["categories"][group][category] = count;
+        }
+        categories.rows.push_back(std::move(row));
+    };
+    for (const std::string& category : params.categories->names())
+        addRow(category, category);
+    addRow("(none)", "");
+    writer.table(std::move(categories));
+}
+
+std::string unitOf(Variable variable)
+{
+    switch (variable)
+    {
+    case Variable::level:
+        return "dB re full drive";
+    case Variable::levelDifference:
+        return "dB";
+    case Variable::frequency:
+        return "%";
+    case Variable::delay:
+        return "ms";
+    case Variable::bands:
+        return "bands";
+    case Variable::breakpoints:
+        return "breakpoints per second";
+    case Variable::bits:
+        return "bits";
+    }
+    return "";
+}
+
+Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& results)
+{
+    for (const Block& block : results.study.blocks)
+    {
+        if (block.task != Task::staircase)
+            continue;
+        PageTable table{"", {"Stimulus", "Participants", "Threshold", "95 % of the mean", "SD, dB", "Trials"}, {}};
+        std::vector<NamedInterval> shown;
+        Json ofBlock = Json::object();
+        for (const std::size_t stimulus : stimuliOf(results.study, block))
+        {
+            const std::string& name = results.study.stimuli[stimulus].name;
+            std::vector<double> strengths;
+            std::size_t trials = 0;
+            for (const PersonalThreshold& one : results.thresholds)
+                if (one.block == block.name && one.stimulus == name)
+                {
+                    strengths.push_back(one.estimate.strength);
+                    trials += one.trials;
+                }
+            if (strengths.empty())
+                continue;
+            const SampleSummary sample = summaryOf(strengths);
+            const auto value = [&](double strength)
+            {
+                return valueOf(block.adaptive.variable, strength);
+            };
+            const double a = value(sample.mean95.low), b = value(sample.mean95.high);
+            shown.push_back({name, value(sample.mean), {std::min(a, b), std::max(a, b)}});
+            table.rows.push_back({name, fmt::to_string(sample.count), decimalText(shown.back().value, 1),
+                                  intervalText(shown.back().interval, 1), decimalText(sample.sd, 2),
+                                  fmt::to_string(trials)});
+            ofBlock[name] = jsonOf(sample);
+            ofBlock[name]["value"] = shown.back().value;
+        }
+        if (table.rows.empty())
+            continue;
+        writer.heading(2, block.name);
+        table.caption = fmt::format("Thresholds in {}, over participants", unitOf(block.adaptive.variable));
+        if (auto drawn = writer.picture(fileNameOf(block.name) + ".svg", "Thresholds of " + block.name,
+                                        intervalPlot(shown, block.name, unitOf(block.adaptive.variable), pictureStyle));
+            !drawn)
+            return drawn;
+        writer.table(std::move(table));
+        json[block.name] = std::move(ofBlock);
+    }
+    return {};
+}
+
+void writeChoices(Writer& writer, Json& json, const StudyResults& results)
+{
+    std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> counts;
+    for (const PersonalChoices& one : results.choices)
+    {
+        auto& [right, trials] = counts[{one.block, one.stimulus}];
+        right += one.right;
+        trials += one.trials;
+    }
+    PageTable table{"Right choices; interval of Wilson (1927)",
+                    {"Block", "Stimulus", "Right", "Of", "%", "95 %", "By guessing, %", "Beyond chance"},
+                    {}};
+    for (const auto& [key, count] : counts)
+    {
+        const auto n = static_cast<double>(count.second), share = static_cast<double>(count.first) / n;
+        int intervals = 2;
+        for (const Block& block : results.study.blocks)
+            if (block.name == key.first && block.task == Task::forcedChoice)
+                intervals = block.intervals;
+        const double z = normalQuantile(0.975), middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+        const double half = z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
+        const double guess = 100.0 / intervals;
+        table.rows.push_back({key.first, key.second, fmt::to_string(count.first), fmt::to_string(count.second),
+                              decimalText(100.0 * share, 1),
+                              intervalText({100.0 * (middle - half), 100.0 * (middle + half)}, 1),
+                              decimalText(guess, 1), 100.0 * (middle - half) > guess ? "yes" : "no"});
+        json["choices"][key.first][key.second] = {{"right", count.first}, {"trials", count.second}};
+    }
+    if (table.rows.empty())
+        return;
+    writer.heading(2, "Choices");
+    writer.table(std::move(table));
+}
+
+Result<void> writeMap(Writer& writer, Json& json, const std::vector<PairRating>& pairs, const std::string& title)
+{
+    std::vector<std::string> names;
+    for (const PairRating& one : pairs)
+        for (const std::string& name : {one.first, one.second})
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    if (names.size() < 3)
+        return {};
+    std::sort(names.begin(), names.end());
+    const auto index = [&](const std::string& name)
+    {
+        return static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), name) - names.begin());
+    };
+    std::vector<std::vector<double>> sums(names.size(), std::vector<double>(names.size(), 0.0)), counts = sums;
+    for (const PairRating& one : pairs)
+        for (const auto& [i, k] :
+             {std::pair(index(one.first), index(one.second)), std::pair(index(one.second), index(one.first))})
+        {
+            sums[i][k] += one.value;
+            counts[i][k] += 1.0;
+        }
+    for (std::size_t i = 0; i < names.size(); ++i)
+        for (std::size_t k = 0; k < names.size(); ++k)
+            sums[i][k] = counts[i][k] > 0.0 ? sums[i][k] / counts[i][k] : 0.0;
+    const Scaling scaling = scaleDissimilarities(sums);
+    writer.heading(2, title);
+    writer.paragraph(fmt::format(
+        "Places whose distances are the mean dissimilarities as nearly as two dimensions allow; stress-1 {}{}.",
+        decimalText(scaling.stress, 3), scaling.stress > 0.2 ? ", too much to be trusted" : ""));
+    PageTable table{"Mean dissimilarity", {"Stimulus"}, {}};
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        table.columns.push_back(names[i]);
+        std::vector<std::string> row{names[i]};
+        for (std::size_t k = 0; k < names.size(); ++k)
+            row.push_back(i == k ? "" : decimalText(sums[i][k], 2));
+        table.rows.push_back(std::move(row));
+        json[title][names[i]] = scaling.places[i];
+    }
+    if (auto drawn =
+            writer.picture(fileNameOf(title) + ".svg", "Map of " + title, mapPlot(scaling, names, title, pictureStyle));
+        !drawn)
+        return drawn;
+    writer.table(std::move(table));
+    return {};
+}
+} // namespace
+
+Result<StudyReport> reportOfRatings(const std::vector<Rating>& ratings, const std::string& title,
+                                    const StudyReportParams& params)
+{
+    StudyReport report;
+    report.page.title = title;
+    Writer writer(report);
+    writer.heading(1, title);
+    writer.paragraph(counted(ratings.size(), "rating.", "ratings."));
+    for (const auto& [block, ofBlock] : byBlock(ratings))
+        if (auto written =
+                writeRatings(writer, report.json["ratings"], ofBlock, block.empty() ? "Ratings" : block, params);
+            !written)
+            return written.error();
+    return report;
+}
+
+Result<StudyReport> reportOfStudy(const StudyResults& results, const StudyReportParams& params)
+{
+    StudyReport report;
+    report.page.title = results.study.name;
+    Writer writer(report);
+    writer.heading(1, results.study.name);
+    if (!results.study.description.empty())
+        writer.paragraph(results.study.description);
+    std::map<std::string, std::pair<int, int>> people; // begun and finished
+    double largest = 0.0;
+    for (const LoggedSession& session : results.sessions)
+    {
+        ++people[session.head.group].first;
+        people[session.head.group].second += session.finished ? 1 : 0;
+        largest = std::max(largest, dailyExposure(session.exposure));
+    }
+    PageTable table{"Participants", {"Group", "Planned", "Begun", "Finished"}, {}};
+    for (const Group& group : results.study.groups)
+    {
+        table.rows.push_back({group.name, fmt::to_string(group.size), fmt::to_string(people[group.name].first),
+                              fmt::to_string(people[group.name].second)});
+        report.json["participants"][group.name] = {
+            {"planned", group.size}, {"begun", people[group.name].first}, {"finished", people[group.name].second}};
+    }
+    writer.table(std::move(table));
+    if (results.dropouts > 0)
+        writer.paragraph(fmt::format("{} where sound or touch dropped out; these are left out and were repeated.",
+                                     counted(results.dropouts, "trial", "trials")));
+    if (largest > 0.0)
+        writer.paragraph(fmt::format("Largest exposure of a participant: A(8) = {} m/s2 of {} allowed (ISO 5349-1).",
+                                     decimalText(largest, 3), decimalText(results.study.limits.daily, 2)));
+    report.json["dropouts"] = results.dropouts;
+    for (const auto& [title, ratings] : questionsOf(results))
+        if (auto written = writeRatings(writer, report.json["ratings"], ratings, title, params); !written)
+            return written.error();
+    for (const auto& [title, ranks] : byBlock(results.ranks))
+        if (auto written = writeRatings(writer, report.json["ranks"], ranks, title + " (places, 1 is first)", params);
+            !written)
+            return written.error();
+    writeWords(writer, report.json, results, params);
+    if (auto written = writeThresholds(writer, report.json["thresholds"], results); !written)
+        return written.error();
+    writeChoices(writer, report.json, results);
+    if (auto written = writeMap(writer, report.json["maps"], results.pairs, "Similarity"); !written)
+        return written.error();
+    if (auto written = writeMap(writer, report.json["maps"], results.together, "Sorting"); !written)
+        return written.error();
+    return report;
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+// Report of a study: its statistics as a page and as JSON.
+
+#include "cli/study/Page.h"
+#include "study/RatingAnalysis.h"
+#include "study/StudyResults.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace pacini::cli
+{
+
+struct StudyReportParams
+{
+    std::vector<study::GroupUnion> unions;
+    std::optional<study::WordCategories> categories;
+};
+
+/// What was found in ratings alone, as they come from other programs.
+struct StudyReport
+{
+    Page page;
+    nlohmann::ordered_json json;
+};
+
+/// Errors: those of drawing pictures.
+[[nodiscard]] Result<StudyReport> reportOfRatings(const std::vector<study::Rating>& ratings, const std::string& title,
+                                                  const StudyReportParams& params);
+
+/// Of everything in a study's folder.
+[[nodiscard]] Result<StudyReport> reportOfStudy(const study::StudyResults& results, const StudyReportParams& params);
+
+} // namespace pacini::cli

@@ -1,0 +1,234 @@
+#include "study/Observers.h"
+
+#include "study/statistics/Distributions.h"
+#include "study/statistics/TwoSamples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+namespace pacini::study
+{
+
+namespace
+{
+constexpr std::size_t forObservers = 2'000'000, forStimuli = 2'000'001, forPower = 2'000'002; // purposes of seeds
+
+/// On the scale: within its ends, at its steps.
+double onScale(const RatingScale& scale, double value)
+{
+    if (scale.step > 0.0)
+        value = scale.low + scale.step * std::round((value - scale.low) / scale.step);
+    return std::clamp(value, scale.low, scale.high);
+}
+
+constexpr double middleShare = 0.7; // of the scale: ratings of what belongs together lie above its middle
+
+/// Elevation of the threshold of touch, dB: least at 250 Hz, 12 dB an octave below and 10 above (after Bolanowski et
+/// al. 1988, JASA 84, the Pacinian channel).
+double elevationAt(double frequency)
+{
+    const double octaves = std::log2(frequency / 250.0);
+    return octaves < 0.0 ? -12.0 * octaves : 10.0 * octaves;
+}
+
+constexpr std::array vocabulary{"pulsing", "rough", "soft",    "short",    "rising",
+                                "deep",    "sharp", "humming", "knocking", "smooth"};
+} // namespace
+
+double normalNumber(Random& random) noexcept
+{
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+Observer::Observer(const Study& ofStudy, const ObserverParams& observerParams, std::size_t slot)
+    : study(ofStudy), params(observerParams), random(observerParams.seed ^ seedOf(ofStudy, slot, forObservers))
+{
+    bias = params.biasSd * normalNumber(random);
+    ownThreshold = params.threshold + params.thresholdSd * normalNumber(random);
+    isInLastGroup = study.groups.size() > 1 && groupOfSlot(study, slot) + 1 == study.groups.size();
+}
+
+double Observer::valueOfStimulus(std::size_t stimulus) const
+{
+    Random ofStimulus(params.seed ^ seedOf(study, stimulus, forStimuli));
+    return params.stimulusSd * normalNumber(ofStimulus);
+}
+
+double Observer::rated(const RatingScale& scale, double value)
+{
+    // Points are tenths of the scale, as on that of the seed.
+    const double points = 10.0 * middleShare + value + bias + (isInLastGroup ? params.effect : 0.0) +
+                          params.noiseSd * normalNumber(random);
+    return onScale(scale, scale.low + (scale.high - scale.low) * points / 10.0);
+}
+
+double Observer::thresholdFor(const Block& block, std::size_t stimulus) const
+{
+    const Adaptive& adaptive = block.adaptive;
+    if (adaptive.variable != Variable::level)
+    {
+        // In the middle of what is asked, each participant elsewhere.
+        const double a = strengthOf(adaptive.variable, adaptive.lowest),
+                     b = strengthOf(adaptive.variable, adaptive.highest);
+        return 0.5 * (a + b) + (ownThreshold - params.threshold);
+    }
+    const auto& tone = study.stimuli[stimulus].tone;
+    return ownThreshold + (tone ? elevationAt(tone->frequency) : 0.0);
+}
+
+Answer Observer::answer(const Trial& trial, std::optional<double> level)
+{
+    const Block& block = study.blocks[trial.block];
+    Answer given;
+    given.seconds = std::exp(0.7 + 0.4 * normalNumber(random));
+    const auto choose = [&](double chance, int choices)
+    {
+        if (random.uniform() < chance)
+            return trial.right;
+        const int other = static_cast<int>(random.uniform() * (choices - 1));
+        return other < trial.right ? other : other + 1;
+    };
+    switch (block.task)
+    {
+    case Task::rating:
+        given.value = rated(block.scale, valueOfStimulus(trial.stimuli.front()));
+        break;
+    case Task::words:
+        for (int i = 0; i < 3; ++i)
+        {
+            const auto word = static_cast<std::size_t>(random.uniform() * static_cast<double>(vocabulary.size()));
+            given.words += (i == 0 ? "" : ", ") + std::string(vocabulary[word]);
+        }
+        break;
+    case Task::abx:
+        given.choice = choose(params.discrimination, 2);
+        break;
+    case Task::forcedChoice:
+        given.choice = choose(params.discrimination, block.intervals);
+        break;
+    case Task::staircase:
+    {
+        const Psychometric felt{thresholdFor(block, testedStimulus(trial)), params.slope, 1.0 / block.intervals,
+                                params.lapse};
+        given.choice = choose(felt(strengthOf(block.adaptive.variable, level.value_or(0.0))), block.intervals);
+        break;
+    }
+    case Task::multiStimulus:
+        for (const std::size_t stimulus : trial.stimuli)
+            given.values.push_back(study.stimuli[stimulus].name == block.reference
+                                       ? block.scale.high
+                                       : rated(block.scale, valueOfStimulus(stimulus)));
+        break;
+    case Task::ranking:
+    {
+        std::vector<double> liked;
+        for (const std::size_t stimulus : trial.stimuli)
+            liked.push_back(-valueOfStimulus(stimulus) - params.noiseSd * normalNumber(random));
+        given.values = ranksOf(liked);
+        break;
+    }
+    case Task::similarity:
+        given.value = onScale(block.scale, block.scale.low + (block.scale.high - block.scale.low) *
+                                                                 (std::abs(valueOfStimulus(trial.stimuli[0]) -
+                                                                           valueOfStimulus(trial.stimuli[1])) +
+                                                                  0.5 * std::abs(normalNumber(random))) /
+                                                                 4.0);
+        break;
+    case Task::sorting:
+        for (const std::size_t stimulus : trial.stimuli)
+            given.values.push_back(valueOfStimulus(stimulus) + 0.3 * normalNumber(random) > 0.0 ? 1.0 : 0.0);
+        break;
+    }
+    return given;
+}
+
+Result<void> simulateSession(const Study& study, Session& session, const ObserverParams& params)
+{
+    Observer observer(study, params, session.head().slot);
+    while (const Trial* trial = session.trial())
+        if (auto kept = session.answer(observer.answer(*trial, session.level())); !kept)
+            return kept.error();
+    return {};
+}
+
+std::vector<PowerEstimate> estimatePower(const Study& study, const ObserverParams& params, std::size_t runs)
+{
+    std::vector<PowerEstimate> estimates;
+    const auto ratingsOf = [&](const Group& group)
+    {
+        std::size_t count = 0;
+        for (const Block& block : study.blocks)
+            if (block.task == Task::rating && isFor(block, group.name))
+                count += stimuliOf(study, block).size() * static_cast<std::size_t>(block.repeats);
+        return count;
+    };
+    const auto scaleOf = [&](const Group& group)
+    {
+        for (const Block& block : study.blocks)
+            if (block.task == Task::rating && isFor(block, group.name))
+                return block.scale;
+        return RatingScale();
+    };
+    if (study.groups.size() < 2 || runs == 0)
+        return estimates;
+    const Group& last = study.groups.back();
+    for (std::size_t g = 0; g + 1 < study.groups.size(); ++g)
+    {
+        const Group& other = study.groups[g];
+        const std::size_t ofOther = ratingsOf(other), ofLast = ratingsOf(last);
+        if (ofOther == 0 || ofLast == 0 || other.size < 2 || last.size < 2)
+            continue;
+        Random random(params.seed ^ seedOf(study, g, forPower));
+        std::size_t found = 0;
+        std::vector<double> values;
+        const auto means = [&](const Group& group, std::size_t count, double effect)
+        {
+            const RatingScale scale = scaleOf(group);
+            std::vector<double> made;
+            for (int person = 0; person < group.size; ++person)
+            {
+                const double leaning = params.biasSd * normalNumber(random);
+                double sum = 0.0;
+                for (std::size_t i = 0; i < count; ++i)
+                {
+                    const double points = 10.0 * middleShare + values[i % values.size()] + leaning + effect +
+                                          params.noiseSd * normalNumber(random);
+                    sum += onScale(scale, scale.low + (scale.high - scale.low) * points / 10.0);
+                }
+                made.push_back(sum / static_cast<double>(count));
+            }
+            return made;
+        };
+        for (std::size_t run = 0; run < runs; ++run)
+        {
+            values.clear();
+            for (std::size_t i = 0; i < std::max(ofOther, ofLast); ++i)
+                values.push_back(params.stimulusSd * normalNumber(random));
+            const auto first = means(other, ofOther, 0.0), second = means(last, ofLast, params.effect);
+            found += pooledTTest(first, second).p <= 0.05 ? 1u : 0u;
+        }
+        PowerEstimate estimate{other.name, last.name};
+        estimate.runs = runs;
+        estimate.byParticipant = static_cast<double>(found) / static_cast<double>(runs);
+        estimate.standardError =
+            std::sqrt(estimate.byParticipant * (1.0 - estimate.byParticipant) / static_cast<double>(runs));
+        // A participant's mean varies by the leaning and the noise of so many ratings.
+        const auto varianceOf = [&](std::size_t count)
+        {
+            return params.biasSd * params.biasSd + params.noiseSd * params.noiseSd / static_cast<double>(count);
+        };
+        const auto n1 = static_cast<double>(other.size), n2 = static_cast<double>(last.size);
+        const double error = std::sqrt(varianceOf(ofOther) / n1 + varianceOf(ofLast) / n2);
+        const double degrees = n1 + n2 - 2.0;
+        estimate.analytic = error > 0.0 ? powerOfT(quantileT(0.975, degrees), degrees, params.effect / error) : 1.0;
+        estimates.push_back(std::move(estimate));
+    }
+    return estimates;
+}
+
+} // namespace pacini::study

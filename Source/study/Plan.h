@@ -1,0 +1,46 @@
+#pragma once
+
+// The trials of one participant: group, order of stimuli, where the right answer lies. All of it follows from the study
+// and the participant's slot, so that a session can be taken up again without having kept it.
+
+#include "study/Study.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pacini::study
+{
+
+/// One presentation with its question.
+struct Trial
+{
+    std::size_t block = 0;
+    /// Indices of stimuli, in the order of presentation: one; both of a pair; A, B and X; the intervals; all of a page.
+    std::vector<std::size_t> stimuli;
+    int right = -1;        ///< index of the right choice, -1 where there is none
+    bool training = false; ///< does not count
+    bool adaptive = false; ///< the interval `right` has the value that the staircase of its stimulus asks for
+    bool afterBreak = false;
+};
+
+/// The group of the participant in a slot from 0 on: every run of as many slots as the study has participants fills all
+/// groups, in an order of its own.
+[[nodiscard]] std::size_t groupOfSlot(const Study& study, std::size_t slot);
+
+/// Which row of a Latin square the slot gets: its number within its group.
+[[nodiscard]] std::size_t rowOfSlot(const Study& study, std::size_t slot);
+
+/// Row `row` of a square of `count` in which each comes once at each place and, over 2 * count rows (count, of an even
+/// one), equally often after each other (E. J. Williams, "Experimental designs balanced for the estimation of residual
+/// effects of treatments", 1949).
+[[nodiscard]] std::vector<std::size_t> williamsRow(std::size_t count, std::size_t row);
+
+/// The trials of a block for the participant in `slot`. Of a staircase as many as it may take at most, its stimuli by
+/// turns; who runs it leaves out those of a stimulus that is done.
+[[nodiscard]] std::vector<Trial> trialsOf(const Study& study, std::size_t block, std::size_t slot);
+
+/// A seed that differs for each participant, block and purpose.
+[[nodiscard]] std::uint64_t seedOf(const Study& study, std::size_t slot, std::size_t purpose) noexcept;
+
+} // namespace pacini::study

@@ -1,0 +1,278 @@
+#include "study/SessionLog.h"
+
+#include "io/InputFile.h"
+#include "io/JsonTree.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+namespace pacini::study
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+using Json = nlohmann::json;
+// Entries in the order in which they are written, for whoever looks at a log.
+using Line = nlohmann::ordered_json;
+
+constexpr std::size_t largestLog = 256'000'000; // bytes
+constexpr std::size_t largestLine = 1'000'000;
+
+template <typename T>
+T valueOr(const Json& line, const char* name, T otherwise)
+{
+    const auto entry = line.find(name);
+    if (entry == line.end())
+        return otherwise;
+    if constexpr (std::is_same_v<T, std::string>)
+        return entry->is_string() ? entry->template get<std::string>() : otherwise;
+    else if constexpr (std::is_same_v<T, bool>)
+        return entry->is_boolean() ? entry->template get<bool>() : otherwise;
+    else
+        return entry->is_number() ? static_cast<T>(entry->template get<double>()) : otherwise;
+}
+
+template <typename T>
+std::optional<T> optionalOf(const Json& line, const char* name)
+{
+    return line.contains(name) ? std::optional(valueOr(line, name, T{})) : std::nullopt;
+}
+
+Record recordOf(const Json& line)
+{
+    Record record;
+    record.trial = valueOr(line, "trial", std::size_t(0));
+    record.block = valueOr(line, "block", std::string());
+    record.task = valueOr(line, "task", std::string());
+    if (const auto stimuli = line.find("stimuli"); stimuli != line.end() && stimuli->is_array())
+        for (const Json& name : *stimuli)
+            record.stimuli.push_back(name.is_string() ? name.get<std::string>() : std::string());
+    record.training = valueOr(line, "training", false);
+    record.level = optionalOf<double>(line, "level");
+    record.correct = optionalOf<bool>(line, "correct");
+    record.answer.value = optionalOf<double>(line, "value");
+    if (const auto values = line.find("values"); values != line.end() && values->is_array())
+        for (const Json& value : *values)
+            record.answer.values.push_back(value.is_number() ? value.get<double>() : 0.0);
+    record.answer.choice = optionalOf<int>(line, "choice");
+    record.answer.words = valueOr(line, "words", std::string());
+    record.answer.seconds = valueOr(line, "seconds", 0.0);
+    record.answer.replays = valueOr(line, "replays", 0);
+    record.answer.soundOnset = optionalOf<double>(line, "soundOnset");
+    record.answer.touchOnset = optionalOf<double>(line, "touchOnset");
+    record.answer.dropouts = valueOr(line, "dropouts", 0);
+    record.time = valueOr(line, "time", std::string());
+    return record;
+}
+
+Result<SessionHead> headOf(const Json& line, std::string_view where)
+{
+    if (valueOr(line, "format", std::string()) != sessionFormatName)
+        return Error{
+            ErrorCode::invalidData, std::string(where),
+            fmt::format("is no session of a study, whose first line has \"format\": \"{}\"", sessionFormatName)};
+    if (const int version = valueOr(line, "version", 0); version > sessionFormatVersion)
+        return Error{ErrorCode::unsupportedVersion, std::string(where),
+                     fmt::format("was written by a newer version ({}) of the format; this program reads version {}",
+                                 version, sessionFormatVersion)};
+    SessionHead head;
+    head.study = valueOr(line, "study", std::string());
+    head.studySha256 = valueOr(line, "studySha256", std::string());
+    head.participant = valueOr(line, "participant", std::string());
+    head.slot = valueOr(line, "slot", std::size_t(0));
+    head.group = valueOr(line, "group", std::string());
+    head.language = valueOr(line, "language", std::string());
+    head.started = valueOr(line, "started", std::string());
+    head.consent = valueOr(line, "consent", std::string());
+    head.program = valueOr(line, "program", std::string());
+    return head;
+}
+
+Line lineOf(const Record& record)
+{
+    Line line{{"type", "answer"},
+              {"trial", record.trial},
+              {"block", record.block},
+              {"task", record.task},
+              {"stimuli", record.stimuli}};
+    if (record.training)
+        line["training"] = true;
+    if (record.level)
+        line["level"] = *record.level;
+    const Answer& answer = record.answer;
+    if (answer.value)
+        line["value"] = *answer.value;
+    if (!answer.values.empty())
+        line["values"] = answer.values;
+    if (answer.choice)
+        line["choice"] = *answer.choice;
+    if (record.correct)
+        line["correct"] = *record.correct;
+    if (!answer.words.empty())
+        line["words"] = answer.words;
+    line["seconds"] = answer.seconds;
+    line["replays"] = answer.replays;
+    if (answer.soundOnset)
+        line["soundOnset"] = *answer.soundOnset;
+    if (answer.touchOnset)
+        line["touchOnset"] = *answer.touchOnset;
+    if (answer.dropouts > 0)
+        line["dropouts"] = answer.dropouts;
+    line["time"] = record.time;
+    return line;
+}
+
+std::string textOf(const Line& line)
+{
+    return line.dump(-1, ' ', false, Line::error_handler_t::replace) + '\n';
+}
+} // namespace
+
+std::string utcNow()
+{
+    const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+    const auto milliseconds = now.time_since_epoch().count() % 1000;
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
+                       milliseconds);
+}
+
+Result<LoggedSession> readSession(const fs::path& path)
+{
+    const auto text = readWholeFile(path, largestLog);
+    if (!text)
+        return text.error();
+    LoggedSession session;
+    std::size_t start = 0, number = 0;
+    while (start < text->size())
+    {
+        const std::size_t end = text->find('\n', start);
+        if (end == std::string::npos)
+            break; // was being written when the program ended
+        const std::string where = fmt::format("line {}", ++number);
+        const auto line = readJsonTree(std::string_view(*text).substr(start, end - start), largestLine);
+        if (!line || !line->is_object())
+            return Error{ErrorCode::invalidData, where, line ? "is no JSON object" : line.error().text()};
+        const std::string type = valueOr(*line, "type", std::string());
+        if (number == 1)
+        {
+            auto head = headOf(*line, where);
+            if (!head)
+                return head.error();
+            session.head = std::move(*head);
+        }
+        else if (type == "answer")
+            session.records.push_back(recordOf(*line));
+        else if (type == "finished")
+            session.finished = true;
+        else if (type == "event")
+        {
+            session.events.push_back(valueOr(*line, "name", std::string()));
+            session.exposure += valueOr(*line, "exposure", 0.0);
+        }
+        start = end + 1;
+        session.goodBytes = start;
+    }
+    if (number == 0)
+        return Error{ErrorCode::invalidData, "", "is no session of a study: it has no line"};
+    return session;
+}
+
+Result<void> SessionLog::open(const char* mode)
+{
+    lock = std::make_unique<FileLock>();
+    fs::path beside = file;
+    beside.replace_filename("." + file.filename().string() + ".lock");
+    if (lock->take(beside, FileLock::IfMissing::create) == FileLock::Outcome::heldElsewhere)
+        return Error{ErrorCode::io, "", "is open in another program; close that first"};
+    stream = openStream(file, mode);
+    if (!stream)
+        return fileError(errno);
+    // Nothing waits in the memory of this process, to be written a second time after a failure.
+    std::setvbuf(stream.get(), nullptr, _IONBF, 0);
+    return {};
+}
+
+Result<SessionLog> SessionLog::create(const fs::path& path, const SessionHead& head)
+{
+    SessionLog log(path, 0);
+    if (auto opened = log.open("wbx"); !opened)
+        return opened.error();
+    const Line line{{"type", "session"},
+                    {"format", sessionFormatName},
+                    {"version", sessionFormatVersion},
+                    {"study", head.study},
+                    {"studySha256", head.studySha256},
+                    {"participant", head.participant},
+                    {"slot", head.slot},
+                    {"group", head.group},
+                    {"language", head.language},
+                    {"started", head.started},
+                    {"consent", head.consent},
+                    {"program", head.program}};
+    if (auto added = log.append(textOf(line)); !added)
+    {
+        log.stream.reset();
+        std::error_code ignored;
+        fs::remove(path, ignored);
+        return added.error();
+    }
+    return log;
+}
+
+Result<SessionLog> SessionLog::resume(const fs::path& path, std::uint64_t goodBytes)
+{
+    SessionLog log(path, goodBytes);
+    if (auto opened = log.open("r+b"); !opened)
+        return opened.error();
+    std::error_code failed;
+    fs::resize_file(path, goodBytes, failed);
+    if (failed)
+        return fileError(failed.value());
+    return log;
+}
+
+Result<void> SessionLog::append(const std::string& line)
+{
+    errno = 0;
+    const bool done = seekStream(stream.get(), static_cast<std::int64_t>(written), SEEK_SET) &&
+                      std::fwrite(line.data(), 1, line.size(), stream.get()) == line.size() && syncStream(stream.get());
+    if (done)
+    {
+        written += line.size();
+        return {};
+    }
+    const Error error = fileError(errno != 0 ? errno : EIO);
+    std::clearerr(stream.get());
+    std::error_code ignored;
+    fs::resize_file(file, written, ignored);
+    return error;
+}
+
+Result<void> SessionLog::add(const Record& record)
+{
+    return append(textOf(lineOf(record)));
+}
+
+Result<void> SessionLog::addEvent(std::string_view name, double exposure)
+{
+    Line line{{"type", "event"}, {"name", name}};
+    if (exposure > 0.0)
+        line["exposure"] = exposure;
+    line["time"] = utcNow();
+    return append(textOf(line));
+}
+
+Result<void> SessionLog::finish()
+{
+    return append(textOf({{"type", "finished"}, {"time", utcNow()}}));
+}
+
+} // namespace pacini::study

@@ -1,0 +1,113 @@
+#pragma once
+
+// Session logs: one line of JSON for each thing that happened, on the disk before the next begins.
+
+#include "io/FileHandle.h"
+#include "io/FileLock.h"
+#include "study/Study.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini::study
+{
+
+inline constexpr std::string_view sessionFormatName = "pacini.session";
+inline constexpr int sessionFormatVersion = 1;
+
+/// Who takes part in which study: the first line of a log.
+struct SessionHead
+{
+    std::string study;       ///< its name
+    std::string studySha256; ///< of the study's JSON as studyJson() writes it
+    std::string participant; ///< a pseudonym such as P007
+    std::size_t slot = 0;
+    std::string group;
+    std::string language;
+    std::string started; ///< UTC, ISO 8601
+    std::string consent; ///< the text that was agreed to; empty: none was asked
+    std::string program; ///< name and version
+};
+
+/// What was answered, and when what was presented began.
+struct Answer
+{
+    std::optional<double> value; ///< on the scale
+    std::vector<double> values;  ///< of a page: ratings, places or heaps of the trial's stimuli
+    std::optional<int> choice;   ///< from 0
+    std::string words;
+    double seconds = 0.0; ///< from the end of the presentation to the answer
+    int replays = 0;
+    std::optional<double> soundOnset, touchOnset; ///< s of the device's clock
+    int dropouts = 0;                             ///< of the device while something played; such a trial is repeated
+};
+
+/// A line of a log: an answer with its trial.
+struct Record
+{
+    std::size_t trial = 0; ///< counted over the session
+    std::string block;
+    std::string task;
+    std::vector<std::string> stimuli; ///< names, in the order of presentation
+    bool training = false;
+    std::optional<double> level; ///< value of the staircase's variable, in its unit
+    std::optional<bool> correct;
+    Answer answer;
+    std::string time; ///< UTC, ISO 8601
+};
+
+/// A log that was read.
+struct LoggedSession
+{
+    SessionHead head;
+    std::vector<Record> records;
+    bool finished = false;
+    double exposure = 0.0;           ///< m2/s4 s: weighted acceleration, squared, over time
+    std::vector<std::string> events; ///< what else happened, such as "stopped"
+    std::uint64_t goodBytes = 0;     ///< of whole lines; what follows was being written when the program ended
+};
+
+/// Reads a log. A last line that is not whole is left out. Errors: as in readWholeFile; invalidData at `line 3` for
+/// what is no log, unsupportedVersion.
+[[nodiscard]] Result<LoggedSession> readSession(const std::filesystem::path& path);
+
+/// Appends to a log. Every line is on the disk (fsync) before the call returns; after an error nothing of the line
+/// counts, and it can be tried again. The file is locked: no other program writes to it meanwhile. One thread.
+class SessionLog
+{
+public:
+    /// Begins a log, whose file must not exist. Errors: io, diskFull.
+    [[nodiscard]] static Result<SessionLog> create(const std::filesystem::path& path, const SessionHead& head);
+
+    /// Goes on with one that readSession() has read. Errors: io, also when another program has it open.
+    [[nodiscard]] static Result<SessionLog> resume(const std::filesystem::path& path, std::uint64_t goodBytes);
+
+    [[nodiscard]] Result<void> add(const Record& record);
+
+    /// `exposure` is what came about since the last call, m2/s4 s.
+    [[nodiscard]] Result<void> addEvent(std::string_view name, double exposure = 0.0);
+    [[nodiscard]] Result<void> finish();
+
+private:
+    SessionLog(std::filesystem::path path, std::uint64_t length) : file(std::move(path)), written(length) {}
+    [[nodiscard]] Result<void> open(const char* mode);
+    [[nodiscard]] Result<void> append(const std::string& line);
+
+    std::filesystem::path file;
+    FileHandle stream;
+    std::unique_ptr<FileLock> lock;
+    std::uint64_t written = 0; ///< bytes of whole lines
+};
+
+/// Now, as "2026-11-27T10:00:00.123Z".
+[[nodiscard]] std::string utcNow();
+
+} // namespace pacini::study

@@ -1,0 +1,290 @@
+#include "study/Stimuli.h"
+
+#include "io/ClipFile.h"
+#include "io/SoundEncoder.h"
+
+#include <pacini/actuator/FeltModel.h>
+#include <pacini/clip/PackedClip.h>
+#include <pacini/filters/Resampler.h>
+#include <pacini/synthesis/ActuatorOutput.h>
+#include <pacini/synthesis/CompilePlan.h>
+#include <pacini/synthesis/SceneAdjustment.h>
+#include <pacini/synthesis/SignalPlayer.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+namespace pacini::study
+{
+
+namespace
+{
+constexpr double longestStimulus = 60.0; // s
+constexpr Seconds lookAhead{0.001};
+
+double gainOf(double decibels)
+{
+    return std::pow(10.0, decibels / 20.0);
+}
+
+void scale(std::vector<float>& samples, double gain)
+{
+    for (float& sample : samples)
+        sample = static_cast<float>(gain * static_cast<double>(sample));
+}
+
+std::vector<float> toneOf(const Tone& tone, int sampleRate)
+{
+    const double fs = sampleRate;
+    std::vector<float> samples(static_cast<std::size_t>(std::llround(tone.duration * fs)));
+    const double amplitude = gainOf(tone.level);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+    {
+        const double t = static_cast<double>(n) / fs;
+        const double fromEnd = std::min(t, tone.duration - t);
+        const double ramp =
+            fromEnd < tone.fade ? 0.5 - 0.5 * std::cos(std::numbers::pi * std::max(fromEnd, 0.0) / tone.fade) : 1.0;
+        samples[n] = static_cast<float>(amplitude * ramp * std::sin(2.0 * std::numbers::pi * tone.frequency * t));
+    }
+    return samples;
+}
+
+Result<std::vector<float>> monoOfFile(const std::filesystem::path& path, int sampleRate, int lowestRate)
+{
+    AudioReadOptions options;
+    options.lowestSampleRate = lowestRate;
+    auto audio = readAudio(path, options);
+    if (!audio)
+        return audio.error();
+    const std::vector<float> mono = monoMix(audio->samples, static_cast<std::size_t>(audio->channels));
+    return resample<float>(mono, audio->sampleRate, sampleRate);
+}
+
+void vary(Stimulus& stimulus, const Variation& variation)
+{
+    switch (variation.variable)
+    {
+    case Variable::level: // of what is at full drive by itself
+        if (stimulus.tone)
+            stimulus.tone->level = std::min(0.0, variation.value);
+        else
+            stimulus.touchLevel = variation.value;
+        break;
+    case Variable::levelDifference:
+        stimulus.touchLevel += variation.value;
+        break;
+    case Variable::frequency:
+        if (stimulus.tone)
+            stimulus.tone->frequency *= 1.0 + variation.value / 100.0;
+        break;
+    case Variable::bands:
+        stimulus.bands = std::round(std::clamp(variation.value, 1.0, 32.0));
+        break;
+    case Variable::breakpoints:
+        stimulus.breakpoints = std::clamp(variation.value, 0.5, 1000.0);
+        break;
+    case Variable::bits:
+        stimulus.bits = std::round(std::clamp(variation.value, 4.0, 16.0));
+        break;
+    case Variable::delay:
+        break; // of the trial
+    }
+}
+} // namespace
+
+void protectDrive(std::vector<float>& samples, const std::optional<Profile>& profile, int sampleRate)
+{
+    constexpr std::size_t blockFrames = 4096;
+    RenderPlan plan;
+    plan.profile = profile;
+    ProcessSpec spec;
+    spec.sampleRate = sampleRate;
+    spec.maxBlockFrames = blockFrames;
+    ActuatorOutput output(plan, spec, true, lookAhead, true);
+    const std::size_t late = output.latencyFrames();
+    samples.resize(samples.size() + late, 0.0f);
+    for (std::size_t n = 0; n < samples.size(); n += blockFrames)
+        output.process(std::span(samples).subspan(n, std::min(blockFrames, samples.size() - n)));
+    samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(late));
+}
+
+std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile, int sampleRate)
+{
+    std::vector<float> felt = drive;
+    const auto params = profile ? feltModelParams(*profile) : std::nullopt;
+    if (!params)
+    {
+        scale(felt, assumedAcceleration);
+        return felt;
+    }
+    scale(felt, profile->drive.overdrive);
+    FeltModel model;
+    ProcessSpec spec;
+    spec.sampleRate = sampleRate;
+    spec.maxBlockFrames = std::max<std::size_t>(felt.size(), 1);
+    model.prepare(spec);
+    model.setParams(*params);
+    model.reset();
+    model.process(felt, felt);
+    return felt;
+}
+
+Result<std::vector<float>> StimulusMaker::soundOf(const Stimulus& stimulus) const
+{
+    if (stimulus.sound.empty())
+        return std::vector<float>();
+    auto sound = monoOfFile(settings.folder / stimulus.sound, settings.sampleRate, limits::lowestSampleRate);
+    if (!sound)
+        return Error{sound.error().code, stimulus.sound, sound.error().text()};
+    scale(*sound, gainOf(stimulus.soundLevel + whole.soundLevel));
+    return sound;
+}
+
+Result<std::vector<float>> StimulusMaker::rendered(const Clip& clip) const
+{
+    CompileParams compiling;
+    compiling.sampleRate = settings.sampleRate;
+    auto plan = compilePlan(sceneOf(clip), settings.profile ? &*settings.profile : nullptr, compiling);
+    if (!plan)
+        return plan.error();
+    ScenePlayerParams playing;
+    playing.sampleRate = settings.sampleRate;
+    SignalPlayer player(std::move(*plan), playing, std::nullopt);
+    std::vector<float> samples(static_cast<std::size_t>(player.totalFrames()));
+    constexpr std::size_t blockFrames = 4096;
+    for (std::size_t n = 0; n < samples.size(); n += blockFrames)
+    {
+        const std::span<float> block = std::span(samples).subspan(n, std::min(blockFrames, samples.size() - n));
+        player.process(std::span(&block, 1));
+    }
+    return samples;
+}
+
+Result<std::vector<float>> StimulusMaker::translated(const Stimulus& stimulus) const
+{
+    SoundEncoderParams params;
+    if (!stimulus.method.empty())
+    {
+        const auto method = methodNamed(stimulus.method);
+        if (!method)
+            return Error{ErrorCode::invalidArgument, "method", fmt::format("'{}' is not known", stimulus.method)};
+        params.method = *method;
+    }
+    if (stimulus.bands)
+        params.params.bands = static_cast<int>(*stimulus.bands);
+    if (stimulus.breakpoints)
+        params.params.breakpoints = *stimulus.breakpoints;
+    if (stimulus.bits)
+        params.params.quantise = static_cast<int>(*stimulus.bits);
+    const std::filesystem::path path = settings.folder / stimulus.sound;
+    auto reader = AudioReader::open(path);
+    if (!reader)
+        return Error{reader.error().code, stimulus.sound, reader.error().text()};
+    SoundEncoder encoder(params);
+    Stopwatch ignored;
+    const std::function<void(double)> nobody = [](double) {
+    };
+    if (methodInfo(params.method).output == MethodOutput::signal)
+    {
+        SoundFileParts parts(*reader, nobody);
+        const auto signal =
+            encoder.signalOf({reader->sampleRate(), reader->channels(), 0, std::nullopt}, parts, ignored);
+        if (!signal)
+            return Error{signal.error().code, stimulus.sound, signal.error().text()};
+        auto drive = resample<float>(*signal, reader->sampleRate(), settings.sampleRate);
+        if (drive)
+            protectDrive(*drive, settings.profile, settings.sampleRate);
+        return drive;
+    }
+    auto clip = encoder.clipOf(*reader, path, nobody, ignored);
+    if (!clip)
+        return Error{clip.error().code, stimulus.sound, clip.error().text()};
+    if (const int bits = params.params.quantise; stimulus.bits)
+        setQuantise(*clip, bits); // the other methods do not round
+    return rendered(*clip);
+}
+
+Result<std::vector<float>> StimulusMaker::touchOf(const Stimulus& stimulus) const
+{
+    const double gain = gainOf(stimulus.touchLevel + whole.touchLevel);
+    const auto asIs = [&](std::vector<float> samples)
+    {
+        scale(samples, gain);
+        protectDrive(samples, settings.profile, settings.sampleRate);
+        return samples;
+    };
+    if (stimulus.silence)
+        return std::vector<float>(static_cast<std::size_t>(std::llround(*stimulus.silence * settings.sampleRate)),
+                                  0.0f);
+    if (stimulus.tone)
+        return asIs(toneOf(*stimulus.tone, settings.sampleRate));
+    if (!stimulus.drive.empty())
+    {
+        auto drive = monoOfFile(settings.folder / stimulus.drive, settings.sampleRate, limits::lowestWrittenRate);
+        if (!drive)
+            return Error{drive.error().code, stimulus.drive, drive.error().text()};
+        // The file is the drive: the room for overdrive is in it already.
+        scale(*drive, settings.profile ? settings.profile->drive.overdrive : 1.0);
+        return asIs(std::move(*drive));
+    }
+    Result<std::vector<float>> touch = std::vector<float>();
+    if (!stimulus.clip.empty())
+    {
+        auto read = readClip(settings.folder / stimulus.clip);
+        if (!read)
+            return Error{read.error().code, stimulus.clip, read.error().text()};
+        touch = rendered(read->clip);
+    }
+    else
+        touch = translated(stimulus);
+    // It was protected at the level of the clip; what is louder has to be once more.
+    if (touch && gain != 1.0)
+    {
+        scale(*touch, gain * (settings.profile ? settings.profile->drive.overdrive : 1.0));
+        protectDrive(*touch, settings.profile, settings.sampleRate);
+    }
+    return touch;
+}
+
+Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const
+{
+    auto sound = soundOf(stimulus);
+    if (!sound)
+        return sound.error();
+    auto touch = touchOf(stimulus);
+    if (!touch)
+        return touch.error();
+    const std::size_t frames = std::max(sound->size(), touch->size());
+    if (static_cast<double>(frames) > longestStimulus * settings.sampleRate)
+        return Error{ErrorCode::tooLarge, "", fmt::format("lasts longer than {} s", longestStimulus)};
+    sound->resize(frames, 0.0f);
+    touch->resize(frames, 0.0f);
+    return PreparedStimulus{std::move(*sound), std::move(*touch)};
+}
+
+Result<PreparedStimulus> StimulusMaker::make(std::size_t index, const std::optional<Variation>& variation)
+{
+    if (!variation)
+        if (const auto found = kept.find(index); found != kept.end())
+            return found->second;
+    Stimulus stimulus = whole.stimuli[index];
+    if (variation)
+        vary(stimulus, *variation);
+    auto prepared = made(stimulus);
+    if (!prepared)
+    {
+        const Error& error = prepared.error();
+        return Error{error.code, fmt::format("stimuli[{}] (\"{}\")", index, whole.stimuli[index].name), error.text()};
+    }
+    if (!variation)
+        kept.insert_or_assign(index, *prepared);
+    return prepared;
+}
+
+} // namespace pacini::study

@@ -1,0 +1,79 @@
+#pragma once
+
+// Sound and touch of stimuli, and of whole trials: everything that is heard and felt is made before it plays, on one
+// clock.
+
+#include "study/Study.h"
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace pacini::study
+{
+
+/// What the participant's devices are.
+struct StimulusParams
+{
+    int sampleRate = 48000;         ///< Hz, of the device
+    std::optional<Profile> profile; ///< of the actuator; without it full drive is the one limit
+    std::filesystem::path folder;   ///< that the study's files count from
+};
+
+/// A stimulus on the device's clock.
+struct PreparedStimulus
+{
+    std::vector<float> sound; ///< for both ears; as long as the touch
+    std::vector<float> touch; ///< drive signal, within the limits of the profile
+};
+
+/// What an adaptive trial changes in a stimulus.
+struct Variation
+{
+    Variable variable = Variable::level;
+    double value = 0.0; ///< in its unit
+    bool operator==(const Variation&) const = default;
+};
+
+/// Makes the stimuli of a study, each once. [worker]
+class StimulusMaker
+{
+public:
+    StimulusMaker(const Study& study, StimulusParams params) : whole(study), settings(std::move(params)) {}
+
+    /// Sound and touch of a stimulus as it is, or varied. A delay is left to the trial. Errors: those of reading and of
+    /// translating its files, with the stimulus in front.
+    [[nodiscard]] Result<PreparedStimulus> make(std::size_t stimulus, const std::optional<Variation>& variation = {});
+
+    [[nodiscard]] const Study& study() const noexcept { return whole; }
+    [[nodiscard]] const StimulusParams& params() const noexcept { return settings; }
+
+private:
+    [[nodiscard]] Result<PreparedStimulus> made(const Stimulus& stimulus) const;
+    [[nodiscard]] Result<std::vector<float>> soundOf(const Stimulus& stimulus) const;
+    [[nodiscard]] Result<std::vector<float>> touchOf(const Stimulus& stimulus) const;
+    [[nodiscard]] Result<std::vector<float>> translated(const Stimulus& stimulus) const;
+    [[nodiscard]] Result<std::vector<float>> rendered(const Clip& clip) const;
+
+    Study whole;
+    StimulusParams settings;
+    std::map<std::size_t, PreparedStimulus> kept;
+};
+
+/// `samples` of a drive signal as the actuator may get them: within full drive and the limits of the profile, not
+/// equalised. In place.
+void protectDrive(std::vector<float>& samples, const std::optional<Profile>& profile, int sampleRate);
+
+/// The acceleration that is felt of a drive signal, m/s2. Of a profile without a body, or none, it is taken to be
+/// `assumedAcceleration` at full drive, more than wristbands reach.
+[[nodiscard]] std::vector<float> feltOf(const std::vector<float>& drive, const std::optional<Profile>& profile,
+                                        int sampleRate);
+inline constexpr double assumedAcceleration = 50.0;
+
+} // namespace pacini::study

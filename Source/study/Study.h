@@ -1,0 +1,222 @@
+#pragma once
+
+// A study with people: what they feel and hear, in which groups and order, and what they are asked.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini::study
+{
+
+/// A text in several languages: pairs of a code such as "en" and what it says, in the order of the codes.
+using Text = std::vector<std::pair<std::string, std::string>>;
+
+/// In `language`, else in English, else in the first; empty for no text.
+[[nodiscard]] std::string_view inLanguage(const Text& text, std::string_view language);
+
+/// What a participant does in a trial.
+enum class Task
+{
+    rating,        ///< one number on a scale
+    words,         ///< free description
+    abx,           ///< which of two X is
+    forcedChoice,  ///< which of two or three intervals is the other one: fixed differences
+    staircase,     ///< the same, with differences that follow the answers
+    multiStimulus, ///< MUSHRA: several at once on a scale, with hidden reference and anchors
+    ranking,       ///< all in order
+    similarity,    ///< how alike two are, on a scale
+    sorting        ///< into as many heaps as there are kinds
+};
+
+/// How a stimulus with sound and touch is presented.
+enum class Presentation
+{
+    sound,       ///< the sound alone
+    touch,       ///< the touch alone
+    consecutive, ///< the sound, a pause, the touch (unimodal)
+    simultaneous ///< both at once (bimodal), the touch later by `delay`
+};
+
+enum class Order
+{
+    random,      ///< of its own for each participant, by the seed
+    latinSquare, ///< balanced for what comes before (Williams 1949)
+    fixed        ///< as listed
+};
+
+/// A touch made of numbers: a tone with raised-cosine ends.
+struct Tone
+{
+    double frequency = 160.0; ///< Hz, 1 to 1000
+    double duration = 1.0;    ///< s, .01 to 60
+    double fade = 0.05;       ///< s, each end; at most half of the duration
+    double level = 0.0;       ///< dB re full drive, at most 0
+    bool operator==(const Tone&) const = default;
+};
+
+/// One thing to be felt or heard. Exactly one of clip, drive, tone and silence says what is felt; without any it is the
+/// sound's translation.
+struct Stimulus
+{
+    std::string name;  ///< never shown to participants
+    std::string sound; ///< file, from the study's folder; empty: nothing to hear
+    std::string clip;  ///< clip or scene file
+    std::string drive; ///< sound file that drives the actuator as it is
+    std::optional<Tone> tone;
+    std::optional<double> silence;                  ///< s without touch
+    std::string method;                             ///< of translation; empty: a2vt
+    std::optional<double> bands, breakpoints, bits; ///< of translation by a2vt
+    double soundLevel = 0.0;                        ///< dB
+    double touchLevel = 0.0;                        ///< dB
+    bool operator==(const Stimulus&) const = default;
+};
+
+struct Group
+{
+    std::string name;
+    int size = 1; ///< participants
+    bool operator==(const Group&) const = default;
+};
+
+/// The scale of ratings.
+struct RatingScale
+{
+    double low = 0.0;
+    double high = 10.0;
+    double step = 0.0; ///< 0: continuous
+    Text lowLabel;
+    Text highLabel;
+    bool operator==(const RatingScale&) const = default;
+};
+
+/// What an adaptive procedure changes, and in which unit.
+enum class Variable
+{
+    level,           ///< of the touch, dB re full drive: is there anything at all?
+    levelDifference, ///< from the reference, dB
+    frequency,       ///< higher than the reference's, percent
+    delay,           ///< of the touch after the sound, ms
+    bands,           ///< of the translation; fewer are easier to tell from the reference
+    breakpoints,     ///< per second and band, likewise
+    bits             ///< of quantisation, likewise
+};
+
+enum class Procedure
+{
+    levitt,   ///< transformed up-down (Levitt 1971)
+    questPlus ///< Bayesian, the most informative value next (Watson 2017)
+};
+
+/// How a staircase finds a threshold of its variable. Steps are in dB: of the level, or 20 log10 of what the variable
+/// counts in.
+struct Adaptive
+{
+    Procedure procedure = Procedure::questPlus;
+    Variable variable = Variable::level;
+    double start = -20.0; ///< in the unit of the variable, as the next two
+    double lowest = -60.0;
+    double highest = 0.0;
+    double step = 4.0;      ///< dB, at first
+    double finalStep = 1.0; ///< dB, from the second reversal on
+    int down = 2;           ///< right answers until it gets harder
+    int reversals = 8;      ///< after which Levitt's procedure ends; all but the first two count
+    int trials = 40;        ///< of QUEST+; the most of Levitt's
+    bool operator==(const Adaptive&) const = default;
+};
+
+/// What a value of the variable is on the scale on which a larger strength is easier: dB of level, or 20 log10 of the
+/// value, negated where smaller ones are easier.
+[[nodiscard]] double strengthOf(Variable variable, double value) noexcept;
+
+/// The value of that strength.
+[[nodiscard]] double valueOf(Variable variable, double strength) noexcept;
+
+/// A part of the study: one task with all its stimuli.
+struct Block
+{
+    std::string name;
+    Task task = Task::rating;
+    Presentation presentation = Presentation::simultaneous;
+    Order order = Order::random;
+    std::vector<std::string> groups;   ///< who does it; none: everybody
+    std::vector<std::string> stimuli;  ///< none: all
+    std::vector<std::string> training; ///< first, without counting
+    std::string reference; ///< of abx, forcedChoice, staircase and multiStimulus: what others are held against
+    std::vector<std::string> anchors; ///< of multiStimulus
+    Text question;
+    RatingScale scale;
+    Adaptive adaptive;
+    int intervals = 2;     ///< of forced choices: 2 or 3
+    int repeats = 1;       ///< how often each stimulus comes
+    int replays = -1;      ///< how often one may be played again; -1: any number
+    double delay = 0.0;    ///< s of touch after sound, negative: before
+    double pause = 0.5;    ///< s between what comes one after the other
+    bool masking = false;  ///< noise on the headphones while something is felt alone
+    int breakAfter = 0;    ///< trials; 0: none
+    bool feedback = false; ///< whether an answer was right
+    bool operator==(const Block&) const = default;
+};
+
+/// Noise that keeps participants from hearing the actuator.
+struct Masking
+{
+    double level = -30.0; ///< dB re full scale (RMS)
+    double lowFrequency = 50.0;
+    double highFrequency = 2000.0;
+    bool operator==(const Masking&) const = default;
+};
+
+/// What participants are spared. Computed for each, shown to the experimenter and never passed.
+struct ExposureLimits
+{
+    double daily = 2.5;  ///< m/s2, A(8) of ISO 5349-1: the action value of the directive 2002/44/EC
+    double minutes = 60; ///< of a session
+    bool operator==(const ExposureLimits&) const = default;
+};
+
+struct Study
+{
+    std::string name;
+    std::string description;
+    std::uint64_t seed = 1; ///< of assignments and orders, up to 2^53
+    std::vector<Group> groups;
+    std::vector<Stimulus> stimuli;
+    std::vector<Block> blocks;
+    std::vector<std::string> comfort; ///< stimuli of the check before the first trial
+    Text welcome, consent, goodbye;
+    std::string profile;     ///< of the actuator: a shipped name or a file; empty: chosen in the program
+    double touchLevel = 0.0; ///< dB, for everything
+    double soundLevel = 0.0; ///< dB
+    Masking masking;
+    ExposureLimits limits;
+    bool operator==(const Study&) const = default;
+};
+
+namespace studyLimits
+{
+inline constexpr std::size_t stimuli = 10'000, groups = 100, blocks = 100;
+inline constexpr int participants = 100'000;
+} // namespace studyLimits
+
+/// The index of the stimulus of that name; npos when there is none.
+[[nodiscard]] std::size_t stimulusNamed(const Study& study, std::string_view name);
+inline constexpr std::size_t noStimulus = static_cast<std::size_t>(-1);
+
+/// The stimuli of a block, as indices into the study's.
+[[nodiscard]] std::vector<std::size_t> stimuliOf(const Study& study, const Block& block);
+
+/// Whether the members of `group` do this block.
+[[nodiscard]] bool isFor(const Block& block, std::string_view group);
+
+/// Participants of all groups.
+[[nodiscard]] int participantsOf(const Study& study);
+
+/// Whether a task compares with a reference.
+[[nodiscard]] bool needsReference(const Block& block);
+
+} // namespace pacini::study

@@ -1,0 +1,278 @@
+#include "study/StudyCheck.h"
+
+#include "study/Exposure.h"
+#include "study/Plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace pacini::study
+{
+
+namespace
+{
+/// s that an answer takes, from pilot experience with such tasks: assumed.
+double answerSeconds(const Block& block, std::size_t stimuli)
+{
+    switch (block.task)
+    {
+    case Task::words:
+        return 20.0;
+    case Task::multiStimulus:
+    case Task::ranking:
+    case Task::sorting:
+        return 10.0 * static_cast<double>(stimuli);
+    case Task::rating:
+    case Task::similarity:
+        return 5.0;
+    case Task::abx:
+    case Task::forcedChoice:
+    case Task::staircase:
+        return 2.0;
+    }
+    return 5.0;
+}
+
+constexpr double replayShare = 0.5;  // of trials, played once more
+constexpr double sameBelow = -30.0;  // dB; smaller differences than 3 % of the amplitude are below all JNDs of level
+constexpr double longSession = 60.0; // minutes
+constexpr std::size_t mostCompared = 40; // stimuli of a block, each with each
+
+/// Stimuli as they are made, and what they cost.
+struct MadeStimulus
+{
+    double seconds = 0.0;
+    double dose = 0.0;
+    PreparedStimulus prepared;
+};
+
+class Check
+{
+public:
+    Check(const Study& toCheck, const StimulusParams& params, const std::function<void(double)>& toTell)
+        : study(toCheck), maker(toCheck, params), progress(toTell)
+    {
+    }
+
+    StudyCheck run()
+    {
+        result.exposureIsAssumed = !maker.params().profile || !maker.params().profile->body;
+        makeAll();
+        checkGroups();
+        checkTexts();
+        for (std::size_t i = 0; i < study.blocks.size(); ++i)
+            checkBlock(i);
+        if (made.size() == study.stimuli.size())
+            for (const Group& group : study.groups)
+                addLoad(group);
+        return std::move(result);
+    }
+
+private:
+    void spoils(std::string where, std::string message)
+    {
+        result.findings.push_back({true, std::move(where), std::move(message)});
+    }
+    void doubts(std::string where, std::string message)
+    {
+        result.findings.push_back({false, std::move(where), std::move(message)});
+    }
+
+    void makeAll()
+    {
+        for (std::size_t i = 0; i < study.stimuli.size(); ++i)
+        {
+            progress(static_cast<double>(i) / static_cast<double>(study.stimuli.size()));
+            auto prepared = maker.make(i);
+            if (!prepared)
+            {
+                spoils(prepared.error().where, prepared.error().message);
+                continue;
+            }
+            const int fs = maker.params().sampleRate;
+            MadeStimulus one;
+            one.seconds = static_cast<double>(prepared->touch.size()) / fs;
+            one.dose = doseOf(feltOf(prepared->touch, maker.params().profile, fs), fs);
+            const bool silent =
+                std::all_of(prepared->touch.begin(), prepared->touch.end(), [](float x) { return x == 0.0f; });
+            if (silent && !study.stimuli[i].silence)
+                doubts(fmt::format("stimuli[{}]", i), fmt::format("\"{}\" has nothing to feel", study.stimuli[i].name));
+            one.prepared = std::move(*prepared);
+            made.emplace(i, std::move(one));
+        }
+    }
+
+    void checkGroups()
+    {
+        int smallest = study.groups.front().size, largest = smallest;
+        for (const Group& group : study.groups)
+        {
+            smallest = std::min(smallest, group.size);
+            largest = std::max(largest, group.size);
+        }
+        if (smallest != largest)
+            doubts("groups",
+                   fmt::format("are uneven: {} to {} participants; comparisons are strongest between equal ones",
+                               smallest, largest));
+        if (smallest < 2)
+            doubts("groups", "has one with a single participant, about which no statistics can be made");
+    }
+
+    void checkTexts()
+    {
+        std::set<std::string> languages;
+        const auto collect = [&](const Text& text)
+        {
+            for (const auto& [code, said] : text)
+                languages.insert(code);
+        };
+        collect(study.welcome);
+        for (const Block& block : study.blocks)
+            collect(block.question);
+        const auto demand = [&](const Text& text, const std::string& where, bool needed)
+        {
+            if (text.empty())
+            {
+                if (needed)
+                    spoils(where, "is missing: participants would not know what to do");
+                return;
+            }
+            for (const std::string& language : languages)
+                if (std::none_of(text.begin(), text.end(), [&](const auto& pair) { return pair.first == language; }))
+                    doubts(where, fmt::format("has no text in \"{}\", in which other texts are", language));
+        };
+        demand(study.welcome, "welcome", false);
+        demand(study.consent, "consent", false);
+        demand(study.goodbye, "goodbye", false);
+        for (std::size_t i = 0; i < study.blocks.size(); ++i)
+        {
+            const std::string where = fmt::format("blocks[{}]", i);
+            demand(study.blocks[i].question, where + ".question", true);
+            demand(study.blocks[i].scale.lowLabel, where + ".scale.lowLabel", false);
+            demand(study.blocks[i].scale.highLabel, where + ".scale.highLabel", false);
+        }
+        if (study.consent.empty())
+            doubts("consent", "is missing; most committees ask for one");
+    }
+
+    void checkBlock(std::size_t index)
+    {
+        const Block& block = study.blocks[index];
+        const std::string where = fmt::format("blocks[{}]", index);
+        const std::vector<std::size_t> stimuli = stimuliOf(study, block);
+        const std::size_t rows = stimuli.size() % 2 == 0 ? stimuli.size() : 2 * stimuli.size();
+        if (block.order == Order::latinSquare)
+            for (const Group& group : study.groups)
+                if (isFor(block, group.name) && group.size % static_cast<int>(rows) != 0)
+                    doubts(where + ".order", fmt::format("is balanced for multiples of {} participants; {} has {}",
+                                                         rows, group.name, group.size));
+        for (const Group& group : study.groups)
+            if (std::none_of(study.blocks.begin(), study.blocks.end(),
+                             [&](const Block& one) { return isFor(one, group.name); }))
+                spoils("groups", fmt::format("has \"{}\", for which there is no block", group.name));
+        if (block.presentation == Presentation::touch && !block.masking)
+            doubts(where + ".masking", "is off: participants may hear the actuator");
+        // Only what is presented as it is; a staircase varies one stimulus.
+        if (block.task != Task::staircase && stimuli.size() <= mostCompared)
+            for (std::size_t i = 0; i < stimuli.size(); ++i)
+                for (std::size_t k = i + 1; k < stimuli.size(); ++k)
+                    compare(where, stimuli[i], stimuli[k], block);
+        if (!block.reference.empty() && block.task != Task::staircase)
+            for (const std::size_t stimulus : stimuli)
+                compare(where, stimulus, stimulusNamed(study, block.reference), block);
+    }
+
+    void compare(const std::string& where, std::size_t i, std::size_t k, const Block& block)
+    {
+        const auto a = made.find(i), b = made.find(k);
+        if (i == k || a == made.end() || b == made.end())
+            return;
+        double difference = -std::numeric_limits<double>::infinity();
+        if (block.presentation != Presentation::sound)
+            difference = differenceDecibels(a->second.prepared.touch, b->second.prepared.touch);
+        if (block.presentation != Presentation::touch)
+            difference = std::max(difference, differenceDecibels(a->second.prepared.sound, b->second.prepared.sound));
+        if (difference < sameBelow)
+            doubts(where, fmt::format("\"{}\" and \"{}\" can hardly be told apart: they differ by {:.0f} dB",
+                                      study.stimuli[i].name, study.stimuli[k].name, difference));
+    }
+
+    void addLoad(const Group& group)
+    {
+        std::size_t slot = 0;
+        while (study.groups[groupOfSlot(study, slot)].name != group.name)
+            ++slot;
+        GroupLoad load;
+        load.group = group.name;
+        double seconds = 0.0, dose = 0.0;
+        for (std::size_t index = 0; index < study.blocks.size(); ++index)
+        {
+            const Block& block = study.blocks[index];
+            if (!isFor(block, group.name))
+                continue;
+            for (const Trial& trial : trialsOf(study, index, slot))
+            {
+                ++load.trials;
+                double playing = 0.0;
+                for (const std::size_t stimulus : trial.stimuli)
+                {
+                    const MadeStimulus& one = made.at(stimulus);
+                    playing +=
+                        one.seconds * (block.presentation == Presentation::consecutive ? 2.0 : 1.0) + block.pause;
+                    if (block.presentation != Presentation::sound)
+                        dose += one.dose * (1.0 + replayShare);
+                }
+                seconds += playing * (1.0 + replayShare) + answerSeconds(block, trial.stimuli.size());
+            }
+        }
+        load.minutes = seconds / 60.0;
+        load.exposure = dailyExposure(dose);
+        if (load.exposure > study.limits.daily)
+            spoils("limits.daily",
+                   fmt::format(
+                       "would be passed: group {} is exposed to A(8) = {:.2f} m/s2, {:.2f} are allowed (ISO 5349-1)",
+                       group.name, load.exposure, study.limits.daily));
+        if (load.minutes > study.limits.minutes)
+            spoils("limits.minutes",
+                   fmt::format("would be passed: group {} takes some {:.0f} minutes, {:.0f} are allowed", group.name,
+                               load.minutes, study.limits.minutes));
+        else if (load.minutes > longSession)
+            doubts("blocks", fmt::format("take some {:.0f} minutes in group {}; people tire after an hour",
+                                         load.minutes, group.name));
+        result.loads.push_back(std::move(load));
+    }
+
+    const Study& study;
+    StimulusMaker maker;
+    const std::function<void(double)>& progress;
+    std::map<std::size_t, MadeStimulus> made;
+    StudyCheck result;
+};
+} // namespace
+
+double differenceDecibels(const std::vector<float>& a, const std::vector<float>& b)
+{
+    double difference = 0.0, energy = 0.0;
+    for (std::size_t n = 0; n < std::max(a.size(), b.size()); ++n)
+    {
+        const double x = n < a.size() ? static_cast<double>(a[n]) : 0.0,
+                     y = n < b.size() ? static_cast<double>(b[n]) : 0.0;
+        difference += (x - y) * (x - y);
+        energy += 0.5 * (x * x + y * y);
+    }
+    return difference > 0.0 ? 10.0 * std::log10(difference / energy) : -std::numeric_limits<double>::infinity();
+}
+
+StudyCheck checkStudy(const Study& study, const StimulusParams& params, const std::function<void(double)>& progress)
+{
+    return Check(study, params, progress).run();
+}
+
+} // namespace pacini::study

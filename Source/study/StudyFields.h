@@ -1,0 +1,155 @@
+#pragma once
+
+// Field lists of a study in JSON, which its reader and its writer follow.
+
+#include "io/Fields.h"
+#include "study/Study.h"
+
+#include <array>
+
+namespace pacini::study::fields
+{
+
+inline constexpr std::array<Choice<Task>, 9> tasks{{{"rating", Task::rating},
+                                                    {"words", Task::words},
+                                                    {"abx", Task::abx},
+                                                    {"forcedChoice", Task::forcedChoice},
+                                                    {"staircase", Task::staircase},
+                                                    {"multiStimulus", Task::multiStimulus},
+                                                    {"ranking", Task::ranking},
+                                                    {"similarity", Task::similarity},
+                                                    {"sorting", Task::sorting}}};
+inline constexpr std::array<Choice<Presentation>, 4> presentations{{{"sound", Presentation::sound},
+                                                                    {"touch", Presentation::touch},
+                                                                    {"consecutive", Presentation::consecutive},
+                                                                    {"simultaneous", Presentation::simultaneous}}};
+inline constexpr std::array<Choice<Order>, 3> orders{
+    {{"random", Order::random}, {"latinSquare", Order::latinSquare}, {"fixed", Order::fixed}}};
+inline constexpr std::array<Choice<Variable>, 7> variables{{{"level", Variable::level},
+                                                            {"levelDifference", Variable::levelDifference},
+                                                            {"frequency", Variable::frequency},
+                                                            {"delay", Variable::delay},
+                                                            {"bands", Variable::bands},
+                                                            {"breakpoints", Variable::breakpoints},
+                                                            {"bits", Variable::bits}}};
+inline constexpr std::array<Choice<Procedure>, 2> procedures{
+    {{"levitt", Procedure::levitt}, {"questPlus", Procedure::questPlus}}};
+
+inline constexpr std::size_t mostNames = studyLimits::stimuli;
+
+template <typename AnyTone, typename Visitor>
+void visitTone(AnyTone& tone, Visitor& visitor)
+{
+    visitor.number("frequency", tone.frequency, Need::usual);
+    visitor.number("duration", tone.duration, Need::usual);
+    visitor.number("fade", tone.fade, Need::usual);
+    visitor.number("level", tone.level, Need::usual);
+}
+
+template <typename AnyStimulus, typename Visitor>
+void visitStimulus(AnyStimulus& stimulus, Visitor& visitor)
+{
+    visitor.text("name", stimulus.name);
+    visitor.optionalText("sound", stimulus.sound);
+    visitor.optionalText("clip", stimulus.clip);
+    visitor.optionalText("drive", stimulus.drive);
+    visitor.optionalObject("tone", stimulus.tone, [&](auto& tone) { visitTone(tone, visitor); });
+    visitor.optionalNumber("silence", stimulus.silence);
+    visitor.optionalText("method", stimulus.method);
+    visitor.optionalNumber("bands", stimulus.bands);
+    visitor.optionalNumber("breakpoints", stimulus.breakpoints);
+    visitor.optionalNumber("bits", stimulus.bits);
+    visitor.number("soundLevel", stimulus.soundLevel, Need::usual);
+    visitor.number("touchLevel", stimulus.touchLevel, Need::usual);
+}
+
+template <typename AnyScale, typename Visitor>
+void visitScale(AnyScale& scale, Visitor& visitor)
+{
+    visitor.number("low", scale.low, Need::usual);
+    visitor.number("high", scale.high, Need::usual);
+    visitor.number("step", scale.step, Need::usual);
+    visitor.texts("lowLabel", scale.lowLabel);
+    visitor.texts("highLabel", scale.highLabel);
+}
+
+template <typename AnyAdaptive, typename Visitor>
+void visitAdaptive(AnyAdaptive& adaptive, Visitor& visitor)
+{
+    visitor.choice("procedure", adaptive.procedure, procedures, Need::usual);
+    visitor.choice("variable", adaptive.variable, variables, Need::usual);
+    visitor.number("start", adaptive.start, Need::usual);
+    visitor.number("lowest", adaptive.lowest, Need::usual);
+    visitor.number("highest", adaptive.highest, Need::usual);
+    visitor.number("step", adaptive.step, Need::usual);
+    visitor.number("finalStep", adaptive.finalStep, Need::usual);
+    visitor.integer("down", adaptive.down, "must be a whole number, 1 to 4");
+    visitor.integer("reversals", adaptive.reversals, "must be a whole number, 2 to 100");
+    visitor.integer("trials", adaptive.trials, "must be a whole number, 5 to 1000");
+}
+
+template <typename AnyBlock, typename Visitor>
+void visitBlock(AnyBlock& block, Visitor& visitor)
+{
+    visitor.text("name", block.name);
+    visitor.choice("task", block.task, tasks, Need::required);
+    visitor.choice("presentation", block.presentation, presentations, Need::usual);
+    visitor.choice("order", block.order, orders, Need::usual);
+    visitor.textList("groups", block.groups, studyLimits::groups);
+    visitor.textList("stimuli", block.stimuli, mostNames);
+    visitor.textList("training", block.training, mostNames);
+    visitor.optionalText("reference", block.reference);
+    visitor.textList("anchors", block.anchors, mostNames);
+    visitor.texts("question", block.question);
+    visitor.object("scale", block.scale, Need::optional, [&](auto& scale) { visitScale(scale, visitor); });
+    visitor.object("adaptive", block.adaptive, Need::optional,
+                   [&](auto& adaptive) { visitAdaptive(adaptive, visitor); });
+    visitor.integer("intervals", block.intervals, "must be 2 or 3");
+    visitor.integer("repeats", block.repeats, "must be a whole number, 1 to 1000");
+    visitor.integer("replays", block.replays, "must be a whole number, -1 (any) to 1000");
+    visitor.number("delay", block.delay, Need::usual);
+    visitor.number("pause", block.pause, Need::usual);
+    visitor.truth("masking", block.masking);
+    visitor.integer("breakAfter", block.breakAfter, "must be a whole number, 0 (none) to 1000");
+    visitor.truth("feedback", block.feedback);
+}
+
+/// Shows `visitor` (FieldsReader or FieldsWriter) all entries after format and version, in the order of the file.
+template <typename AnyStudy, typename Visitor>
+void visitStudy(AnyStudy& study, Visitor& visitor)
+{
+    visitor.text("name", study.name);
+    visitor.optionalText("description", study.description);
+    visitor.list("groups", study.groups, studyLimits::groups, "groups",
+                 [&](auto& group)
+                 {
+                     visitor.text("name", group.name);
+                     visitor.integer("size", group.size, "must be a whole number, 1 to 100000");
+                 });
+    visitor.list("stimuli", study.stimuli, studyLimits::stimuli, "stimuli",
+                 [&](auto& stimulus) { visitStimulus(stimulus, visitor); });
+    visitor.list("blocks", study.blocks, studyLimits::blocks, "blocks",
+                 [&](auto& block) { visitBlock(block, visitor); });
+    visitor.textList("comfort", study.comfort, mostNames);
+    visitor.texts("welcome", study.welcome);
+    visitor.texts("consent", study.consent);
+    visitor.texts("goodbye", study.goodbye);
+    visitor.optionalText("profile", study.profile);
+    visitor.number("touchLevel", study.touchLevel, Need::usual);
+    visitor.number("soundLevel", study.soundLevel, Need::usual);
+    visitor.object("masking", study.masking, Need::usual,
+                   [&](auto& masking)
+                   {
+                       visitor.number("level", masking.level, Need::usual);
+                       visitor.number("lowFrequency", masking.lowFrequency, Need::usual);
+                       visitor.number("highFrequency", masking.highFrequency, Need::usual);
+                   });
+    visitor.object("limits", study.limits, Need::usual,
+                   [&](auto& limits)
+                   {
+                       visitor.number("daily", limits.daily, Need::usual);
+                       visitor.number("minutes", limits.minutes, Need::usual);
+                   });
+}
+
+} // namespace pacini::study::fields

@@ -1,0 +1,212 @@
+#include "study/StudyResults.h"
+
+#include "study/Session.h"
+#include "study/StudyFile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace pacini::study
+{
+
+namespace
+{
+const Block* blockNamed(const Study& study, const std::string& name)
+{
+    for (const Block& block : study.blocks)
+        if (block.name == name)
+            return &block;
+    return nullptr;
+}
+
+void addPairs(std::vector<PairRating>& pairs, const SessionHead& head, const Record& record)
+{
+    for (std::size_t i = 0; i < record.stimuli.size(); ++i)
+        for (std::size_t k = i + 1; k < record.stimuli.size(); ++k)
+            pairs.push_back({head.group, head.participant, record.block, record.stimuli[i], record.stimuli[k],
+                             record.answer.values[i] == record.answer.values[k] ? 0.0 : 1.0});
+}
+
+/// The stimulus that was held against the reference.
+std::string testedOf(const Block& block, const Record& record)
+{
+    if (block.task == Task::abx)
+        return record.stimuli[0] == block.reference ? record.stimuli[1] : record.stimuli[0];
+    for (const std::string& name : record.stimuli)
+        if (name != block.reference)
+            return name;
+    return record.stimuli.front();
+}
+
+/// Sorts one session's answers.
+class Sorting
+{
+public:
+    Sorting(StudyResults& toFill, const SessionHead& who) : results(toFill), head(who) {}
+
+    void add(const Record& record)
+    {
+        const Block* block = blockNamed(results.study, record.block);
+        if (block == nullptr || record.stimuli.empty() || record.training)
+            return;
+        if (record.answer.dropouts > 0)
+        {
+            ++results.dropouts;
+            return;
+        }
+        const Answer& answer = record.answer;
+        const bool wholePage = answer.values.size() == record.stimuli.size();
+        switch (block->task)
+        {
+        case Task::rating:
+            if (answer.value)
+                results.ratings.push_back(rating(record, 0, *answer.value));
+            break;
+        case Task::words:
+            results.descriptions.push_back({head.group, head.participant, record.stimuli.front(), answer.words});
+            break;
+        case Task::similarity:
+            if (answer.value && record.stimuli.size() == 2)
+                results.pairs.push_back(
+                    {head.group, head.participant, record.block, record.stimuli[0], record.stimuli[1], *answer.value});
+            break;
+        case Task::multiStimulus:
+        case Task::ranking:
+            for (std::size_t i = 0; wholePage && i < record.stimuli.size(); ++i)
+                (block->task == Task::ranking ? results.ranks : results.ratings)
+                    .push_back(rating(record, i, answer.values[i]));
+            break;
+        case Task::sorting:
+            if (wholePage)
+                addPairs(results.together, head, record);
+            break;
+        case Task::staircase:
+            staircases[{block, testedOf(*block, record)}].push_back(record);
+            break;
+        case Task::abx:
+        case Task::forcedChoice:
+            if (record.correct)
+            {
+                auto& [right, trials] = choices[{block, testedOf(*block, record)}];
+                right += *record.correct ? 1u : 0u;
+                ++trials;
+            }
+            break;
+        }
+    }
+
+    void finish()
+    {
+        for (const auto& [key, records] : staircases)
+            if (const auto found = thresholdOf(*key.first, records))
+                results.thresholds.push_back({head.group, head.participant, key.first->name, key.second, *found,
+                                              valueOf(key.first->adaptive.variable, found->strength), records.size()});
+        for (const auto& [key, counts] : choices)
+            results.choices.push_back(
+                {head.group, head.participant, key.first->name, key.second, counts.first, counts.second});
+    }
+
+private:
+    [[nodiscard]] Rating rating(const Record& record, std::size_t i, double value) const
+    {
+        return {head.group, head.participant, record.block, record.stimuli[i], value};
+    }
+
+    StudyResults& results;
+    const SessionHead& head;
+    std::map<std::pair<const Block*, std::string>, std::vector<Record>> staircases;
+    std::map<std::pair<const Block*, std::string>, std::pair<std::size_t, std::size_t>> choices;
+};
+} // namespace
+
+std::optional<ThresholdEstimate> thresholdOf(const Block& block, const std::vector<Record>& records)
+{
+    if (block.adaptive.procedure == Procedure::levitt)
+    {
+        LevittStaircase staircase(block.adaptive);
+        for (const Record& record : records)
+            if (record.correct)
+                staircase.answer(*record.correct);
+        return staircase.threshold();
+    }
+    PsychometricPosterior posterior(priorOf(block.adaptive, block.intervals));
+    std::size_t count = 0;
+    for (const Record& record : records)
+        if (record.correct && record.level)
+        {
+            posterior.update(strengthOf(block.adaptive.variable, *record.level), *record.correct);
+            ++count;
+        }
+    if (count == 0)
+        return std::nullopt;
+    const Psychometric mean = posterior.mean();
+    return ThresholdEstimate{mean.threshold, posterior.thresholdSd(), posterior.threshold95(), mean(mean.threshold)};
+}
+
+std::filesystem::path studyFileOf(const std::filesystem::path& named)
+{
+    std::error_code unknown;
+    return std::filesystem::is_directory(named, unknown) ? named / studyFileName : named;
+}
+
+Study relocated(Study study, const std::filesystem::path& from, const std::filesystem::path& to)
+{
+    const auto move = [&](std::string& file)
+    {
+        std::error_code failed;
+        const std::filesystem::path moved = std::filesystem::relative(from / file, to, failed);
+        if (!file.empty())
+            file = failed || moved.empty() ? std::filesystem::absolute(from / file, failed).generic_string()
+                                           : moved.generic_string();
+    };
+    for (Stimulus& stimulus : study.stimuli)
+        for (std::string* file : {&stimulus.sound, &stimulus.clip, &stimulus.drive})
+            move(*file);
+    return study;
+}
+
+Result<StudyResults> readResults(const std::filesystem::path& named)
+{
+    StudyResults results;
+    const std::filesystem::path file = studyFileOf(named), folder = file.parent_path();
+    auto study = readStudy(file);
+    if (!study)
+        return study.error();
+    results.study = std::move(*study);
+    const std::string hash = hashOf(results.study);
+    for (const std::filesystem::path& path : sessionLogs(folder))
+    {
+        auto session = readSession(path);
+        const std::string name = path.filename().string();
+        if (!session)
+        {
+            results.warnings.push_back(fmt::format("{}: {}", name, session.error().text()));
+            continue;
+        }
+        if (session->head.studySha256 != hash)
+        {
+            results.warnings.push_back(fmt::format("{}: is of another version of the study and left out", name));
+            continue;
+        }
+        if (!session->finished)
+            results.warnings.push_back(fmt::format("{}: is not finished; its answers count", name));
+        results.sessions.push_back(std::move(*session));
+    }
+    if (results.sessions.empty())
+        return Error{ErrorCode::io, "sessions", "has no session that could be read"};
+    for (const LoggedSession& session : results.sessions)
+    {
+        Sorting sorting(results, session.head);
+        for (const Record& record : session.records)
+            sorting.add(record);
+        sorting.finish();
+    }
+    return results;
+}
+
+} // namespace pacini::study

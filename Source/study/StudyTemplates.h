@@ -1,0 +1,31 @@
+#pragma once
+
+// Studies to begin with, one for each question that people ask.
+
+#include "study/Study.h"
+
+#include <pacini/foundation/Result.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini::study
+{
+
+struct StudyTemplate
+{
+    std::string_view name;
+    std::string_view purpose;     ///< one line
+    std::size_t fewestSounds = 0; ///< that it needs
+};
+
+/// All of them: coherence, words, mushra, abx, jnd, threshold, similarity, ranking.
+[[nodiscard]] std::span<const StudyTemplate> studyTemplates() noexcept;
+
+/// The study of a template with these sounds (paths from the study's folder). It passes validate(). Errors:
+/// invalidArgument for another name or too few sounds.
+[[nodiscard]] Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& sounds);
+
+} // namespace pacini::study

@@ -1,0 +1,179 @@
+#include "study/TrialSound.h"
+
+#include "study/Observers.h"
+
+#include <pacini/foundation/Random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace pacini::study
+{
+
+namespace
+{
+/// Adds stimuli at the end of a trial.
+class Assembly
+{
+public:
+    Assembly(TrialSound& toFill, const Block& ofBlock, int sampleRate) : trial(toFill), block(ofBlock), fs(sampleRate)
+    {
+    }
+
+    /// Sound and touch as the block presents them, the touch `delay` s later.
+    void add(const PreparedStimulus& stimulus, double delay)
+    {
+        const std::size_t begin = trial.sound.size();
+        switch (block.presentation)
+        {
+        case Presentation::sound:
+            put(stimulus.sound, {}, 0.0);
+            break;
+        case Presentation::touch:
+            put({}, stimulus.touch, 0.0);
+            break;
+        case Presentation::simultaneous:
+            put(stimulus.sound, stimulus.touch, delay);
+            break;
+        case Presentation::consecutive:
+            put(stimulus.sound, {}, 0.0);
+            pause();
+            alone.push_back({trial.sound.size(), trial.sound.size() + stimulus.touch.size()});
+            put({}, stimulus.touch, 0.0);
+            break;
+        }
+        trial.parts.push_back({begin, trial.sound.size()});
+    }
+
+    void pause() { lengthen(framesOf(block.pause)); }
+
+    /// Where something is felt and nothing heard, for the noise that hides the actuator: of touches alone the whole, so
+    /// that its ends tell nothing.
+    [[nodiscard]] std::vector<FrameRange> feltAlone() const
+    {
+        if (block.presentation == Presentation::touch && !trial.sound.empty())
+            return {{0, trial.sound.size()}};
+        return alone;
+    }
+
+private:
+    [[nodiscard]] std::size_t framesOf(double seconds) const
+    {
+        return static_cast<std::size_t>(std::llround(std::max(seconds, 0.0) * fs));
+    }
+    void lengthen(std::size_t frames)
+    {
+        trial.sound.resize(trial.sound.size() + frames, 0.0f);
+        trial.touch.resize(trial.touch.size() + frames, 0.0f);
+    }
+    void put(std::span<const float> sound, std::span<const float> touch, double delay)
+    {
+        const std::size_t begin = trial.sound.size();
+        const std::size_t soundAt = begin + framesOf(-delay), touchAt = begin + framesOf(delay);
+        const std::size_t soundEnd = sound.empty() ? begin : soundAt + sound.size();
+        const std::size_t touchEnd = touch.empty() ? begin : touchAt + touch.size();
+        lengthen(std::max(soundEnd, touchEnd) - begin);
+        if (!sound.empty())
+            std::copy(sound.begin(), sound.end(), trial.sound.begin() + static_cast<std::ptrdiff_t>(soundAt));
+        if (!touch.empty())
+            std::copy(touch.begin(), touch.end(), trial.touch.begin() + static_cast<std::ptrdiff_t>(touchAt));
+    }
+
+    TrialSound& trial;
+    const Block& block;
+    double fs;
+    std::vector<FrameRange> alone;
+};
+
+std::optional<std::size_t> onsetOf(const std::vector<float>& samples)
+{
+    const auto found = std::find_if(samples.begin(), samples.end(), [](float sample) { return sample != 0.0f; });
+    return found == samples.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - samples.begin()));
+}
+
+/// Band-limited Gaussian noise with short fades on a stretch of the sound.
+void addMasking(std::span<float> sound, const Masking& masking, int sampleRate, Random& random)
+{
+    const double fs = sampleRate;
+    std::vector<double> noise(sound.size());
+    // One pole each way is enough for a mask.
+    const double low = std::exp(-2.0 * std::numbers::pi * masking.lowFrequency / fs);
+    const double high = std::exp(-2.0 * std::numbers::pi * std::min(masking.highFrequency, 0.45 * fs) / fs);
+    double slow = 0.0, fast = 0.0, power = 0.0;
+    for (double& sample : noise)
+    {
+        fast = (1.0 - high) * normalNumber(random) + high * fast;
+        slow = (1.0 - low) * fast + low * slow;
+        sample = fast - slow;
+        power += sample * sample;
+    }
+    if (!(power > 0.0))
+        return;
+    const double gain = std::pow(10.0, masking.level / 20.0) / std::sqrt(power / static_cast<double>(noise.size()));
+    const double fade = 0.05 * fs;
+    for (std::size_t n = 0; n < noise.size(); ++n)
+    {
+        const auto fromEnd = static_cast<double>(std::min(n, noise.size() - 1 - n));
+        sound[n] += static_cast<float>(gain * std::min(1.0, fromEnd / fade) * noise[n]);
+    }
+}
+
+void finish(TrialSound& trial, const Assembly& assembly, const StimulusMaker& maker, const Block& block,
+            std::uint64_t seed)
+{
+    trial.soundOnset = onsetOf(trial.sound);
+    trial.touchOnset = onsetOf(trial.touch);
+    if (!block.masking)
+        return;
+    Random random(seed);
+    for (const FrameRange& range : assembly.feltAlone())
+        addMasking(std::span(trial.sound).subspan(range.begin, range.end - range.begin), maker.study().masking,
+                   maker.params().sampleRate, random);
+}
+
+double delayOf(const Block& block, const std::optional<Variation>& variation)
+{
+    return block.delay + (variation && variation->variable == Variable::delay ? variation->value / 1000.0 : 0.0);
+}
+} // namespace
+
+Result<TrialSound> makeTrial(StimulusMaker& maker, const Trial& trial, std::optional<double> level,
+                             std::uint64_t maskingSeed)
+{
+    const Block& block = maker.study().blocks[trial.block];
+    TrialSound made;
+    Assembly assembly(made, block, maker.params().sampleRate);
+    for (std::size_t i = 0; i < trial.stimuli.size(); ++i)
+    {
+        std::optional<Variation> variation;
+        if (level && static_cast<int>(i) == trial.right)
+            variation = Variation{block.adaptive.variable, *level};
+        auto stimulus = maker.make(trial.stimuli[i], variation);
+        if (!stimulus)
+            return stimulus.error();
+        if (level && block.adaptive.variable == Variable::level && !variation)
+            std::fill(stimulus->touch.begin(), stimulus->touch.end(), 0.0f);
+        if (i > 0)
+            assembly.pause();
+        assembly.add(*stimulus, delayOf(block, variation));
+    }
+    finish(made, assembly, maker, block, maskingSeed);
+    return made;
+}
+
+Result<TrialSound> makePart(StimulusMaker& maker, const Block& block, std::size_t stimulus, std::uint64_t maskingSeed)
+{
+    const auto prepared = maker.make(stimulus);
+    if (!prepared)
+        return prepared.error();
+    TrialSound made;
+    Assembly assembly(made, block, maker.params().sampleRate);
+    assembly.add(*prepared, block.delay);
+    finish(made, assembly, maker, block, maskingSeed);
+    return made;
+}
+
+} // namespace pacini::study

@@ -1,0 +1,52 @@
+#pragma once
+
+// Free descriptions: words, how often they come, and their categories.
+
+#include <pacini/foundation/Result.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pacini::study
+{
+
+/// A description of a stimulus.
+struct Description
+{
+    std::string group;
+    std::string participant;
+    std::string stimulus;
+    std::string words;
+};
+
+/// The words of a text: in small letters, without punctuation and numbers, without words that say nothing (German and
+/// English: und, the).
+[[nodiscard]] std::vector<std::string> wordsOf(std::string_view text);
+
+/// Which words belong to which category. A word that ends in * stands for all that begin so.
+class WordCategories
+{
+public:
+    /// Of a table with lines `category,word`; the first may be such names. Errors (invalidData) at `line 3`.
+    [[nodiscard]] static Result<WordCategories> ofCsv(std::string_view text);
+
+    /// Empty for none. Of beginnings the longest counts.
+    [[nodiscard]] std::string categoryOf(std::string_view word) const;
+
+    /// In the order of the table.
+    [[nodiscard]] const std::vector<std::string>& names() const noexcept { return ordered; }
+
+private:
+    std::map<std::string, std::string, std::less<>> whole, beginnings;
+    std::vector<std::string> ordered;
+};
+
+/// How often each word came, the most frequent first.
+using WordCounts = std::vector<std::pair<std::string, std::size_t>>;
+[[nodiscard]] WordCounts countWords(const std::vector<Description>& descriptions, std::string_view group);
+
+} // namespace pacini::study

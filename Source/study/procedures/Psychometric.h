@@ -1,0 +1,89 @@
+#pragma once
+
+// Psychometric function and what answers say of its parameters.
+
+#include "study/statistics/Sample.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace pacini::study
+{
+
+/// Share of right answers at a strength (Weibull over dB, as in Watson 2017, eq. 3).
+struct Psychometric
+{
+    double threshold = 0.0; ///< dB; there the share of what is not guessed or lapsed is 1 - 1/e
+    double slope = 3.5;
+    double guess = 0.5; ///< right without feeling anything: 1 / intervals
+    double lapse = 0.02;
+
+    [[nodiscard]] double operator()(double strength) const noexcept;
+
+    /// The strength at which the share is `p`, above guess and below 1 - lapse.
+    [[nodiscard]] double strengthAt(double p) const noexcept;
+};
+
+/// Evenly spaced values.
+struct Grid
+{
+    double low = 0.0;
+    double high = 0.0;
+    std::size_t count = 1;
+
+    [[nodiscard]] double operator[](std::size_t i) const noexcept
+    {
+        return count < 2 ? low : low + (high - low) * static_cast<double>(i) / static_cast<double>(count - 1);
+    }
+};
+
+/// Which thresholds, slopes and lapses are thinkable, all alike before the first answer.
+struct PsychometricPrior
+{
+    Grid thresholds;
+    Grid slopes{2.0, 7.0, 6}; ///< thresholds of touch rise steeply; flatter ones pull the mean down
+    Grid lapses{0.0, 0.04, 3};
+    double guess = 0.5;
+};
+
+/// Probability of the parameters after the answers so far, on the grid of the prior.
+class PsychometricPosterior
+{
+public:
+    explicit PsychometricPosterior(const PsychometricPrior& prior);
+
+    /// After an answer at `strength`.
+    void update(double strength, bool right);
+
+    /// What an answer at a strength would be worth.
+    struct Candidate
+    {
+        double strength = 0.0;
+        std::vector<double> chances;      ///< of a right answer, for each of the parameters
+        std::vector<double> negentropies; ///< p log p + (1 - p) log (1 - p) of these
+    };
+    [[nodiscard]] Candidate candidateAt(double strength) const;
+
+    /// As the other one, for a strength that is known.
+    void update(const Candidate& candidate, bool right);
+
+    /// Entropy, in nats, that is to be expected after one more answer there, but for what all candidates have in
+    /// common.
+    [[nodiscard]] double expectedEntropy(const Candidate& candidate) const;
+
+    /// The mean of each parameter.
+    [[nodiscard]] Psychometric mean() const;
+
+    /// Of the threshold alone.
+    [[nodiscard]] double thresholdSd() const;
+    [[nodiscard]] Interval threshold95() const;
+
+private:
+    [[nodiscard]] Psychometric at(std::size_t i) const;
+    [[nodiscard]] std::vector<double> thresholdWeights() const;
+
+    PsychometricPrior grid;
+    std::vector<double> weights; ///< threshold after threshold, in each slope after slope
+};
+
+} // namespace pacini::study

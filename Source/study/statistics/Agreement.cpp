@@ -1,0 +1,85 @@
+#include "study/statistics/Agreement.h"
+
+#include "study/statistics/Distributions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pacini::study
+{
+
+IntraclassCorrelation intraclassCorrelation(const RatingTable& table)
+{
+    IntraclassCorrelation found;
+    if (table.size() < 2 || table.front().size() < 2)
+        return found;
+    // Targets are the stimuli, raters the participants.
+    const std::size_t raters = table.size(), targets = table.front().size();
+    const auto k = static_cast<double>(raters), n = static_cast<double>(targets);
+    std::vector<double> ofRaters, ofTargets, all;
+    for (const auto& row : table)
+    {
+        ofRaters.push_back(meanOf(row));
+        all.insert(all.end(), row.begin(), row.end());
+    }
+    for (std::size_t i = 0; i < targets; ++i)
+    {
+        std::vector<double> column;
+        for (const auto& row : table)
+            column.push_back(row[i]);
+        ofTargets.push_back(meanOf(column));
+    }
+    const double betweenTargets = k * squaresOf(ofTargets), betweenRaters = n * squaresOf(ofRaters);
+    const double rest = std::max(0.0, squaresOf(all) - betweenTargets - betweenRaters);
+    const double msr = betweenTargets / (n - 1.0), msc = betweenRaters / (k - 1.0);
+    const double mse = rest / ((n - 1.0) * (k - 1.0));
+    const double single = msr + (k - 1.0) * mse + k * (msc - mse) / n;
+    const double mean = msr + (msc - mse) / n;
+    if (!(single > 0.0) || !(mean > 0.0))
+        return found;
+    found.single = (msr - mse) / single;
+    found.mean = (msr - mse) / mean;
+    // McGraw and Wong (1996), table 7.
+    const double a = k * found.single / (n * (1.0 - found.single));
+    const double b = 1.0 + k * found.single * (n - 1.0) / (n * (1.0 - found.single));
+    const double numerator = (a * msc + b * mse) * (a * msc + b * mse);
+    const double denominator = (a * msc) * (a * msc) / (k - 1.0) + (b * mse) * (b * mse) / ((n - 1.0) * (k - 1.0));
+    found.single95 = {found.single, found.single};
+    if (denominator > 0.0)
+    {
+        const double v = numerator / denominator;
+        const double lower = quantileF(0.975, n - 1.0, v), upper = quantileF(0.975, v, n - 1.0);
+        const double spread = k * msc + (k * n - k - n) * mse;
+        found.single95 = {n * (msr - lower * mse) / (lower * spread + n * msr),
+                          n * (upper * msr - mse) / (spread + n * upper * msr)};
+    }
+    return found;
+}
+
+Friedman friedman(const RatingTable& table)
+{
+    Friedman found;
+    if (table.size() < 2 || table.front().size() < 2)
+        return found;
+    const auto n = static_cast<double>(table.size()), k = static_cast<double>(table.front().size());
+    std::vector<double> rankSums(table.front().size(), 0.0);
+    double ties = 0.0;
+    for (const auto& row : table)
+    {
+        const std::vector<double> ranks = ranksOf(row);
+        for (std::size_t i = 0; i < ranks.size(); ++i)
+            rankSums[i] += ranks[i];
+        ties += tieSumOf(row);
+    }
+    const double spread = n * n * k * (k * k - 1.0) - n * ties;
+    found.degrees = k - 1.0;
+    if (!(spread > 0.0))
+        return found;
+    found.kendallsW = 12.0 * squaresOf(rankSums) / spread;
+    found.chiSquared = n * (k - 1.0) * found.kendallsW;
+    found.p = upperTailChiSquared(found.chiSquared, found.degrees);
+    return found;
+}
+
+} // namespace pacini::study
