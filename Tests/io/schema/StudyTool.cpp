@@ -1,0 +1,56 @@
+#include "io/AtomicFile.h"
+#include "io/schema/DocumentTool.h"
+#include "study/StudyFile.h"
+#include "study/StudyTemplates.h"
+
+using namespace pacini;
+
+namespace
+{
+/// The templates, and one study that has everything.
+study::Study sample(int number)
+{
+    const auto templates = study::studyTemplates();
+    const std::size_t which = static_cast<std::size_t>(number) % (templates.size() + 1);
+    if (which < templates.size())
+        return study::makeStudy(templates[which].name, {"a.wav", "b.wav", "c.wav"}).value();
+    study::Study whole = study::makeStudy("coherence", {"a.wav", "b.wav", "c.wav"}).value();
+    whole.profile = "l5-wristband";
+    whole.comfort = {"a"};
+    whole.stimuli[0].clip = "a.pacb";
+    whole.stimuli[1].drive = "b.wav";
+    whole.stimuli[2].method = "percept";
+    whole.stimuli[2].bits = 6;
+    whole.stimuli[2].bands = 4;
+    whole.stimuli[2].breakpoints = 10;
+    study::Stimulus silence;
+    silence.name = "silence";
+    silence.silence = 1.0;
+    study::Stimulus tone;
+    tone.name = "tone";
+    tone.tone = study::Tone{};
+    whole.stimuli.push_back(silence);
+    whole.stimuli.push_back(tone);
+    study::Block block;
+    block.name = "sorting";
+    block.task = study::Task::multiStimulus;
+    block.stimuli = {"a", "b"};
+    block.training = {"c"};
+    block.reference = "tone";
+    block.anchors = {"silence"};
+    block.adaptive.procedure = study::Procedure::levitt;
+    block.scale.step = 1.0;
+    whole.blocks.push_back(block);
+    return whole;
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const auto writeSample = [](const std::filesystem::path& path, int number)
+    {
+        return writeFileAtomically(path, study::studyJson(sample(number)));
+    };
+    return test::documentTool(argc, argv, writeSample,
+                              [](std::string_view text) { return study::readStudyJson(text); });
+}

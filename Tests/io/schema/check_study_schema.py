@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Checks the schema of studies with an independent validator against what the library writes and refuses.
+
+check_study_schema.py STUDY_TOOL SCHEMA     exit 0 when both agree
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import check_schema as common
+from check_schema import Draft202012Validator, check
+
+# What the schema cannot say and only the reader checks: names that lead somewhere, and numbers that hang on others.
+BEYOND_SCHEMA = (
+    "must be above low",
+    "must be above 0 and at most step",
+    "must be above 0",
+    "no stimulus is called",
+    "no group is called",
+    "another one is called, too",
+    "has more than one of",
+    "has nothing to feel",
+    "is held against",
+    "leaves nothing",
+    "needs two at least",
+    "too many for one page",
+    "no translation method",
+)
+# Ranges that hang on other members.
+PLACES_BEYOND_SCHEMA = (".adaptive.start", ".scale.step", "masking.highFrequency", ".tone.fade", ".adaptive.highest")
+
+
+def beyond_schema(where, message):
+    return any(text in message for text in BEYOND_SCHEMA) or where.endswith(PLACES_BEYOND_SCHEMA)
+
+
+def check_written(tool, validator, schema):
+    documents, used = [], set()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([tool, "write", folder], check=True)
+        for path in sorted(Path(folder).iterdir()):
+            document = common.strict_json(path.read_bytes())
+            problems = [error.message for error in validator.iter_errors(document)]
+            check(not problems, f"{path.name} breaks the schema: {problems[:3]}")
+            common.same_order(document, schema["properties"], path.name)
+            used.update(document)
+            for kind, entries in (("stimulus", document["stimuli"]), ("block", document["blocks"])):
+                for entry in entries:
+                    common.same_order(entry, schema["$defs"][kind]["properties"], f"{path.name}: {kind}")
+                    used.update(f"{kind}.{member}" for member in entry)
+            documents.append(document)
+    known = set(schema["properties"])
+    for kind in ("stimulus", "block"):
+        known.update(f"{kind}.{member}" for member in schema["$defs"][kind]["properties"])
+    check(used == known, f"schema and studies differ in {sorted(used ^ known)}")
+    return documents
+
+
+def main():
+    tool, schema_path = sys.argv[1], Path(sys.argv[2])
+    schema = common.strict_json(schema_path.read_bytes())
+    common.check_schema_itself(schema)
+    validator = Draft202012Validator(schema)
+    documents = check_written(tool, validator, schema)
+    common.check_agreement(tool, validator, documents, 20261127, beyond_schema, least=(100, 300, 10), rounds=1500)
+    print("\n".join(common.failures) if common.failures else "schema and library agree")
+    return 1 if common.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
