@@ -4,18 +4,23 @@
 
 #include "app/CommandLine.h"
 #include "app/Display.h"
+#include "app/OpenDevice.h"
 #include "app/editor/DemoFiles.h"
 #include "app/editor/EditorSettings.h"
 #include "app/editor/EditorWindow.h"
 #include "app/editor/PreviewDevices.h"
+#include "app/editor/StudyWindow.h"
 #include "document/BuiltInProfiles.h"
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
+#include "study/StudyFile.h"
+#include "study/StudyResults.h"
 
 #include <juce_audio_utils/juce_audio_utils.h>
 
 #include <algorithm>
+#include <iostream>
 #include <memory>
 
 namespace pacini::app
@@ -61,8 +66,8 @@ public:
     void initialise(const juce::String&) override
     {
         CLI::App options("Pacini Editor: sounds become clips that can be reshaped, felt and exported.", "PaciniEditor");
-        bool fresh = false;
-        std::string deviceType, language;
+        bool fresh = false, fullScreen = false;
+        std::string deviceType, language, study;
         std::vector<std::string> names;
         options.add_option("files", names, "Sounds, clips of any known format, folders of them, or a project")
             ->type_name("FILE");
@@ -71,6 +76,8 @@ public:
             ->type_name("TYPE");
         options.add_option("--language", language, "Of menus and controls: en or " + languageCodes())
             ->type_name("CODE");
+        options.add_option("--study", study, "Run a study: its folder or file")->type_name("STUDY");
+        options.add_flag("--full-screen", fullScreen, "Fill the screen with the study");
         if (const auto code = readCommandLine(options, PACINI_VERSION, getCommandLineParameterArray()))
         {
             setApplicationReturnValue(*code);
@@ -81,9 +88,13 @@ public:
             setApplicationReturnValue(1);
             return quit();
         }
+        const auto absolute = [](const std::string& name)
+        {
+            return pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(name)));
+        };
         std::vector<std::filesystem::path> files;
         for (const std::string& name : names)
-            files.push_back(pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(editor::toText(name))));
+            files.push_back(absolute(name));
         const auto home = settingsFolder();
         if (!fresh)
         {
@@ -97,6 +108,13 @@ public:
         const auto ownProfiles = home.getChildFile("profiles");
         if (!fresh)
             addOwnProfiles(profiles, ownProfiles);
+        if (!study.empty())
+        {
+            editor::useLanguage(!language.empty() ? editor::toText(language)
+                                : settings        ? settings->language()
+                                                  : juce::String("en"));
+            return runStudy(absolute(study), editor::toText(deviceType), fullScreen, std::move(profiles));
+        }
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
         rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
         std::unique_ptr<juce::XmlElement> devices;
@@ -139,10 +157,37 @@ public:
         view.files().offerRecovery();
     }
 
+    /// The study alone, without the editor.
+    void runStudy(const std::filesystem::path& named, const juce::String& deviceType, bool fullScreen,
+                  std::vector<NamedProfile> profiles)
+    {
+        const std::filesystem::path file = study::studyFileOf(named);
+        auto read = study::readStudy(file);
+        if (!read)
+        {
+            std::cerr << "PaciniEditor: " << file.string() << ": " << read.error().text() << '\n';
+            setApplicationReturnValue(1);
+            return quit();
+        }
+        studyDevices = std::make_unique<juce::AudioDeviceManager>();
+        constexpr int mostChannels = 256;
+        const auto saved = settings ? settings->devices() : nullptr;
+        if (const auto error = openDevice(*studyDevices, 0, mostChannels, saved.get(), deviceType); error.isNotEmpty())
+            juce::Logger::writeToLog("Pacini: no sound device: " + error);
+        studyWindow =
+            std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, *studyDevices,
+                                          std::move(profiles), "Pacini " PACINI_VERSION, [this] { quit(); });
+        studyWindow->setVisible(true);
+        if (fullScreen)
+            studyWindow->setFullScreen(true);
+    }
+
     void anotherInstanceStarted(const juce::String&) override {}
 
     void systemRequestedQuit() override
     {
+        if (window == nullptr) // every answer of a study is on the disk
+            return quit();
         window->view().files().whenSaved([this] { leave(); });
     }
 
@@ -150,6 +195,8 @@ public:
     {
         if (settings && window)
             settings->keep(*rig, window->view(), window->getWindowStateAsString());
+        studyWindow.reset();
+        studyDevices.reset();
         window.reset();
         rig.reset();
         session.reset();
@@ -176,6 +223,8 @@ private:
     std::unique_ptr<editor::Session> session;
     std::unique_ptr<PreviewDevices> rig;
     std::unique_ptr<EditorWindow> window;
+    std::unique_ptr<juce::AudioDeviceManager> studyDevices; ///< of a study that runs without the editor
+    std::unique_ptr<StudyWindow> studyWindow;
 };
 
 } // namespace pacini::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/editor/StudyDevice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace pacini::app
+{
+
+StudyDevice::StudyDevice(juce::AudioDeviceManager& wanted) : manager(wanted)
+{
+    manager.addAudioCallback(this);
+}
+
+StudyDevice::~StudyDevice()
+{
+    manager.removeAudioCallback(this);
+}
+
+int StudyDevice::sampleRate() const
+{
+    auto* open = manager.getCurrentAudioDevice();
+    return open == nullptr ? 0 : static_cast<int>(std::lround(open->getCurrentSampleRate()));
+}
+
+study::PlaybackReport StudyDevice::report() const
+{
+    auto report = playback.report();
+    // Without a device nobody plays on: the trial is lost, and is repeated.
+    if (report.playing && manager.getCurrentAudioDevice() == nullptr)
+    {
+        report.playing = false;
+        ++report.dropouts;
+    }
+    return report;
+}
+
+juce::StringArray StudyDevice::outputNames() const
+{
+    juce::StringArray names;
+    if (auto* open = manager.getCurrentAudioDevice())
+    {
+        const auto all = open->getOutputChannelNames();
+        const auto active = open->getActiveOutputChannels();
+        for (int c = 0; c < all.size(); ++c)
+            if (active[c])
+                names.add(juce::String(c + 1) + "  " + all[c]);
+    }
+    return names;
+}
+
+void StudyDevice::wire(int sound, int touch) noexcept
+{
+    soundChannel.store(sound);
+    touchChannel.store(touch);
+}
+
+void StudyDevice::audioDeviceAboutToStart(juce::AudioIODevice* started)
+{
+    playback.prepare(started->getCurrentSampleRate());
+    device.store(started);
+    overruns = std::max(0, started->getXRunCount());
+}
+
+void StudyDevice::audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outs, int frames,
+                                                   const juce::AudioIODeviceCallbackContext&)
+{
+    if (auto* running = device.load())
+        if (const int count = running->getXRunCount(); count > overruns)
+        {
+            overruns = count;
+            playback.drop();
+        }
+    const int sound = soundChannel.load(), touch = touchChannel.load();
+    for (int done = 0; done < frames;)
+    {
+        const int count = std::min(frames - done, pieceFrames);
+        const auto size = static_cast<std::size_t>(count);
+        playback.process(std::span(pieces[0]).first(size), std::span(pieces[1]).first(size),
+                         std::span(pieces[2]).first(size));
+        for (int c = 0; c < outs; ++c)
+        {
+            if (out[c] == nullptr)
+                continue;
+            // The actuator gets nothing but the touch, whatever else is said to be there.
+            const float* from = c == touch       ? pieces[2].data()
+                                : c == sound     ? pieces[0].data()
+                                : c == sound + 1 ? pieces[1].data()
+                                                 : nullptr;
+            if (from != nullptr)
+                juce::FloatVectorOperations::copy(out[c] + done, from, count);
+            else
+                juce::FloatVectorOperations::clear(out[c] + done, count);
+        }
+        done += count;
+    }
+}
+
+} // namespace pacini::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/editor/StudyWindow.h"
+
+#include "editor/Text.h"
+#include "editor/Translation.h"
+
+#include <utility>
+
+namespace pacini::app
+{
+
+/// The experimenter's window: who is where, what plays, how much was felt. To be kept out of the participant's sight.
+class StudyWindow::Monitor final : public juce::DocumentWindow
+{
+public:
+    explicit Monitor(editor::StudyPage& watched)
+        : DocumentWindow(editor::tr("Study: experimenter"), juce::Colours::black, DocumentWindow::minimiseButton),
+          page(watched)
+    {
+        setUsingNativeTitleBar(true);
+        lines.setMultiLine(true);
+        lines.setReadOnly(true);
+        lines.setTitle(editor::tr("State of the session"));
+        lines.setSize(460, 260);
+        setContentNonOwned(&lines, true);
+        setResizable(true, false);
+        refresh();
+    }
+    ~Monitor() override { clearContentComponent(); }
+
+    void closeButtonPressed() override {}
+
+    void refresh()
+    {
+        auto* run = page.run();
+        juce::StringArray text;
+        if (run == nullptr)
+            text.add(editor::tr("Waiting for a participant"));
+        else
+        {
+            const auto& head = run->session().head();
+            text.add(editor::tr("Participant {0}, group {1}",
+                                {editor::toText(head.participant), editor::toText(head.group)}));
+            text.add(editor::tr("{0} of {1} trials",
+                                {juce::String(run->session().answered()), juce::String(run->session().planned())}));
+            if (const auto* trial = run->trial())
+            {
+                juce::StringArray names;
+                for (const std::size_t stimulus : trial->stimuli)
+                    names.add(editor::toText(run->study().stimuli[stimulus].name));
+                text.add(editor::tr("Block: {0}", {editor::toText(run->block().name)}));
+                text.add(editor::tr("Stimuli: {0}", {names.joinIntoString(", ")}));
+                if (const auto level = run->session().level())
+                    text.add(editor::tr("Level: {0}", {juce::String(*level, 2)}));
+            }
+            text.add(editor::tr("Exposure A(8): {0} of {1} m/s2",
+                                {juce::String(run->exposure(), 3), juce::String(run->study().limits.daily, 2)}));
+        }
+        lines.setText(text.joinIntoString("\n"), false);
+    }
+
+private:
+    editor::StudyPage& page;
+    juce::TextEditor lines;
+};
+
+StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& devices,
+                         std::vector<NamedProfile> profiles, std::string program, std::function<void()> whenClosed)
+    : DocumentWindow(editor::toText(place.study.name), juce::Colours::black, DocumentWindow::allButtons),
+      manager(devices),
+      device(devices),
+      closed(std::move(whenClosed))
+{
+    editor::StudyServices around;
+    around.player = &device;
+    around.outputNames = [this]
+    {
+        return device.outputNames();
+    };
+    around.wire = [this](int sound, int touch)
+    {
+        device.wire(sound, touch);
+    };
+    around.showDevices = [this]
+    {
+        showDevices();
+    };
+    around.close = [this]
+    {
+        closeButtonPressed();
+    };
+    around.profiles = std::move(profiles);
+    around.program = std::move(program);
+    content = std::make_unique<editor::StudyPage>(std::move(place), std::move(around));
+    setUsingNativeTitleBar(true);
+    setContentNonOwned(content.get(), false);
+    setResizable(true, false);
+    setResizeLimits(640, 520, 8000, 6000);
+    centreWithSize(960, 720);
+    monitor = std::make_unique<Monitor>(*content);
+    content->onProgress = [this]
+    {
+        monitor->refresh();
+    };
+}
+
+StudyWindow::~StudyWindow()
+{
+    monitor.reset();
+    clearContentComponent();
+}
+
+void StudyWindow::visibilityChanged()
+{
+    monitor->setVisible(isVisible());
+    if (isVisible())
+        content->grabKeyboardFocus();
+}
+
+void StudyWindow::closeButtonPressed()
+{
+    device.stop();
+    juce::MessageManager::callAsync([done = closed] { done(); });
+}
+
+bool StudyWindow::keyPressed(const juce::KeyPress& key)
+{
+    if (key != juce::KeyPress::F11Key)
+        return DocumentWindow::keyPressed(key);
+    setFullScreen(!isFullScreen());
+    return true;
+}
+
+void StudyWindow::showDevices()
+{
+    auto selector =
+        std::make_unique<juce::AudioDeviceSelectorComponent>(manager, 0, 0, 1, 256, false, false, false, false);
+    selector->setSize(520, 420);
+    juce::DialogWindow::LaunchOptions dialog;
+    dialog.content.setOwned(selector.release());
+    dialog.dialogTitle = editor::tr("Audio devices");
+    dialog.componentToCentreAround = this;
+    dialog.useNativeTitleBar = true;
+    dialog.launchAsync();
+}
+
+} // namespace pacini::app

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Windows of a study: the participant's, and the experimenter's beside it.
+
+#include "app/editor/StudyDevice.h"
+#include "editor/study/StudyPage.h"
+
+#include <juce_audio_utils/juce_audio_utils.h>
+
+#include <functional>
+#include <memory>
+
+namespace pacini::app
+{
+
+class StudyWindow final : public juce::DocumentWindow
+{
+public:
+    /// Calls `whenClosed` once, later, from the message loop.
+    StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& devices, std::vector<NamedProfile> profiles,
+                std::string program, std::function<void()> whenClosed);
+    ~StudyWindow() override;
+
+    [[nodiscard]] editor::StudyPage& page() noexcept { return *content; }
+    void closeButtonPressed() override;
+    void visibilityChanged() override;
+    bool keyPressed(const juce::KeyPress& key) override;
+
+private:
+    class Monitor;
+
+    void showDevices();
+
+    juce::AudioDeviceManager& manager;
+    StudyDevice device;
+    std::unique_ptr<editor::StudyPage> content;
+    std::unique_ptr<Monitor> monitor;
+    std::function<void()> closed;
+};
+
+} // namespace pacini::app

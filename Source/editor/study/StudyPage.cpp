@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/study/StudyPage.h"
+
+#include "editor/Text.h"
+#include "editor/Translation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pacini::editor
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+constexpr int columnWidth = 760;
+constexpr int pollsPerSecond = 60;
+constexpr double quieterStep = 3.0;   // dB
+constexpr double autoPlayAfter = 0.4; // s between a choice and the next trial
+
+/// Of all texts of a study, in the order of their codes.
+juce::StringArray languagesOf(const study::Study& study)
+{
+    juce::StringArray codes;
+    const auto add = [&](const study::Text& text)
+    {
+        for (const auto& [code, said] : text)
+            codes.addIfNotAlreadyThere(toText(code));
+    };
+    add(study.welcome);
+    add(study.consent);
+    for (const study::Block& block : study.blocks)
+        add(block.question);
+    codes.sort(false);
+    return codes;
+}
+} // namespace
+
+StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
+    : place(std::move(wanted)), services(std::move(around)), actuator(place.study.profile), language(languageInUse())
+{
+    setLookAndFeel(&look);
+    setWantsKeyboardFocus(true);
+    setTitle(tr("Study"));
+    for (juce::Label* label : {&title, &text, &status})
+    {
+        label->setMinimumHorizontalScale(1.0f);
+        label->setJustificationType(juce::Justification::topLeft);
+        addAndMakeVisible(label);
+    }
+    show(State::setUp);
+    startTimerHz(pollsPerSecond);
+}
+
+StudyPage::~StudyPage()
+{
+    services.player->stop();
+    pane.reset();
+    setLookAndFeel(nullptr);
+}
+
+void StudyPage::setDark(bool dark)
+{
+    look.setDark(dark);
+    sendLookAndFeelChange();
+    repaint();
+}
+
+juce::String StudyPage::said(const study::Text& wanted) const
+{
+    return toText(study::inLanguage(wanted, language.toStdString()));
+}
+
+LargeButton& StudyPage::addButton(const juce::String& caption, std::function<void()> click)
+{
+    auto button = std::make_unique<LargeButton>(caption);
+    button->onClick = std::move(click);
+    addAndMakeVisible(*button);
+    buttons.push_back(std::move(button));
+    return *buttons.back();
+}
+
+void StudyPage::show(State wanted)
+{
+    now = wanted;
+    pane.reset();
+    buttons.clear();
+    boxes.clear();
+    names.clear();
+    nextButton = playButton = nullptr;
+    status.setText({}, juce::dontSendNotification);
+    switch (now)
+    {
+    case State::setUp:
+        buildSetUp();
+        break;
+    case State::welcome:
+        buildText(tr("Welcome"), said(study().welcome));
+        nextButton = &addButton(tr("Continue"), [this] { show(State::consent); });
+        break;
+    case State::consent:
+        if (study().consent.empty() || !running->session().head().consent.empty())
+            return show(State::comfort);
+        buildText(tr("Consent"), said(study().consent));
+        nextButton = &addButton(
+            tr("I agree"),
+            [this]
+            {
+                if (const auto kept = running->session().note("agreed: " + said(study().consent).toStdString()); !kept)
+                    return status.setText(toText(kept.error().text()), juce::dontSendNotification);
+                show(State::comfort);
+            });
+        addButton(tr("I do not agree"), [this] { show(State::goodbye); });
+        break;
+    case State::comfort:
+        if (comfortNext >= study().comfort.size())
+            return show(State::trial);
+        buildComfort();
+        break;
+    case State::trial:
+        if (running->trial() == nullptr)
+            return show(State::goodbye);
+        buildTrial();
+        break;
+    case State::rest:
+        buildText(tr("Time for a break"), tr("Go on whenever you like."));
+        nextButton = &addButton(tr("Continue"), [this] { show(State::trial); });
+        break;
+    case State::stopped:
+        buildText(tr("Stopped"), tr("Nothing plays. Your answers so far are kept."));
+        nextButton = &addButton(tr("Continue"), [this] { show(before); });
+        addButton(tr("End"),
+                  [this]
+                  {
+                      (void)running->session().note("stopped by the participant");
+                      show(State::goodbye);
+                  });
+        break;
+    case State::goodbye:
+        buildText(tr("The end"), said(study().goodbye));
+        nextButton = &addButton(tr("Close"),
+                                [this]
+                                {
+                                    running.reset();
+                                    show(State::setUp);
+                                });
+        break;
+    }
+    title.setFont(participantTitleFont());
+    text.setFont(participantFont());
+    status.setFont(participantFont().withHeight(16.0f));
+    resized();
+    repaint();
+    if (isShowing())
+        grabKeyboardFocus();
+    if (onProgress)
+        onProgress();
+}
+
+void StudyPage::buildText(const juce::String& heading, const juce::String& content)
+{
+    title.setText(heading, juce::dontSendNotification);
+    text.setText(content, juce::dontSendNotification);
+}
+
+void StudyPage::buildSetUp()
+{
+    buildText(toText(study().name),
+              tr("{0} groups, {1} participants planned",
+                 {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
+    const auto box = [&](const juce::String& name, const juce::StringArray& items, int selected,
+                         std::function<void(int)> chosen) -> juce::ComboBox&
+    {
+        auto made = std::make_unique<juce::ComboBox>(name);
+        made->addItemList(items, 1);
+        made->setSelectedItemIndex(selected, juce::dontSendNotification);
+        made->setTitle(name);
+        auto* raw = made.get();
+        made->onChange = [raw, chosen = std::move(chosen)]
+        {
+            chosen(raw->getSelectedItemIndex());
+        };
+        auto label = std::make_unique<juce::Label>(juce::String(), name);
+        label->setFont(participantFont().withHeight(17.0f));
+        addAndMakeVisible(*label);
+        addAndMakeVisible(*made);
+        names.push_back(std::move(label));
+        boxes.push_back(std::move(made));
+        return *boxes.back();
+    };
+    const auto codes = languagesOf(study());
+    if (codes.size() > 1)
+    {
+        juce::StringArray shown;
+        for (const auto& code : codes)
+            shown.add(languageName(code));
+        const int selected = std::max(0, codes.indexOf(language));
+        language = codes[selected];
+        box(tr("Language"), shown, selected, [this, codes](int index) { language = codes[index]; });
+    }
+    juce::StringArray actuators{tr("None: plain drive")};
+    int chosen = 0;
+    for (const NamedProfile& one : services.profiles)
+    {
+        actuators.add(toText(one.name));
+        if (one.name == actuator)
+            chosen = actuators.size() - 1;
+    }
+    box(tr("Actuator"), actuators, chosen,
+        [this](int index)
+        { actuator = index > 0 ? services.profiles[static_cast<std::size_t>(index) - 1].name : std::string(); });
+    if (services.outputNames)
+    {
+        const auto outputs = services.outputNames();
+        // Ears first; the actuator on what comes after them, or on the right channel of a device with two.
+        const int touch = outputs.size() > 2 ? 2 : outputs.size() - 1;
+        auto& sounds = box(tr("Sound on"), outputs, 0, [](int) {});
+        auto& touches = box(tr("Touch on"), outputs, touch, [](int) {});
+        const auto wire = [this, &sounds, &touches]
+        {
+            services.wire(sounds.getSelectedItemIndex(), touches.getSelectedItemIndex());
+        };
+        sounds.onChange = touches.onChange = wire;
+        wire();
+    }
+    nextButton = &addButton(tr("New participant"), [this] { begin({}); });
+    for (const fs::path& log : study::sessionLogs(place.folder))
+        if (const auto session = study::readSession(log); session && !session->finished)
+            addButton(tr("Continue with {0}", {toText(session->head.participant)}), [this, log] { begin(log); });
+    if (services.showDevices)
+        addButton(tr("Audio devices..."), services.showDevices);
+    if (services.close)
+        addButton(tr("Close"), services.close);
+    if (services.player->sampleRate() <= 0)
+        status.setText(tr("No audio device is open."), juce::dontSendNotification);
+}
+
+std::optional<Profile> StudyPage::profile() const
+{
+    for (const NamedProfile& one : services.profiles)
+        if (one.name == actuator)
+            return *one.profile;
+    return std::nullopt;
+}
+
+void StudyPage::begin(const fs::path& log)
+{
+    study::SessionStart start;
+    start.language = language.toStdString();
+    start.program = services.program;
+    auto session =
+        log.empty() ? study::Session::begin(study(), place.folder, start) : study::Session::resume(study(), log);
+    if (!session)
+        return status.setText(toText(session.error().text()), juce::dontSendNotification);
+    const bool goesOn = !log.empty();
+    if (goesOn)
+        language = toText((*session)->head().language);
+    study::StimulusParams params;
+    params.sampleRate = std::max(services.player->sampleRate(), 8000);
+    params.profile = profile();
+    params.folder = place.folder;
+    running = std::make_unique<study::StudyRun>(study(), std::move(*session), params, *services.player);
+    comfortNext = 0;
+    show(goesOn ? State::comfort : State::welcome);
+}
+
+void StudyPage::buildComfort()
+{
+    buildText(tr("Is this comfortable?"), tr("Play it, and say if it should be weaker."));
+    const std::size_t stimulus = study::stimulusNamed(study(), study().comfort[comfortNext]);
+    playButton = &addButton(tr("Play"), [this, stimulus] { tell(running->tryOut(stimulus)); });
+    nextButton =
+        &addButton(tr("Comfortable"),
+                   [this]
+                   {
+                       (void)running->session().note("comfortable at " + std::to_string(running->touchTrim()) + " dB");
+                       ++comfortNext;
+                       show(State::comfort);
+                   });
+    addButton(tr("Weaker"),
+              [this, stimulus]
+              {
+                  running->lowerTouch(quieterStep);
+                  tell(running->tryOut(stimulus));
+              });
+}
+
+void StudyPage::buildTrial()
+{
+    const study::Block& block = running->block();
+    buildText({}, said(block.question));
+    if (running->trial()->training)
+        title.setText(tr("For practice"), juce::dontSendNotification);
+    pane = makeAnswerPane(block, running->trial()->stimuli.size(), language);
+    pane->onChange = [this]
+    {
+        if (pane->answersAtOnce())
+            juce::MessageManager::callAsync(
+                [safe = juce::Component::SafePointer<StudyPage>(this)]
+                {
+                    if (safe != nullptr)
+                        safe->answer();
+                });
+    };
+    pane->onPlayPart = [this](std::size_t part)
+    {
+        play(part);
+    };
+    addAndMakeVisible(*pane);
+    if (!running->isPage())
+        playButton = &addButton(tr("Play (space)"), [this] { play(0); });
+    if (!pane->answersAtOnce())
+        nextButton = &addButton(tr("Next"), [this] { answer(); });
+    // Choices come in quick succession, and nobody wants to ask for each.
+    if (pane->answersAtOnce())
+        juce::Timer::callAfterDelay(
+            static_cast<int>(1000.0 * autoPlayAfter),
+            [safe = juce::Component::SafePointer<StudyPage>(this), trial = running->session().answered()]
+            {
+                if (safe != nullptr && safe->now == State::trial && safe->running->session().answered() == trial)
+                    safe->play(0);
+            });
+}
+
+void StudyPage::play(std::size_t part)
+{
+    if (now == State::trial && running && !running->poll().now)
+        tell(running->play(part));
+}
+
+void StudyPage::tell(study::PlayRefusal refusal)
+{
+    const auto what = [&]
+    {
+        switch (refusal)
+        {
+        case study::PlayRefusal::none:
+            return juce::String();
+        case study::PlayRefusal::noDevice:
+            return tr("No audio device is open.");
+        case study::PlayRefusal::noReplayLeft:
+            return tr("It cannot be played again.");
+        case study::PlayRefusal::exposure:
+            return tr("The daily limit of vibration is reached. Please tell the experimenter.");
+        case study::PlayRefusal::failed:
+            break;
+        }
+        return running->failure() ? toText(running->failure()->text()) : juce::String();
+    };
+    status.setText(what(), juce::dontSendNotification);
+}
+
+void StudyPage::answer()
+{
+    if (now != State::trial || !pane || !running->canAnswer())
+        return;
+    const auto given = pane->answer();
+    if (!given)
+        return;
+    const bool feedback = running->block().feedback;
+    const auto kept = running->answer(*given);
+    if (!kept)
+    {
+        // The answer stays on the screen and can be given again.
+        status.setText(tr("The answer could not be kept: {0}", {toText(kept.error().text())}),
+                       juce::dontSendNotification);
+        return;
+    }
+    const bool rest = running->trial() != nullptr && running->trial()->afterBreak;
+    show(rest ? State::rest : State::trial);
+    if (feedback && *kept && now == State::trial)
+        status.setText(tr(**kept ? "Right" : "Wrong"), juce::dontSendNotification);
+}
+
+void StudyPage::goOn()
+{
+    if (now == State::trial)
+        answer();
+    else if (nextButton != nullptr && nextButton->isEnabled())
+        nextButton->triggerClick();
+}
+
+void StudyPage::stop()
+{
+    services.player->stop();
+    if (!running || now == State::stopped || now == State::goodbye || now == State::setUp)
+        return;
+    before = now;
+    show(State::stopped);
+}
+
+bool StudyPage::keyPressed(const juce::KeyPress& key)
+{
+    if (key == juce::KeyPress::escapeKey)
+        return stop(), true;
+    if (key == juce::KeyPress::returnKey)
+        return goOn(), true;
+    if (key == juce::KeyPress::spaceKey && playButton != nullptr)
+        return playButton->triggerClick(), true;
+    const auto character = key.getTextCharacter();
+    return pane && character >= '1' && character <= '9' && pane->digit(character - '0');
+}
+
+void StudyPage::timerCallback()
+{
+    if (!running || (now != State::trial && now != State::comfort))
+        return;
+    const auto playing = running->poll();
+    if (playButton != nullptr)
+        playButton->setLit(playing.now);
+    if (!pane)
+        return;
+    pane->showPlaying(playing.part);
+    const bool ready = running->canAnswer();
+    pane->setReady(ready);
+    if (nextButton != nullptr)
+        nextButton->setEnabled(ready && pane->answer().has_value());
+}
+
+void StudyPage::resized()
+{
+    auto area = getLocalBounds().reduced(3 * grid);
+    area = area.withSizeKeepingCentre(std::min(columnWidth, area.getWidth()), area.getHeight());
+    area.removeFromTop(std::max(0, area.getHeight() / 12));
+    title.setBounds(area.removeFromTop(title.getText().isEmpty() ? 0 : 5 * grid));
+    juce::AttributedString measured;
+    measured.append(text.getText(), participantFont());
+    juce::TextLayout layout;
+    layout.createLayout(measured, static_cast<float>(area.getWidth() - 2 * grid));
+    text.setBounds(area.removeFromTop(static_cast<int>(std::ceil(layout.getHeight())) + 3 * grid));
+    area.removeFromTop(grid);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+    {
+        auto row = area.removeFromTop(5 * grid);
+        names[i]->setBounds(row.removeFromLeft(22 * grid));
+        boxes[i]->setBounds(row.withTrimmedRight(8 * grid));
+        area.removeFromTop(grid / 2);
+    }
+    area.removeFromTop(grid);
+    if (playButton != nullptr)
+    {
+        playButton->setBounds(area.removeFromTop(participantRow));
+        area.removeFromTop(2 * grid);
+    }
+    if (pane)
+    {
+        pane->setBounds(area.removeFromTop(pane->wantedHeight()));
+        area.removeFromTop(2 * grid);
+    }
+    std::vector<juce::Component*> row;
+    for (auto& button : buttons)
+        if (button.get() != playButton)
+            row.push_back(button.get());
+    constexpr std::size_t perRow = 3;
+    for (std::size_t i = 0; i < row.size(); i += perRow)
+    {
+        auto line = area.removeFromTop(participantRow);
+        const int width = (line.getWidth() - 2 * 2 * grid) / 3;
+        for (std::size_t k = i; k < std::min(row.size(), i + perRow); ++k)
+        {
+            row[k]->setBounds(line.removeFromLeft(width));
+            line.removeFromLeft(2 * grid);
+        }
+        area.removeFromTop(grid);
+    }
+    status.setBounds(area.removeFromTop(6 * grid));
+}
+
+void StudyPage::paint(juce::Graphics& g)
+{
+    const Palette& palette = look.palette();
+    g.fillAll(palette.background);
+    if (!running || (now != State::trial && now != State::rest))
+        return;
+    auto bar = getLocalBounds().removeFromTop(grid);
+    g.setColour(palette.line);
+    g.fillRect(bar);
+    g.setColour(palette.accent);
+    g.fillRect(bar.withWidth(static_cast<int>(std::lround(running->session().progress() * bar.getWidth()))));
+}
+
+} // namespace pacini::editor

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The pages that a participant goes through, and the experimenter's before them.
+
+#include "document/BuiltInProfiles.h"
+#include "editor/Theme.h"
+#include "editor/study/AnswerPane.h"
+#include "study/StudyRun.h"
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pacini::editor
+{
+
+/// What the program has for a study.
+struct StudyServices
+{
+    study::TrialPlayer* player = nullptr;
+    std::function<juce::StringArray()> outputNames = {}; ///< of the device
+    std::function<void(int sound, int touch)> wire = {}; ///< first of two channels for the ears; the actuator's
+    std::function<void()> showDevices = {};              ///< null: no choice of devices
+    std::function<void()> close = {};
+    std::vector<NamedProfile> profiles = {};
+    std::string program = {}; ///< name and version, for the logs
+};
+
+/// A study in its folder.
+struct StudyPlace
+{
+    study::Study study;
+    std::filesystem::path folder;
+};
+
+class StudyPage final : public juce::Component, private juce::Timer
+{
+public:
+    StudyPage(StudyPlace wanted, StudyServices around);
+    ~StudyPage() override;
+
+    /// What is on the screen.
+    enum class State
+    {
+        setUp,
+        welcome,
+        consent,
+        comfort,
+        trial,
+        rest,
+        stopped,
+        goodbye
+    };
+    [[nodiscard]] State state() const noexcept { return now; }
+    [[nodiscard]] study::StudyRun* run() noexcept { return running.get(); }
+    std::function<void()> onProgress; ///< after each answer and each change of state
+
+    void setDark(bool dark);
+    void resized() override;
+    void paint(juce::Graphics& g) override;
+    bool keyPressed(const juce::KeyPress& key) override;
+
+private:
+    void timerCallback() override;
+    void show(State wanted);
+    void buildSetUp();
+    void buildText(const juce::String& title, const juce::String& text);
+    void buildComfort();
+    void buildTrial();
+    void begin(const std::filesystem::path& log);
+    void play(std::size_t part);
+    void goOn();
+    void answer();
+    void tell(study::PlayRefusal refusal);
+    void stop();
+    LargeButton& addButton(const juce::String& text, std::function<void()> click);
+    [[nodiscard]] const study::Study& study() const noexcept { return place.study; }
+    [[nodiscard]] std::optional<Profile> profile() const;
+    [[nodiscard]] juce::String said(const study::Text& text) const;
+
+    StudyPlace place;
+    StudyServices services;
+    Look look;
+    State now = State::setUp, before = State::trial;
+    std::string actuator; ///< name of its profile
+    juce::String language;
+    std::unique_ptr<study::StudyRun> running;
+    std::size_t comfortNext = 0;
+
+    juce::Label title, text, status;
+    std::unique_ptr<AnswerPane> pane;
+    std::vector<std::unique_ptr<LargeButton>> buttons;
+    std::vector<std::unique_ptr<juce::ComboBox>> boxes;
+    std::vector<std::unique_ptr<juce::Label>> names; ///< of the boxes
+    LargeButton* nextButton = nullptr;
+    LargeButton* playButton = nullptr;
+};
+
+} // namespace pacini::editor
