@@ -50,10 +50,13 @@ LITERALS = {
         "Pacini capture", "Pacini taps", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
+    "records of studies, which are the same file in every language": [
+        "agreed: ", "stopped by the participant", "comfortable at ", "Pacini "],
     "names that a new thing gets in the project, which is the same file in every language": [
         "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement"],
     "the command line and its log, which are English": [
-        "Pacini: ", "Pacini: no sound device: ", "--fresh", "FILE", "TYPE", "CODE",
+        "Pacini: ", "PaciniEditor: ", "Pacini: no sound device: ", "STUDY", "Run a study: its folder or file",
+        "Fill the screen with the study", "--fresh", "FILE", "TYPE", "CODE",
         "Pacini Editor: sounds become clips that can be reshaped, felt and exported.",
         "Sounds, clips of any known format, folders of them, or a project",
         "Start with the default settings, and leave the saved ones as they are",

@@ -20,6 +20,7 @@
 #include <juce_audio_utils/juce_audio_utils.h>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -113,7 +114,7 @@ public:
             editor::useLanguage(!language.empty() ? editor::toText(language)
                                 : settings        ? settings->language()
                                                   : juce::String("en"));
-            return runStudy(absolute(study), editor::toText(deviceType), fullScreen, std::move(profiles));
+            return runStudyAlone(absolute(study), editor::toText(deviceType), fullScreen, std::move(profiles));
         }
         session = std::make_unique<editor::Session>(folders, std::move(profiles));
         rig = std::make_unique<PreviewDevices>(session->player, session->outputs);
@@ -131,6 +132,15 @@ public:
         editor::HostServices around;
         around.version = PACINI_VERSION;
         around.demoSounds = demoSounds(settings ? &home : nullptr);
+        around.runStudy = [this](const std::filesystem::path& file)
+        {
+            session->transport.stop();
+            const auto opened =
+                openStudy(file, rig->devices(), session->actuators.profiles(), [this] { studyWindow.reset(); });
+            if (!opened)
+                session->model.report(editor::tr("{0} not opened", {editor::pathText(file.filename())}).toStdString(),
+                                      opened.error());
+        };
         if (settings)
         {
             around.profileFolder = pathOf(ownProfiles);
@@ -158,28 +168,38 @@ public:
     }
 
     /// The study alone, without the editor.
-    void runStudy(const std::filesystem::path& named, const juce::String& deviceType, bool fullScreen,
-                  std::vector<NamedProfile> profiles)
+    void runStudyAlone(const std::filesystem::path& named, const juce::String& deviceType, bool fullScreen,
+                       std::vector<NamedProfile> profiles)
     {
-        const std::filesystem::path file = study::studyFileOf(named);
-        auto read = study::readStudy(file);
-        if (!read)
-        {
-            std::cerr << "PaciniEditor: " << file.string() << ": " << read.error().text() << '\n';
-            setApplicationReturnValue(1);
-            return quit();
-        }
         studyDevices = std::make_unique<juce::AudioDeviceManager>();
         constexpr int mostChannels = 256;
         const auto saved = settings ? settings->devices() : nullptr;
         if (const auto error = openDevice(*studyDevices, 0, mostChannels, saved.get(), deviceType); error.isNotEmpty())
             juce::Logger::writeToLog("Pacini: no sound device: " + error);
-        studyWindow =
-            std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, *studyDevices,
-                                          std::move(profiles), "Pacini " PACINI_VERSION, [this] { quit(); });
-        studyWindow->setVisible(true);
+        const auto opened = openStudy(named, *studyDevices, std::move(profiles), [this] { quit(); });
+        if (!opened)
+        {
+            std::cerr << "PaciniEditor: " << study::studyFileOf(named).string() << ": " << opened.error().text()
+                      << '\n';
+            setApplicationReturnValue(1);
+            return quit();
+        }
         if (fullScreen)
             studyWindow->setFullScreen(true);
+    }
+
+    Result<void> openStudy(const std::filesystem::path& named, juce::AudioDeviceManager& devices,
+                           std::vector<NamedProfile> profiles, std::function<void()> whenClosed)
+    {
+        const std::filesystem::path file = study::studyFileOf(named);
+        auto read = study::readStudy(file);
+        if (!read)
+            return read.error();
+        studyWindow =
+            std::make_unique<StudyWindow>(editor::StudyPlace{std::move(*read), file.parent_path()}, devices,
+                                          std::move(profiles), "Pacini " PACINI_VERSION, std::move(whenClosed));
+        studyWindow->setVisible(true);
+        return {};
     }
 
     void anotherInstanceStarted(const juce::String&) override {}

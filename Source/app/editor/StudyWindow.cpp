@@ -21,7 +21,7 @@ public:
         lines.setMultiLine(true);
         lines.setReadOnly(true);
         lines.setTitle(editor::tr("State of the session"));
-        lines.setSize(460, 260);
+        lines.setSize(420, 180);
         setContentNonOwned(&lines, true);
         setResizable(true, false);
         refresh();
@@ -85,6 +85,10 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     {
         showDevices();
     };
+    around.showMonitor = [this]
+    {
+        showMonitor(monitor == nullptr);
+    };
     around.close = [this]
     {
         closeButtonPressed();
@@ -97,10 +101,10 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     setResizable(true, false);
     setResizeLimits(640, 520, 8000, 6000);
     centreWithSize(960, 720);
-    monitor = std::make_unique<Monitor>(*content);
     content->onProgress = [this]
     {
-        monitor->refresh();
+        if (monitor != nullptr)
+            monitor->refresh();
     };
 }
 
@@ -112,9 +116,29 @@ StudyWindow::~StudyWindow()
 
 void StudyWindow::visibilityChanged()
 {
-    monitor->setVisible(isVisible());
-    if (isVisible())
-        content->grabKeyboardFocus();
+    if (!isVisible() || content == nullptr)
+        return;
+    // On a single screen participants would see what they must not: it comes when it is asked for.
+    showMonitor(juce::Desktop::getInstance().getDisplays().displays.size() > 1);
+    toFront(true);
+    content->grabKeyboardFocus();
+}
+
+void StudyWindow::showMonitor(bool shown)
+{
+    monitor.reset();
+    if (!shown)
+        return;
+    const auto& displays = juce::Desktop::getInstance().getDisplays();
+    const auto* place = displays.getDisplayForRect(getBounds());
+    for (const auto& display : displays.displays)
+        if (!display.totalArea.intersects(getBounds()))
+            place = &display;
+    monitor = std::make_unique<Monitor>(*content);
+    if (place != nullptr)
+        monitor->setTopLeftPosition(place->userArea.getRight() - monitor->getWidth(),
+                                    place->userArea.getBottom() - monitor->getHeight());
+    monitor->setVisible(true);
 }
 
 void StudyWindow::closeButtonPressed()
@@ -125,9 +149,17 @@ void StudyWindow::closeButtonPressed()
 
 bool StudyWindow::keyPressed(const juce::KeyPress& key)
 {
-    if (key != juce::KeyPress::F11Key)
+    if (key == juce::KeyPress::F11Key)
+    {
+        setFullScreen(!isFullScreen());
+        return true;
+    }
+    const auto character = key.getTextCharacter();
+    if (!key.getModifiers().isCommandDown() || (character != '+' && character != '-'))
         return DocumentWindow::keyPressed(key);
-    setFullScreen(!isFullScreen());
+    auto& desktop = juce::Desktop::getInstance();
+    const float step = character == '+' ? 1.25f : 0.8f;
+    desktop.setGlobalScaleFactor(juce::jlimit(0.64f, 2.0f, desktop.getGlobalScaleFactor() * step));
     return true;
 }
 

@@ -25,17 +25,19 @@ public:
     [[nodiscard]] editor::StudyPage& page() noexcept { return *content; }
     void closeButtonPressed() override;
     void visibilityChanged() override;
+    void focusGained(FocusChangeType) override { content->grabKeyboardFocus(); }
     bool keyPressed(const juce::KeyPress& key) override;
 
 private:
     class Monitor;
 
     void showDevices();
+    void showMonitor(bool shown);
 
     juce::AudioDeviceManager& manager;
     StudyDevice device;
     std::unique_ptr<editor::StudyPage> content;
-    std::unique_ptr<Monitor> monitor;
+    std::unique_ptr<Monitor> monitor; ///< null while it is not shown
     std::function<void()> closed;
 };
 

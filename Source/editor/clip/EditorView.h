@@ -43,7 +43,8 @@ struct HostServices
     std::filesystem::path profileFolder = {};                     ///< where measured profiles are written at first
     juce::String language = {};                                   ///< code of the chosen one; empty: that of the system
     std::function<void(const juce::String&)> chooseLanguage = {}; ///< from the next start on; null: not here
-    juce::String version = {};                                    ///< of the program; empty: not told
+    std::function<void(const std::filesystem::path&)> runStudy = {}; ///< of that file; null: not here
+    juce::String version = {};                                       ///< of the program; empty: not told
 };
 
 /// Layout, look and sheets; what commands do stands with their menus.

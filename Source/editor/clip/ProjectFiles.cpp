@@ -204,9 +204,9 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
     while (!saving && !start.exists() && start != start.getParentDirectory())
         start = start.getParentDirectory();
     chooser = std::make_unique<juce::FileChooser>(title, start,
-                                                  saving                               ? juce::String("*.pacini")
-                                                  : purpose == Purpose::openingProfile ? juce::String("*.json")
-                                                                                       : readablePattern());
+                                                  saving                            ? juce::String("*.pacini")
+                                                  : purpose == Purpose::openingJson ? juce::String("*.json")
+                                                                                    : readablePattern());
     using Browser = juce::FileBrowserComponent;
     const int flags = [purpose]() -> int
     {
@@ -217,7 +217,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
         case Purpose::openingFolder:
             return Browser::canSelectDirectories | Browser::openMode;
         case Purpose::openingSound:
-        case Purpose::openingProfile:
+        case Purpose::openingJson:
             return Browser::canSelectFiles | Browser::openMode;
         case Purpose::opening:
             break;
@@ -229,7 +229,7 @@ void ProjectFiles::choose(const juce::String& title, Purpose purpose,
 
 void ProjectFiles::askForProfile()
 {
-    choose(tr("Load the profile of an actuator"), Purpose::openingProfile,
+    choose(tr("Load the profile of an actuator"), Purpose::openingJson,
            [this](const juce::Array<juce::File>& chosen)
            {
                if (chosen.isEmpty())
@@ -241,6 +241,16 @@ void ProjectFiles::askForProfile()
                                                       read.error());
                view.session().actuators.addProfile(
                    {file.stem().string(), std::make_shared<const Profile>(std::move(read).value()), true}, true);
+           });
+}
+
+void ProjectFiles::askForStudy()
+{
+    choose(tr("Run a study"), Purpose::openingJson,
+           [this](const juce::Array<juce::File>& chosen)
+           {
+               if (!chosen.isEmpty())
+                   view.hostServices().runStudy(pathOf(chosen[0]));
            });
 }
 

@@ -35,6 +35,7 @@ public:
                      std::function<void(const std::filesystem::path&)> chosen);
     /// A profile of an actuator, which the project has from then on.
     void askForProfile();
+    void askForStudy();
     /// Says which sounds are missing, and offers to find them.
     void tellMissing(const std::vector<AudioReference>& missing);
 
@@ -53,7 +54,7 @@ private:
         opening,
         openingFolder,
         openingSound,
-        openingProfile,
+        openingJson,
         saving
     };
     void choose(const juce::String& title, Purpose purpose,

@@ -47,6 +47,39 @@ void LargeButton::paintButton(juce::Graphics& g, bool over, bool down)
         drawFocusRing(g, *this, area);
 }
 
+void Paragraph::setText(const juce::String& wanted)
+{
+    if (std::exchange(content, wanted) == wanted)
+        return;
+    setTitle(content);
+    repaint();
+}
+
+juce::TextLayout Paragraph::layoutFor(int width, juce::Colour colour) const
+{
+    juce::AttributedString styled;
+    styled.append(content, font, colour);
+    styled.setLineSpacing(4.0f);
+    juce::TextLayout layout;
+    layout.createLayout(styled, static_cast<float>(width));
+    return layout;
+}
+
+int Paragraph::heightFor(int width) const
+{
+    return content.isEmpty() ? 0 : static_cast<int>(std::ceil(layoutFor(width, {}).getHeight())) + grid;
+}
+
+void Paragraph::paint(juce::Graphics& g)
+{
+    layoutFor(getWidth(), paletteFor(*this).text).draw(g, getLocalBounds().toFloat());
+}
+
+std::unique_ptr<juce::AccessibilityHandler> Paragraph::createAccessibilityHandler()
+{
+    return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
+}
+
 namespace
 {
 /// A scale with what its ends mean.
@@ -152,6 +185,7 @@ public:
     }
     [[nodiscard]] int wantedHeight() const override { return 96; }
     void resized() override { slider.setBounds(getLocalBounds()); }
+    void takeFocus() override { slider.grabKeyboardFocus(); }
 
 private:
     ScaleSlider slider;
@@ -169,6 +203,7 @@ public:
         editor.setFont(participantFont());
         editor.setTitle(tr("Description"));
         editor.setInputRestrictions(4000);
+        editor.setEscapeAndReturnKeysConsumed(false);
         editor.onTextChange = [this]
         {
             if (onChange)
@@ -184,6 +219,16 @@ public:
     }
     [[nodiscard]] int wantedHeight() const override { return 180; }
     void resized() override { editor.setBounds(getLocalBounds()); }
+    void lookAndFeelChanged() override
+    {
+        const Palette& palette = paletteFor(*this);
+        editor.setColour(juce::TextEditor::outlineColourId, palette.dim);
+        editor.setColour(juce::TextEditor::focusedOutlineColourId, palette.accent);
+        editor.setColour(juce::TextEditor::textColourId, palette.text);
+        editor.applyColourToAllText(palette.text);
+    }
+    void parentHierarchyChanged() override { lookAndFeelChanged(); }
+    void takeFocus() override { editor.grabKeyboardFocus(); }
 
 private:
     juce::TextEditor editor;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace pacini::editor
 {
@@ -27,6 +28,9 @@ public:
 
     /// Whether answering is possible now.
     virtual void setReady(bool ready) { setEnabled(ready); }
+
+    /// The keyboard speaks to the answer now.
+    virtual void takeFocus() {}
 
     /// A digit key was pressed; whether it meant something.
     virtual bool digit(int) { return false; }
@@ -60,6 +64,25 @@ public:
 
 private:
     bool lit = false;
+};
+
+/// A text of several lines, which screen readers read as one.
+class Paragraph final : public juce::Component
+{
+public:
+    explicit Paragraph(juce::Font wanted) : font(std::move(wanted)) {}
+
+    void setText(const juce::String& wanted);
+    [[nodiscard]] const juce::String& text() const noexcept { return content; }
+    [[nodiscard]] int heightFor(int width) const;
+    void paint(juce::Graphics& g) override;
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override;
+
+private:
+    [[nodiscard]] juce::TextLayout layoutFor(int width, juce::Colour colour) const;
+
+    juce::Font font;
+    juce::String content;
 };
 
 } // namespace pacini::editor

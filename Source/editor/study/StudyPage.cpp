@@ -39,17 +39,20 @@ juce::StringArray languagesOf(const study::Study& study)
 } // namespace
 
 StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
-    : place(std::move(wanted)), services(std::move(around)), actuator(place.study.profile), language(languageInUse())
+    : place(std::move(wanted)),
+      services(std::move(around)),
+      actuator(place.study.profile),
+      language(languageInUse()),
+      programLanguage(language),
+      title(participantTitleFont()),
+      text(participantFont()),
+      status(participantFont().withHeight(17.0f))
 {
     setLookAndFeel(&look);
     setWantsKeyboardFocus(true);
     setTitle(tr("Study"));
-    for (juce::Label* label : {&title, &text, &status})
-    {
-        label->setMinimumHorizontalScale(1.0f);
-        label->setJustificationType(juce::Justification::topLeft);
-        addAndMakeVisible(label);
-    }
+    for (Paragraph* paragraph : {&title, &text, &status})
+        addAndMakeVisible(paragraph);
     show(State::setUp);
     startTimerHz(pollsPerSecond);
 }
@@ -90,7 +93,7 @@ void StudyPage::show(State wanted)
     boxes.clear();
     names.clear();
     nextButton = playButton = nullptr;
-    status.setText({}, juce::dontSendNotification);
+    status.setText({});
     switch (now)
     {
     case State::setUp:
@@ -109,7 +112,7 @@ void StudyPage::show(State wanted)
             [this]
             {
                 if (const auto kept = running->session().note("agreed: " + said(study().consent).toStdString()); !kept)
-                    return status.setText(toText(kept.error().text()), juce::dontSendNotification);
+                    return status.setText(toText(kept.error().text()));
                 show(State::comfort);
             });
         addButton(tr("I do not agree"), [this] { show(State::goodbye); });
@@ -144,13 +147,12 @@ void StudyPage::show(State wanted)
                                 [this]
                                 {
                                     running.reset();
+                                    useLanguage(programLanguage);
                                     show(State::setUp);
                                 });
         break;
     }
-    title.setFont(participantTitleFont());
-    text.setFont(participantFont());
-    status.setFont(participantFont().withHeight(16.0f));
+    wasReady = false;
     resized();
     repaint();
     if (isShowing())
@@ -161,14 +163,14 @@ void StudyPage::show(State wanted)
 
 void StudyPage::buildText(const juce::String& heading, const juce::String& content)
 {
-    title.setText(heading, juce::dontSendNotification);
-    text.setText(content, juce::dontSendNotification);
+    title.setText(heading);
+    text.setText(content);
 }
 
 void StudyPage::buildSetUp()
 {
     buildText(toText(study().name),
-              tr("{0} groups, {1} participants planned",
+              tr("Groups: {0}, participants planned: {1}",
                  {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
     const auto box = [&](const juce::String& name, const juce::StringArray& items, int selected,
                          std::function<void(int)> chosen) -> juce::ComboBox&
@@ -211,6 +213,7 @@ void StudyPage::buildSetUp()
     box(tr("Actuator"), actuators, chosen,
         [this](int index)
         { actuator = index > 0 ? services.profiles[static_cast<std::size_t>(index) - 1].name : std::string(); });
+    box(tr("Colours"), {tr("Dark"), tr("Light")}, look.isDark() ? 0 : 1, [this](int index) { setDark(index == 0); });
     if (services.outputNames)
     {
         const auto outputs = services.outputNames();
@@ -229,12 +232,14 @@ void StudyPage::buildSetUp()
     for (const fs::path& log : study::sessionLogs(place.folder))
         if (const auto session = study::readSession(log); session && !session->finished)
             addButton(tr("Continue with {0}", {toText(session->head.participant)}), [this, log] { begin(log); });
+    if (services.showMonitor)
+        addButton(tr("Experimenter's window"), services.showMonitor);
     if (services.showDevices)
         addButton(tr("Audio devices..."), services.showDevices);
     if (services.close)
         addButton(tr("Close"), services.close);
     if (services.player->sampleRate() <= 0)
-        status.setText(tr("No audio device is open."), juce::dontSendNotification);
+        status.setText(tr("No audio device is open."));
 }
 
 std::optional<Profile> StudyPage::profile() const
@@ -253,7 +258,7 @@ void StudyPage::begin(const fs::path& log)
     auto session =
         log.empty() ? study::Session::begin(study(), place.folder, start) : study::Session::resume(study(), log);
     if (!session)
-        return status.setText(toText(session.error().text()), juce::dontSendNotification);
+        return status.setText(toText(session.error().text()));
     const bool goesOn = !log.empty();
     if (goesOn)
         language = toText((*session)->head().language);
@@ -263,6 +268,7 @@ void StudyPage::begin(const fs::path& log)
     params.folder = place.folder;
     running = std::make_unique<study::StudyRun>(study(), std::move(*session), params, *services.player);
     comfortNext = 0;
+    useLanguage(language); // of all that participants read
     show(goesOn ? State::comfort : State::welcome);
 }
 
@@ -292,7 +298,7 @@ void StudyPage::buildTrial()
     const study::Block& block = running->block();
     buildText({}, said(block.question));
     if (running->trial()->training)
-        title.setText(tr("For practice"), juce::dontSendNotification);
+        title.setText(tr("For practice"));
     pane = makeAnswerPane(block, running->trial()->stimuli.size(), language);
     pane->onChange = [this]
     {
@@ -349,7 +355,7 @@ void StudyPage::tell(study::PlayRefusal refusal)
         }
         return running->failure() ? toText(running->failure()->text()) : juce::String();
     };
-    status.setText(what(), juce::dontSendNotification);
+    status.setText(what());
 }
 
 void StudyPage::answer()
@@ -364,14 +370,13 @@ void StudyPage::answer()
     if (!kept)
     {
         // The answer stays on the screen and can be given again.
-        status.setText(tr("The answer could not be kept: {0}", {toText(kept.error().text())}),
-                       juce::dontSendNotification);
+        status.setText(tr("The answer could not be kept: {0}", {toText(kept.error().text())}));
         return;
     }
     const bool rest = running->trial() != nullptr && running->trial()->afterBreak;
     show(rest ? State::rest : State::trial);
     if (feedback && *kept && now == State::trial)
-        status.setText(tr(**kept ? "Right" : "Wrong"), juce::dontSendNotification);
+        status.setText(tr(**kept ? "Right" : "Wrong"));
 }
 
 void StudyPage::goOn()
@@ -415,6 +420,8 @@ void StudyPage::timerCallback()
     pane->showPlaying(playing.part);
     const bool ready = running->canAnswer();
     pane->setReady(ready);
+    if (ready && !std::exchange(wasReady, true))
+        pane->takeFocus();
     if (nextButton != nullptr)
         nextButton->setEnabled(ready && pane->answer().has_value());
 }
@@ -424,12 +431,8 @@ void StudyPage::resized()
     auto area = getLocalBounds().reduced(3 * grid);
     area = area.withSizeKeepingCentre(std::min(columnWidth, area.getWidth()), area.getHeight());
     area.removeFromTop(std::max(0, area.getHeight() / 12));
-    title.setBounds(area.removeFromTop(title.getText().isEmpty() ? 0 : 5 * grid));
-    juce::AttributedString measured;
-    measured.append(text.getText(), participantFont());
-    juce::TextLayout layout;
-    layout.createLayout(measured, static_cast<float>(area.getWidth() - 2 * grid));
-    text.setBounds(area.removeFromTop(static_cast<int>(std::ceil(layout.getHeight())) + 3 * grid));
+    title.setBounds(area.removeFromTop(title.heightFor(area.getWidth())));
+    text.setBounds(area.removeFromTop(text.heightFor(area.getWidth()) + grid));
     area.removeFromTop(grid);
     for (std::size_t i = 0; i < boxes.size(); ++i)
     {

@@ -26,6 +26,7 @@ struct StudyServices
     std::function<juce::StringArray()> outputNames = {}; ///< of the device
     std::function<void(int sound, int touch)> wire = {}; ///< first of two channels for the ears; the actuator's
     std::function<void()> showDevices = {};              ///< null: no choice of devices
+    std::function<void()> showMonitor = {};              ///< the experimenter's window; null: it is seen by itself
     std::function<void()> close = {};
     std::vector<NamedProfile> profiles = {};
     std::string program = {}; ///< name and version, for the logs
@@ -88,11 +89,12 @@ private:
     Look look;
     State now = State::setUp, before = State::trial;
     std::string actuator; ///< name of its profile
-    juce::String language;
+    juce::String language, programLanguage;
     std::unique_ptr<study::StudyRun> running;
     std::size_t comfortNext = 0;
 
-    juce::Label title, text, status;
+    Paragraph title, text, status;
+    bool wasReady = false; ///< the trial could be answered at the last look
     std::unique_ptr<AnswerPane> pane;
     std::vector<std::unique_ptr<LargeButton>> buttons;
     std::vector<std::unique_ptr<juce::ComboBox>> boxes;

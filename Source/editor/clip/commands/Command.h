@@ -109,6 +109,7 @@ enum Command : int
     addToScene,
     measureActuator,
     loadProfile,
+    runStudy,
 
     nextPanel,
     previousPanel,

@@ -42,6 +42,10 @@ Menu toolsMenu(EditorView& view)
              });
     menu.add(loadProfile, "Load profile...", "Adds the profile of an actuator from a file, and chooses it",
              [&view] { view.files().askForProfile(); });
+    menu.addLine();
+    menu.add(
+        runStudy, "Run a study...", "Opens a study with people (study.json) in a window for the participant",
+        [&view] { view.files().askForStudy(); }, [&view] { return view.hostServices().runStudy != nullptr; });
     return menu;
 }
 
