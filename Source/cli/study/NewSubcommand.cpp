@@ -59,7 +59,8 @@ public:
         addOption(*command, "sounds", sounds, "Sounds to be heard and felt", "SOUND");
         addOption(*command, "-t,--template", kind, "What is asked", oneOf(names), "NAME")->required();
         addOption(*command, "-g,--group", groups,
-                  "Name and number of participants of a group; several times for several", "NAME:SIZE");
+                  "Name and number of participants of a group; several times for several", "NAME:SIZE")
+            ->allow_extra_args(false);
         addOption(*command, "--seed", seed, "Seed of all random orders", countingNumber(), "N")->capture_default_str();
         addOption(*command, "--profile", profile, "Actuator: a profile file, or the name of one that comes with Pacini",
                   "PROFILE");

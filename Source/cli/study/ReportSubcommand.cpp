@@ -30,7 +30,8 @@ public:
             ->required();
         addOption(*command, "-o,--output", output, "Folder for the report [report, beside the study]", "DIR");
         addOption(*command, "--combine", combined,
-                  "Also compare these groups as one with the others; several times for several", "A+B");
+                  "Also compare these groups as one with the others; several times for several", "A+B")
+            ->allow_extra_args(false);
         addOption(*command, "--categories", categories,
                   "Table of categories of words (lines of category,word; word* for all that begin so)", "CSV");
         overwriting.declare(*command);
