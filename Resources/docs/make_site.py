@@ -19,7 +19,7 @@ GUIDES = {
     "Make and feel": ["editor.md", "plugin.md", "scenes.md", "profiles.md", "measuring.md", "devices.md", "formats.md"],
     "In games and programs": ["runtime.md", "engines.md", "csharp.md", "lua.md", "godot.md", "rust.md", "node.md",
                               "sdl.md"],
-    "Research": ["python.md", "datasets.md", "quality.md", "measurements.md", "corpus.md", "transforms.md"],
+    "Research": ["python.md", "study.md", "datasets.md", "quality.md", "measurements.md", "corpus.md", "transforms.md"],
     "Interfaces": ["api-python.md", "api-c.md", "api-cpp.md"],
     "The project": ["architecture.md", "contributing.md", "changelog.md"],
 }

@@ -267,10 +267,9 @@ Result<Study> makeStudy(std::string_view name, const std::vector<std::string>& s
     if (wanted == nullptr)
         return Error{ErrorCode::invalidArgument, "template", fmt::format("'{}' is not known", name)};
     if (sounds.size() < wanted->fewestSounds)
-        return Error{
-            ErrorCode::invalidArgument, "sounds",
-            fmt::format("{} needs {} at least, such as pacini study new {}.study.json --template {} sounds/*.wav", name,
-                        wanted->fewestSounds, name, name)};
+        return Error{ErrorCode::invalidArgument, "sounds",
+                     fmt::format("{} needs {} at least, such as pacini study new {} --template {} sounds/", name,
+                                 wanted->fewestSounds, name, name)};
     if (name == "coherence")
         return coherence(sounds);
     if (name == "words")

@@ -128,6 +128,9 @@ class Documents(CommandTest):
         self.put("sounds/outside/rain.wav", wav(rain(1.0, seed=4), RATE))
         self.put("onsets.json", json.dumps({"bench.wav": bench, "outside/rain.wav": []}))
         self.put("quest.acf", ACF)
+        self.put("ratings.csv", "group,stimulus,participant,rating\n" + "".join(
+            f"{group},{stimulus},{person},{(person * stimulus + ord(group)) % 9}\n"
+            for group in "ABC" for stimulus in (1, 2) for person in range(4)))
         shutil.copytree(SOURCE / "Resources/demo", self.folder / "Resources/demo")
         self.put("corpus/gate.wav", wav(hits(0.1, 0.4, seconds=0.8, seed=5), RATE))
         for block in [block for document in self.documents for block in document.blocks]:
@@ -341,11 +344,14 @@ class Options(CommandTest):
         top = self.succeeds("--help")
         commands = re.findall(r"(?m)^  ([a-z]+) {2,}", top[top.index("Commands:"):top.index("Options")])
         self.assertGreater(len(commands), 10)
-        top = self.succeeds("measure", "--help")
-        steps = re.findall(r"(?m)^  ([a-z]+) {3,}", top[top.index("Steps:"):top.index("Options")])
         self.helps = {command: self.help_of(command) for command in commands}
-        self.helps.update({f"measure {step}": self.help_of(f"measure {step}") for step in steps})
+        for command in ("measure", "study"):
+            top = self.succeeds(command, "--help")
+            steps = re.findall(r"(?m)^  ([a-z]+) {3,}", top[top.index("Steps:"):top.index("Options")])
+            self.helps.update({f"{command} {step}": self.help_of(f"{command} {step}") for step in steps})
+        editor = (SOURCE / "Source/app/editor/EditorApplication.cpp").read_text()
         self.all = {name for options in self.helps.values() for name in options} | {"--version"}
+        self.all |= set(re.findall(r'"(--[a-z-]+)"', editor))
 
     def test_every_option_that_is_named_exists(self):
         found = 0
@@ -356,7 +362,7 @@ class Options(CommandTest):
                     if option in self.OF_OTHER_TOOLS:
                         continue
                     found += 1
-                    command = re.match(r"pacini ((?:measure )?[a-z]+)", one.command)
+                    command = re.match(r"pacini ((?:measure |study )?[a-z]+)", one.command)
                     if document.name in self.OTHER_PROGRAMS and not command:
                         if option != "--help":
                             self.assertIn(f'"{option}"', (SOURCE / self.OTHER_PROGRAMS[document.name]).read_text(), one)

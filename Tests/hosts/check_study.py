@@ -77,8 +77,7 @@ def answer(window, log, number):
         # Keys do nothing until it was played to its end.
         time.sleep(0.5 if attempt == 0 else 0.2)
         if words:
-            if attempt == 0:
-                window.type("rough")
+            window.type("rough,")
             window.keys("Tab", "Return")
         else:
             window.keys(*["Right"] * (1 + number % 3), "Return")

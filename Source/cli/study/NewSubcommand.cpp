@@ -1,5 +1,6 @@
 #include "cli/Command.h"
 #include "cli/Counted.h"
+#include "cli/InputFiles.h"
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "io/AtomicFile.h"
@@ -56,7 +57,7 @@ public:
         addOption(*command, "output", output, "Folder for study.json and what is answered; or the name of a .json file",
                   "STUDY")
             ->required();
-        addOption(*command, "sounds", sounds, "Sounds to be heard and felt", "SOUND");
+        addOption(*command, "sounds", sounds, "Sounds to be heard and felt, or folders of them", "SOUND");
         addOption(*command, "-t,--template", kind, "What is asked", oneOf(names), "NAME")->required();
         addOption(*command, "-g,--group", groups,
                   "Name and number of participants of a group; several times for several", "NAME:SIZE")
@@ -67,7 +68,7 @@ public:
         overwriting.declare(*command);
         command->footer("Templates:\n" + list +
                         "\nThe file is JSON, made to be changed: see Resources/docs/study.md.\n\nExample:\n"
-                        "  pacini study new coherence --template coherence sounds/*.wav");
+                        "  pacini study new coherence --template coherence sounds/");
         return command;
     }
 
@@ -85,14 +86,18 @@ public:
         }
         if (isOccupied(file) && !overwriting.replacesAll())
             return console.fail(file.string(), {ErrorCode::io, "", "exists; -y replaces it"});
-        std::vector<std::string> moved;
-        for (const std::string& sound : sounds)
+        const InputFiles found = findInputs(sounds, audioExtensions());
+        for (const InputFailure& failure : found.failures)
+            return console.fail(failure.path.string(), failure.error);
+        std::vector<std::string> files;
+        for (const InputFile& input : found.files)
         {
-            if (!fs::is_regular_file(sound, unknown))
-                return console.fail(sound, {ErrorCode::io, "", "is no file; name sounds"});
-            moved.push_back(sound);
+            if (!fs::is_regular_file(input.path, unknown))
+                return console.fail(input.path.string(),
+                                    {ErrorCode::io, "", "does not exist; check the name and the folder"});
+            files.push_back(input.path.string());
         }
-        auto made = study::makeStudy(kind, moved);
+        auto made = study::makeStudy(kind, files);
         if (!made)
             return console.fail("", made.error(), Exit::usage);
         const auto own = groupsOf(groups);

@@ -120,7 +120,8 @@ std::string stamped(std::string text)
 bool isAsWritten(std::string_view text)
 {
     const std::size_t at = text.rfind(stampStart);
-    return at != std::string_view::npos && text.substr(at + stampStart.size()).starts_with(sha256(text.substr(0, at)));
+    return at != std::string_view::npos &&
+           text.substr(at) == fmt::format("{}{} -->\n", stampStart, sha256(text.substr(0, at)));
 }
 
 std::string htmlOf(const Page& page)

@@ -23,7 +23,7 @@ public:
                                 reportStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
             declared.push_back(steps.emplace_back(make())->declare(*command));
         command->footer("From a question to its answer:\n"
-                        "  pacini study new coherence --template coherence sounds/*.wav\n"
+                        "  pacini study new coherence --template coherence sounds/\n"
                         "  pacini study check coherence --profile l5-wristband\n"
                         "  pacini study simulate coherence --effect 1\n"
                         "Participants go through it in the editor: File, Run study... Then\n"

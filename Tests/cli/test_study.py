@@ -1,0 +1,127 @@
+"""End to end: pacini study, from a template to a report, and what people do wrong with it."""
+import json
+import re
+import unittest
+
+from command import CommandTest, sine, wav
+
+
+class StudyTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        for i, frequency in enumerate((120, 400, 900)):
+            self.put(f"sounds/{'abc'[i]}.wav", wav(sine(frequency, 0.4, 44100), 44100))
+
+    def new(self, template="coherence", *more):
+        self.succeeds("study", "new", "mine", "--template", template, "sounds/", *more)
+        return json.loads((self.folder / "mine/study.json").read_text())
+
+
+class Steps(StudyTest):
+    def test_every_template_is_written_checked_simulated_and_reported(self):
+        help_text = self.succeeds("study", "new", "--help")
+        templates = re.findall(r"(?m)^  ([a-z]+) {2,}\S", help_text[help_text.index("Templates:"):])
+        self.assertEqual(len(templates), 8)
+        for template in templates:
+            with self.subTest(template):
+                self.succeeds("study", "new", f"{template}/", "--template", template, "sounds/", "-g", "A:3", "-g", "B:3"
+                              if template != "coherence" else "C:3", *(["-g", "B:3"] if template == "coherence" else []))
+                self.succeeds("study", "check", template)
+                self.succeeds("study", "simulate", template, "-o", f"{template}-simulated", "--runs", "20")
+                report = self.report("study", "report", f"{template}-simulated")
+                self.assertEqual({entry["finished"] for entry in report["participants"].values()}, {3})
+                page = (self.folder / f"{template}-simulated/report/report.md").read_text()
+                self.assertIn("SIMULATED", page)
+                html = (self.folder / f"{template}-simulated/report/report.html").read_text()
+                self.assertEqual(html.count("<table>"), html.count("</table>"))
+                for picture in re.findall(r"\]\(([^)]+\.svg)\)", page):
+                    self.assertTrue((self.folder / f"{template}-simulated/report" / picture).exists())
+                self.succeeds("study", "export", f"{template}-simulated", "-o", f"{template}-tables")
+                answers = (self.folder / f"{template}-tables/answers.csv").read_text()
+                self.assertGreater(answers.count("\n"), 5)
+                sheets = list((self.folder / f"{template}-tables/bids").glob("sub-P*/beh/*_beh.tsv"))
+                self.assertGreaterEqual(len(sheets), 6)
+
+    def test_the_same_study_is_simulated_alike(self):
+        self.new()
+        texts = []
+        for folder in ("one", "two"):
+            self.succeeds("study", "simulate", "mine", "-o", folder, "--seed", "7", "--runs", "10")
+            text = "".join(path.read_text() for path in sorted((self.folder / folder / "sessions").glob("*.jsonl")))
+            texts.append(re.sub(r'"(time|started)":"[^"]*"', "", text))
+        self.assertEqual(texts[0], texts[1])
+
+    def test_words_have_categories_and_are_escaped(self):
+        self.new()
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        log = next((self.folder / "simulated/sessions").glob("*.jsonl"))
+        log.write_text(re.sub(r'"words":"[^"]*"', '"words":"<script>alert(1)</script>|x"', log.read_text()))
+        self.put("table.csv", b"category,word\nspectral,rough\nmotion,kno*\n")
+        report = self.report("study", "report", "simulated", "--categories", "table.csv")
+        self.assertEqual(set(report["categories"]["A"]), {"spectral", "motion", ""})
+        self.assertNotIn("<script>", (self.folder / "simulated/report/report.html").read_text())
+
+    def test_a_report_of_ratings_of_others(self):
+        rows = [f"{group};{stimulus};{person};{5 + (person + stimulus) % 3 + (2 if group == 'C' else 0)}"
+                for group in "ABC" for stimulus in range(1, 11) for person in range(6)]
+        self.put("others.csv", "\n".join(["Group;Stimulus;Participant;Rating", *rows]).encode())
+        report = self.report("study", "report", "others.csv", "--combine", "A+B")
+        comparisons = report["ratings"]["Ratings"]["comparisons"]
+        self.assertEqual([(one["first"], one["second"]) for one in comparisons],
+                         [("A", "B"), ("A", "C"), ("B", "C"), ("{A+B}", "C")])
+        self.assertAlmostEqual(comparisons[1]["byParticipant"]["pooled"]["difference"], -2.0)
+        # Numbers in their order: 2 before 10.
+        page = (self.folder / "others.report/report.md").read_text()
+        self.assertLess(page.index("| 2 |"), page.index("| 10 |"))
+
+
+class Mistakes(StudyTest):
+    def test_what_is_wrong_is_said(self):
+        self.fails(2, ["study", "new", "x", "--template", "coherense", "sounds/"], "did you mean coherence?")
+        self.fails(2, ["study", "new", "x", "--template", "coherence"], "needs 2 at least")
+        self.fails(2, ["study", "new", "x", "--template", "jnd", "-g", "A"], "A:11")
+        self.fails(1, ["study", "new", "x", "--template", "coherence", "gone.wav", "sounds/"], "gone.wav")
+        self.fails(1, ["study", "check", "nowhere"], "nowhere")
+        self.fails(1, ["study", "report", "nowhere"], "nowhere")
+        self.new()
+        self.fails(1, ["study", "report", "mine"], "no session")
+        self.fails(2, ["study", "report", "mine", "--combine", "A"], "A+B")
+        self.put("bad.csv", b"stimulus,rating\n1,x\n")
+        self.fails(1, ["study", "report", "bad.csv"], "line 2: 'x' is not a rating")
+        document = json.loads((self.folder / "mine/study.json").read_text())
+        document["stimuli"][1]["sound"] = "gone.wav"
+        self.put("mine/study.json", json.dumps(document).encode())
+        self.fails(1, ["study", "check", "mine"], 'stimuli[1] ("b"): gone.wav')
+        document["blocks"][0]["replay"] = 1
+        self.put("mine/study.json", json.dumps(document).encode())
+        self.fails(1, ["--strict", "study", "check", "mine"], '"replays"')
+
+    def test_nothing_of_the_users_is_lost(self):
+        self.new()
+        self.fails(1, ["study", "new", "mine", "--template", "jnd"], "exists; -y replaces it")
+        self.assertEqual(json.loads((self.folder / "mine/study.json").read_text())["name"], "coherence")
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        self.fails(1, ["study", "simulate", "mine", "-o", "simulated"], "not empty")
+        self.succeeds("study", "report", "simulated")
+        self.succeeds("study", "report", "simulated")  # its own is written anew
+        mine = self.folder / "simulated/report/report.md"
+        mine.write_text(mine.read_text() + "\nWhat I think of it.\n")
+        self.fails(1, ["study", "report", "simulated"], "report.md")
+        self.assertIn("What I think", mine.read_text())
+        self.succeeds("study", "report", "simulated", "-y")
+        self.assertNotIn("What I think", mine.read_text())
+
+    def test_a_person_is_forgotten_only_when_that_is_sure(self):
+        self.new()
+        self.succeeds("study", "simulate", "mine", "-o", "simulated", "--runs", "10")
+        log = self.folder / "simulated/sessions/P007.jsonl"
+        self.succeeds("study", "forget", "simulated", "P007")
+        self.assertTrue(log.exists())
+        self.succeeds("study", "forget", "simulated", "P007", "--yes")
+        self.assertFalse(log.exists())
+        self.fails(1, ["study", "forget", "simulated", "P007", "--yes"], "no session of 'P007'")
+        self.fails(1, ["study", "forget", "simulated", "../study", "--yes"], "no session")
+
+
+if __name__ == "__main__":
+    unittest.main()
