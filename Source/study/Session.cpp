@@ -48,8 +48,8 @@ std::vector<fs::path> sessionLogs(const fs::path& folder)
     return logs;
 }
 
-Session::Session(const Study& ofStudy, SessionHead head, fs::path log)
-    : study(ofStudy), first(std::move(head)), file(std::move(log))
+Session::Session(const Study& ofStudy, SessionHead head, fs::path path)
+    : study(ofStudy), first(std::move(head)), file(std::move(path))
 {
     for (std::size_t block = 0; block < study.blocks.size(); ++block)
         if (isFor(study.blocks[block], first.group))

@@ -66,7 +66,7 @@ public:
     [[nodiscard]] double exposure() const noexcept { return exposed; }
 
 private:
-    Session(const Study& ofStudy, SessionHead head, std::filesystem::path log);
+    Session(const Study& ofStudy, SessionHead head, std::filesystem::path path);
     [[nodiscard]] std::optional<bool> take(const Answer& answer);
     void skipDone();
     [[nodiscard]] Staircase& staircase(const Trial& trial);
