@@ -55,6 +55,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> checkStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> simulateStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> reportStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> profileStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> exportStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> forgetStudySubcommand();
 

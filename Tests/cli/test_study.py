@@ -75,6 +75,18 @@ class Steps(StudyTest):
         self.assertLess(page.index("| 2 |"), page.index("| 10 |"))
 
 
+class Profile(StudyTest):
+    def test_thresholds_make_a_profile_of_ones_own(self):
+        self.succeeds("study", "new", "felt", "--template", "threshold", "--profile", "l5-wristband", "-g", "all:1")
+        self.succeeds("study", "simulate", "felt", "-o", "simulated", "--runs", "10", "--threshold", "-55")
+        report = self.report("study", "profile", "simulated", "P001", "-o", "mine.json")
+        self.assertEqual(json.loads((self.folder / "mine.json").read_text())["range"]["dynamicRange"], report["dynamicRange"])
+        self.clip()
+        self.succeeds("render", "clip.json", "--profile", "mine.json", "-o", "mine.wav")
+        self.fails(1, ["study", "profile", "simulated", "P999", "-o", "other.json"], "P999")
+        self.assertFalse((self.folder / "other.json").exists())
+
+
 class Mistakes(StudyTest):
     def test_what_is_wrong_is_said(self):
         self.fails(2, ["study", "new", "x", "--template", "coherense", "sounds/"], "did you mean coherence?")

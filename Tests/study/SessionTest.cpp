@@ -2,10 +2,12 @@
 
 #include "io/InputFile.h"
 #include "study/Observers.h"
+#include "study/PersonalProfile.h"
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 #include "study/StudyTemplates.h"
 #include "support/Catch.h"
+#include "support/ShippedProfile.h"
 #include "support/TempFolder.h"
 
 #include <pacini/foundation/Random.h>
@@ -222,6 +224,44 @@ TEST_CASE("Results of all kinds are found again")
         if (!errors.empty())
             CHECK(errors[errors.size() / 2] < 3.0);
     }
+}
+
+TEST_CASE("A profile becomes a person's: who feels more has a larger dynamic range")
+{
+    Study study = made("threshold");
+    study.groups[0].size = 2;
+    study.blocks[0].adaptive.trials = 40;
+    const TempFolder folder;
+    std::ofstream(folder.path() / "study.json") << studyJson(study);
+    ObserverParams sharp, dull;
+    sharp.threshold = -50.0;
+    dull.threshold = -35.0;
+    sharp.thresholdSd = dull.thresholdSd = 0.0;
+    REQUIRE(simulateSession(study, *begun(study, folder.path()), sharp));
+    REQUIRE(simulateSession(study, *begun(study, folder.path()), dull));
+    const auto results = readResults(folder.path());
+    REQUIRE(results);
+    Profile profile = test::shippedProfile("l5-wristband");
+    profile.equalizer = {};
+    profile.range.lowFrequency = 100.0; // where the dull one feels something
+    profile.range.highFrequency = 300.0;
+    const auto first = personalProfile(profile, *results, "P001"), second = personalProfile(profile, *results, "P002");
+    REQUIRE(first);
+    REQUIRE(second);
+    // 125, 180 and 250 Hz: the thresholds are 12, 5.7 and 0 dB above that at 250 Hz.
+    CHECK(first->range.dynamicRange == Approx(50.0 - 5.9).margin(1.5));
+    CHECK(second->range.dynamicRange == Approx(35.0 - 5.9).margin(1.5));
+    CHECK(validate(*first));
+    CHECK(sourceOf(first->sources, "range.dynamicRange")->text.find("P001") != std::string::npos);
+    // An equaliser in front of the drive adds its gain to what is left.
+    Profile louder = profile;
+    louder.equalizer.pushBack({EqualizerType::peak, 180.0, 6.0, 0.1});
+    const auto equalized = personalProfile(louder, *results, "P001");
+    REQUIRE(equalized);
+    CHECK(equalized->range.dynamicRange == Approx(first->range.dynamicRange + 6.0).margin(0.5));
+    CHECK_FALSE(personalProfile(profile, *results, "P009"));
+    profile.range.lowFrequency = 30.0; // at 31.5 Hz the dull one felt nothing at full drive
+    CHECK_FALSE(personalProfile(profile, *results, "P002"));
 }
 
 #if !defined(_WIN32)

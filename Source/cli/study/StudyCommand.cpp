@@ -19,14 +19,15 @@ public:
         auto* command =
             app.add_subcommand("study", "Find out what people feel: plan, check, simulate and evaluate studies");
         command->require_subcommand(1);
-        for (const auto make : {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand,
-                                reportStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
+        for (const auto make :
+             {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, reportStudySubcommand,
+              profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
             declared.push_back(steps.emplace_back(make())->declare(*command));
         command->footer("From a question to its answer:\n"
                         "  pacini study new coherence --template coherence sounds/\n"
                         "  pacini study check coherence --profile l5-wristband\n"
                         "  pacini study simulate coherence --effect 1\n"
-                        "Participants go through it in the editor: File, Run study... Then\n"
+                        "Participants go through it in the editor: Tools, Run a study... Then\n"
                         "  pacini study report coherence\n"
                         "A study is a folder with study.json and, below sessions, one file for each participant.");
         return command;

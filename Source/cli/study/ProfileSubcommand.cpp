@@ -1,0 +1,80 @@
+#include "cli/Command.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "cli/ProfileInput.h"
+#include "io/ProfileFile.h"
+#include "study/PersonalProfile.h"
+
+#include <fmt/format.h>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// `study profile`: an actuator for one person.
+class ProfileSubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override
+    {
+        auto* command = app.add_subcommand("profile", "Write an actuator profile that knows what a participant feels");
+        addOption(*command, "study", named, "Folder or file of a study with thresholds", "STUDY")->required();
+        addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
+        addOption(
+            *command, "--profile", profile,
+            "The actuator that was felt: a profile file, or the name of one that comes with Pacini [that of the study]",
+            "PROFILE");
+        addOption(*command, "-o,--output", output, "Profile to write", "OUT")->required();
+        overwriting.declare(*command);
+        command->footer(
+            "The dynamic range of the profile becomes that of the person: from full drive down to the mean of the\n"
+            "thresholds. Weak parts of clips are then raised to what this person feels, by render, plugin and editor.\n"
+            "The study is that of 'study new --template threshold', run with the same profile.\n\nExample:\n"
+            "  pacini study profile thresholds P007 --profile l5-wristband -o mine.json");
+        return command;
+    }
+
+    Exit run(Console& console) override
+    {
+        const auto results = study::readResults(named);
+        if (!results)
+            return console.fail(named, results.error());
+        const std::string actuator = profile.empty() ? results->study.profile : profile;
+        if (actuator.empty())
+            return console.fail(
+                "", {ErrorCode::invalidArgument, "--profile", "is missing, and the study names no actuator"},
+                Exit::usage);
+        const auto base = openProfile(console, actuator);
+        if (!base)
+            return Exit::failed;
+        const auto personal = study::personalProfile(*base, *results, participant);
+        if (!personal)
+            return console.fail(named, personal.error());
+        if (overwriting.keepsAll() && isOccupied(output))
+        {
+            console.note(fmt::format("{} exists and was left", printable(output)));
+            return Exit::ok;
+        }
+        const auto written = writeProfile(output, *personal);
+        if (!written)
+            return console.fail(output, written.error());
+        console.addToReport({{"output", output}, {"dynamicRange", personal->range.dynamicRange}});
+        console.wrote(output,
+                      fmt::format("dynamic range {} dB instead of {} dB", decimalText(personal->range.dynamicRange, 1),
+                                  decimalText(base->range.dynamicRange, 1)));
+        return Exit::ok;
+    }
+
+private:
+    std::string named, participant, profile, output;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
+std::unique_ptr<Command> profileStudySubcommand()
+{
+    return std::make_unique<ProfileSubcommand>();
+}
+
+} // namespace pacini::cli
