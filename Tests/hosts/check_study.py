@@ -76,6 +76,10 @@ def answer(window, log, number):
     for attempt in range(20):
         # Keys do nothing until it was played to its end.
         time.sleep(0.5 if attempt == 0 else 0.2)
+        if attempt % 8 == 7:
+            window.tool("windowfocus", window.window)
+            window.keys("Escape", "Return", "space")  # it was interrupted
+            time.sleep(1.5)
         if words:
             window.type("rough,")
             window.keys("Tab", "Return")

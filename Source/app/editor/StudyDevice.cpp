@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace pacini::app
 {
@@ -24,11 +25,26 @@ int StudyDevice::sampleRate() const
     return open == nullptr ? 0 : static_cast<int>(std::lround(open->getCurrentSampleRate()));
 }
 
+void StudyDevice::play(study::TrialSound trial)
+{
+    if (std::exchange(stalled, false))
+        manager.restartLastAudioDevice();
+    lastFrame = 0;
+    lastMoved = juce::Time::getMillisecondCounterHiRes();
+    playback.play(std::move(trial));
+}
+
 study::PlaybackReport StudyDevice::report() const
 {
     auto report = playback.report();
-    // Without a device nobody plays on: the trial is lost, and is repeated.
-    if (report.playing && manager.getCurrentAudioDevice() == nullptr)
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    if (report.frame != std::exchange(lastFrame, report.frame))
+        lastMoved = now;
+    // Without a device, or with one that asks for nothing any more, nobody plays on: the trial is lost, and is
+    // repeated.
+    constexpr double longestPause = 2000.0; // ms
+    stalled = stalled || (report.playing && now - lastMoved > longestPause);
+    if (report.playing && (stalled || manager.getCurrentAudioDevice() == nullptr))
     {
         report.playing = false;
         ++report.dropouts;

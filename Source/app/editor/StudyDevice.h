@@ -22,7 +22,7 @@ public:
     ~StudyDevice() override;
 
     [[nodiscard]] int sampleRate() const override;
-    void play(study::TrialSound trial) override { playback.play(std::move(trial)); }
+    void play(study::TrialSound trial) override;
     void stop() override { playback.stop(); }
     [[nodiscard]] study::PlaybackReport report() const override;
 
@@ -43,6 +43,10 @@ private:
     juce::AudioDeviceManager& manager;
     study::TrialPlayback playback;
     std::atomic<int> soundChannel{0}, touchChannel{1};
+    // Of what plays: how far it was when, by which a device that is there but silent is told.
+    mutable std::size_t lastFrame = 0;
+    mutable double lastMoved = 0.0; ///< ms of JUCE's counter
+    mutable bool stalled = false;
     std::atomic<juce::AudioIODevice*> device{nullptr};
     int overruns = 0; ///< that the device has counted, of the audio thread
     std::array<std::array<float, pieceFrames>, 3> pieces{};

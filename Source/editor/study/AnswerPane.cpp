@@ -362,6 +362,8 @@ public:
             {
                 row.up = std::make_unique<LargeButton>(tr("Up"));
                 row.down = std::make_unique<LargeButton>(tr("Down"));
+                row.up->setTitle(row.play->getButtonText() + ": " + row.up->getButtonText());
+                row.down->setTitle(row.play->getButtonText() + ": " + row.down->getButtonText());
                 row.up->onClick = [this, i]
                 {
                     move(i, -1);

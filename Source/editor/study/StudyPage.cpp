@@ -53,6 +53,8 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
     setTitle(tr("Study"));
     for (Paragraph* paragraph : {&title, &text, &status})
         addAndMakeVisible(paragraph);
+    addChildComponent(scrolled);
+    scrolled.setScrollBarsShown(true, false);
     show(State::setUp);
     startTimerHz(pollsPerSecond);
 }
@@ -60,6 +62,7 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
 StudyPage::~StudyPage()
 {
     services.player->stop();
+    scrolled.setViewedComponent(nullptr, false);
     pane.reset();
     setLookAndFeel(nullptr);
 }
@@ -88,6 +91,8 @@ LargeButton& StudyPage::addButton(const juce::String& caption, std::function<voi
 void StudyPage::show(State wanted)
 {
     now = wanted;
+    scrolled.setViewedComponent(nullptr, false);
+    scrolled.setVisible(false);
     pane.reset();
     buttons.clear();
     boxes.clear();
@@ -314,7 +319,8 @@ void StudyPage::buildTrial()
     {
         play(part);
     };
-    addAndMakeVisible(*pane);
+    scrolled.setViewedComponent(pane.get(), false);
+    scrolled.setVisible(true);
     if (!running->isPage())
         playButton = &addButton(tr("Play (space)"), [this] { play(0); });
     if (!pane->answersAtOnce())
@@ -418,6 +424,8 @@ void StudyPage::timerCallback()
     if (!pane)
         return;
     pane->showPlaying(playing.part);
+    if (std::exchange(wasPlaying, playing.now) && !playing.now && !running->canAnswer() && !running->isPage())
+        status.setText(tr("It was interrupted. Please play it again."));
     const bool ready = running->canAnswer();
     pane->setReady(ready);
     if (ready && !std::exchange(wasReady, true))
@@ -449,7 +457,11 @@ void StudyPage::resized()
     }
     if (pane)
     {
-        pane->setBounds(area.removeFromTop(pane->wantedHeight()));
+        const int room = area.getHeight() - participantRow - 8 * grid; // for the buttons and what is said below
+        const int wanted = pane->wantedHeight();
+        scrolled.setBounds(area.removeFromTop(std::min(wanted, std::max(room, 2 * participantRow))));
+        pane->setSize(scrolled.getWidth() - (wanted > scrolled.getHeight() ? scrolled.getScrollBarThickness() : 0),
+                      wanted);
         area.removeFromTop(2 * grid);
     }
     std::vector<juce::Component*> row;

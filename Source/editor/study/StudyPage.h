@@ -94,8 +94,10 @@ private:
     std::size_t comfortNext = 0;
 
     Paragraph title, text, status;
+    bool wasPlaying = false;
     bool wasReady = false; ///< the trial could be answered at the last look
     std::unique_ptr<AnswerPane> pane;
+    juce::Viewport scrolled; ///< shows the pane, which may be higher than the window
     std::vector<std::unique_ptr<LargeButton>> buttons;
     std::vector<std::unique_ptr<juce::ComboBox>> boxes;
     std::vector<std::unique_ptr<juce::Label>> names; ///< of the boxes
