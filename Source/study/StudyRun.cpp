@@ -2,6 +2,8 @@
 
 #include "study/Exposure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -69,10 +71,25 @@ PlayRefusal StudyRun::start(Result<TrialSound> sound, std::size_t part)
     return PlayRefusal::none;
 }
 
-PlayRefusal StudyRun::play(std::size_t part)
+PlayRefusal StudyRun::checkDevice()
 {
     if (player.sampleRate() <= 0)
+        player.recover();
+    const int rate = player.sampleRate();
+    if (rate <= 0)
         return PlayRefusal::noDevice;
+    if (rate == maker.params().sampleRate)
+        return PlayRefusal::none;
+    error = Error{ErrorCode::invalidArgument, "",
+                  fmt::format("The device has changed from {} to {} Hz; close the session and continue it",
+                              maker.params().sampleRate, rate)};
+    return PlayRefusal::failed;
+}
+
+PlayRefusal StudyRun::play(std::size_t part)
+{
+    if (const PlayRefusal refusal = checkDevice(); refusal != PlayRefusal::none)
+        return refusal;
     if (playsLeft(part) == 0)
         return PlayRefusal::noReplayLeft;
     const std::uint64_t noise = seedOf(study(), running->head().slot, 3'000'000 + running->answered());
@@ -86,8 +103,8 @@ PlayRefusal StudyRun::play(std::size_t part)
 
 PlayRefusal StudyRun::tryOut(std::size_t stimulus)
 {
-    if (player.sampleRate() <= 0)
-        return PlayRefusal::noDevice;
+    if (const PlayRefusal refusal = checkDevice(); refusal != PlayRefusal::none)
+        return refusal;
     Block both;
     const auto refusal = start(makePart(maker, both, stimulus, 0), 0);
     startedPart.reset(); // no part of the trial

@@ -21,6 +21,9 @@ class TrialPlayer
 public:
     virtual ~TrialPlayer() = default;
 
+    /// Tries to open the device again that went away.
+    virtual void recover() {}
+
     /// Hz; 0 without a device.
     [[nodiscard]] virtual int sampleRate() const = 0;
     virtual void play(TrialSound trial) = 0;
@@ -86,6 +89,7 @@ public:
     [[nodiscard]] double touchTrim() const noexcept { return trim; }
 
 private:
+    [[nodiscard]] PlayRefusal checkDevice();
     [[nodiscard]] PlayRefusal start(Result<TrialSound> sound, std::size_t part);
     void beginTrial();
 

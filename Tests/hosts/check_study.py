@@ -97,8 +97,9 @@ def main():
         folder = Path(name)
         study, trials = make_study(pacini, folder)
         window.environment.update(JACK_DEFAULT_SERVER=server, JACK_NO_AUDIO_RESERVATION="1")
-        window.start("jackd", "-r", "-n", server, "-d", "dummy", "-r", RATE, "-p", "256", "-C", "2", "-P", "4",
-                     env=window.environment)
+        # A server that waits: on a busy machine it would throw the program out.
+        window.start("jackd", "-r", "-t", "8000", "-n", server, "-d", "dummy", "-r", RATE, "-p", "1024", "-C", "2",
+                     "-P", "4", env=window.environment)
 
         def ports():
             listed = subprocess.run(["jack_lsp"], env=window.environment, capture_output=True, text=True)

@@ -54,8 +54,15 @@ public:
     void stop() override { playback.stop(); }
     [[nodiscard]] PlaybackReport report() const override { return playback.report(); }
 
+    void recover() override
+    {
+        if (returns)
+            rate = 48000;
+    }
+
     int rate = 48000;
     bool drops = false;
+    bool returns = false; ///< when it is opened again
 
 private:
     TrialPlayback& playback;
@@ -207,7 +214,11 @@ TEST_CASE("Nothing is played beyond the limit of exposure, without a device, or 
     StudyRun run(study, std::move(*session), {}, player);
     player.rate = 0;
     CHECK(run.play() == PlayRefusal::noDevice);
-    player.rate = 48000;
+    player.rate = 44100; // not the one that the session has begun with
+    CHECK(run.play() == PlayRefusal::failed);
+    CHECK(run.failure()->message.find("44100") != std::string::npos);
+    player.rate = 0;
+    player.returns = true;
     player.drops = true;
     const std::size_t first = run.trial()->stimuli[0];
     CHECK(run.play() == PlayRefusal::none);

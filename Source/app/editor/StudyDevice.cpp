@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/editor/StudyDevice.h"
 
+#include "app/OpenDevice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -25,10 +27,22 @@ int StudyDevice::sampleRate() const
     return open == nullptr ? 0 : static_cast<int>(std::lround(open->getCurrentSampleRate()));
 }
 
+void StudyDevice::recover()
+{
+    stalled = false;
+    manager.restartLastAudioDevice();
+    // The list of devices may be older than the device that has come back.
+    constexpr int mostChannels = 256;
+    if (manager.getCurrentAudioDevice() == nullptr)
+        if (const auto error = openDevice(manager, 0, mostChannels, nullptr, manager.getCurrentAudioDeviceType());
+            error.isNotEmpty())
+            juce::Logger::writeToLog("Pacini: no sound device: " + error);
+}
+
 void StudyDevice::play(study::TrialSound trial)
 {
-    if (std::exchange(stalled, false))
-        manager.restartLastAudioDevice();
+    if (stalled)
+        recover();
     lastFrame = 0;
     lastMoved = juce::Time::getMillisecondCounterHiRes();
     playback.play(std::move(trial));

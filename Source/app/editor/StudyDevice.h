@@ -21,6 +21,7 @@ public:
     explicit StudyDevice(juce::AudioDeviceManager& wanted);
     ~StudyDevice() override;
 
+    void recover() override;
     [[nodiscard]] int sampleRate() const override;
     void play(study::TrialSound trial) override;
     void stop() override { playback.stop(); }
