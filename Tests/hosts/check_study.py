@@ -140,6 +140,8 @@ def main():
                     time.sleep(0.7)
                 if not answer(window, log, trial):
                     check(f"person {person + 1}, trial {trial + 1} is answered", False)
+                    if picture := os.environ.get("PACINI_STUDY_PICTURE"):
+                        subprocess.run(["import", "-window", "root", picture], env=window.environment)
                     return 1
                 if person == 0 and trial == trials - 1:
                     recorder.wait(60)
