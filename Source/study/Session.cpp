@@ -197,7 +197,6 @@ Result<std::optional<bool>> Session::answer(const Answer& answer)
     record.time = utcNow();
     if (auto kept = log->add(record); !kept)
         return kept.error();
-    exposed += answer.exposure;
     const auto right = take(answer);
     if (trial() == nullptr)
         (void)log->finish(); // the answers are what counts; resume() sees that none is missing

@@ -68,7 +68,6 @@ Record recordOf(const Json& line)
     record.answer.replays = valueOr(line, "replays", 0);
     record.answer.soundOnset = optionalOf<double>(line, "soundOnset");
     record.answer.touchOnset = optionalOf<double>(line, "touchOnset");
-    record.answer.exposure = valueOr(line, "exposure", 0.0);
     record.answer.dropouts = valueOr(line, "dropouts", 0);
     record.time = valueOr(line, "time", std::string());
     return record;
@@ -125,8 +124,6 @@ Line lineOf(const Record& record)
         line["soundOnset"] = *answer.soundOnset;
     if (answer.touchOnset)
         line["touchOnset"] = *answer.touchOnset;
-    if (answer.exposure > 0.0)
-        line["exposure"] = answer.exposure;
     if (answer.dropouts > 0)
         line["dropouts"] = answer.dropouts;
     line["time"] = record.time;
@@ -172,10 +169,7 @@ Result<LoggedSession> readSession(const fs::path& path)
             session.head = std::move(*head);
         }
         else if (type == "answer")
-        {
             session.records.push_back(recordOf(*line));
-            session.exposure += session.records.back().answer.exposure;
-        }
         else if (type == "finished")
             session.finished = true;
         else if (type == "event")

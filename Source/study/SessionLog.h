@@ -47,7 +47,6 @@ struct Answer
     double seconds = 0.0; ///< from the end of the presentation to the answer
     int replays = 0;
     std::optional<double> soundOnset, touchOnset; ///< s of the device's clock
-    double exposure = 0.0;                        ///< m2/s4 s: of all that was felt in the trial, weighted
     int dropouts = 0;                             ///< of the device while something played; such a trial is repeated
 };
 
@@ -71,7 +70,7 @@ struct LoggedSession
     SessionHead head;
     std::vector<Record> records;
     bool finished = false;
-    double exposure = 0.0;           ///< m2/s4 s, of all answers and events
+    double exposure = 0.0;           ///< m2/s4 s: weighted acceleration, squared, over time
     std::vector<std::string> events; ///< what else happened, such as "stopped"
     std::uint64_t goodBytes = 0;     ///< of whole lines; what follows was being written when the program ended
 };

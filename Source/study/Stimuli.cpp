@@ -28,11 +28,6 @@ namespace
 constexpr double longestStimulus = 60.0; // s
 constexpr Seconds lookAhead{0.001};
 
-double gainOf(double decibels)
-{
-    return std::pow(10.0, decibels / 20.0);
-}
-
 void scale(std::vector<float>& samples, double gain)
 {
     for (float& sample : samples)
@@ -43,7 +38,7 @@ std::vector<float> toneOf(const Tone& tone, int sampleRate)
 {
     const double fs = sampleRate;
     std::vector<float> samples(static_cast<std::size_t>(std::llround(tone.duration * fs)));
-    const double amplitude = gainOf(tone.level);
+    const double amplitude = Decibels(tone.level).gain();
     for (std::size_t n = 0; n < samples.size(); ++n)
     {
         const double t = static_cast<double>(n) / fs;
@@ -142,7 +137,7 @@ Result<std::vector<float>> StimulusMaker::soundOf(const Stimulus& stimulus) cons
     auto sound = monoOfFile(settings.folder / stimulus.sound, settings.sampleRate, limits::lowestSampleRate);
     if (!sound)
         return Error{sound.error().code, stimulus.sound, sound.error().text()};
-    scale(*sound, gainOf(stimulus.soundLevel + whole.soundLevel));
+    scale(*sound, Decibels(stimulus.soundLevel + whole.soundLevel).gain());
     return sound;
 }
 
@@ -212,7 +207,7 @@ Result<std::vector<float>> StimulusMaker::translated(const Stimulus& stimulus) c
 
 Result<std::vector<float>> StimulusMaker::touchOf(const Stimulus& stimulus) const
 {
-    const double gain = gainOf(stimulus.touchLevel + whole.touchLevel);
+    const double gain = Decibels(stimulus.touchLevel + whole.touchLevel).gain();
     const auto asIs = [&](std::vector<float> samples)
     {
         scale(samples, gain);

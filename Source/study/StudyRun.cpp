@@ -38,7 +38,6 @@ void StudyRun::beginTrial()
     plays.assign(trial() == nullptr ? 0 : isPage() ? trial()->stimuli.size() : 1, 0);
     last = {};
     dropouts = 0;
-    dose = 0.0;
     ended = std::chrono::steady_clock::now();
 }
 
@@ -58,13 +57,19 @@ PlayRefusal StudyRun::start(Result<TrialSound> sound, std::size_t part)
     }
     if (trim != 0.0)
         for (float& sample : sound->touch)
-            sample = static_cast<float>(static_cast<double>(sample) * std::pow(10.0, trim / 20.0));
+            sample = static_cast<float>(static_cast<double>(sample) * Decibels(trim).gain());
     const StimulusParams& params = maker.params();
-    doseOfPlay = doseOf(feltOf(sound->touch, params.profile, params.sampleRate), params.sampleRate);
-    if (dailyExposure(running->exposure() + dose + doseOfPlay) > study().limits.daily)
+    const double doseOfPlay = doseOf(feltOf(sound->touch, params.profile, params.sampleRate), params.sampleRate);
+    if (dailyExposure(running->exposure() + doseOfPlay) > study().limits.daily)
         return PlayRefusal::exposure;
-    // All of it counts from its start: what is cut off may have been felt.
-    dose += doseOfPlay;
+    // All of it counts from its start, and is on the disk before it is felt: what is cut off may have been felt, and a
+    // session that goes on after a kill knows of it.
+    if (doseOfPlay > 0.0)
+        if (const auto kept = running->note("play", doseOfPlay); !kept)
+        {
+            error = kept.error();
+            return PlayRefusal::failed;
+        }
     parts = sound->parts;
     startedPart = part;
     player.play(std::move(*sound));
@@ -148,7 +153,6 @@ Result<std::optional<bool>> StudyRun::answer(Answer answer)
     answer.soundOnset = last.soundOnset;
     answer.touchOnset = last.touchOnset;
     answer.dropouts = dropouts;
-    answer.exposure = dose;
     auto kept = running->answer(answer);
     if (kept)
         beginTrial();
@@ -157,7 +161,7 @@ Result<std::optional<bool>> StudyRun::answer(Answer answer)
 
 double StudyRun::exposure() const
 {
-    return dailyExposure(running->exposure() + dose);
+    return dailyExposure(running->exposure());
 }
 
 void StudyRun::lowerTouch(double decibels)

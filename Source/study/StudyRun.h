@@ -103,9 +103,7 @@ private:
     std::set<std::size_t> played;           ///< parts that were played to their end
     PlaybackReport last;                    ///< of the first whole play
     int dropouts = 0;
-    double dose = 0.0;       ///< of this trial, m2/s4 s
-    double doseOfPlay = 0.0; ///< of what plays
-    double trim = 0.0;       ///< dB
+    double trim = 0.0; ///< dB
     std::chrono::steady_clock::time_point ended = std::chrono::steady_clock::now();
 };
 

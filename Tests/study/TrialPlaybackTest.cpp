@@ -198,7 +198,7 @@ TEST_CASE("A trial can be answered once it was played, and replayed as often as 
     CHECK(logged->finished);
     CHECK(logged->records[0].answer.replays == 1);
     CHECK(logged->records[0].answer.touchOnset);
-    CHECK(logged->records[0].answer.exposure > 0.0);
+    CHECK(logged->exposure > 0.0);
     CHECK(run.exposure() == Approx(dailyExposure(logged->exposure)));
 }
 
@@ -238,6 +238,10 @@ TEST_CASE("Nothing is played beyond the limit of exposure, without a device, or 
     }
     CHECK(refusal == PlayRefusal::exposure);
     CHECK(run.exposure() <= 0.008);
+    // What was felt and not answered counts, too, also for who goes on later.
+    const auto kept = readSession(run.session().path());
+    REQUIRE(kept);
+    CHECK(dailyExposure(kept->exposure) == Approx(run.exposure()));
     run.lowerTouch(6.0);
     run.lowerTouch(6.0);
     CHECK(run.touchTrim() == -12.0);

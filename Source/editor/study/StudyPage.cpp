@@ -3,9 +3,11 @@
 
 #include "editor/Text.h"
 #include "editor/Translation.h"
+#include "io/ProfileFile.h"
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace pacini::editor
@@ -48,6 +50,10 @@ StudyPage::StudyPage(StudyPlace wanted, StudyServices around)
       text(participantFont()),
       status(participantFont().withHeight(17.0f))
 {
+    // A name that comes with the program, or a file beside the study.
+    if (!actuator.empty() && profile() == nullptr)
+        if (auto read = readProfile(place.folder / actuator))
+            services.profiles.push_back({actuator, std::make_shared<const Profile>(std::move(*read)), true});
     setLookAndFeel(&look);
     setWantsKeyboardFocus(true);
     setTitle(tr("Study"));
@@ -120,7 +126,16 @@ void StudyPage::show(State wanted)
                     return status.setText(toText(kept.error().text()));
                 show(State::comfort);
             });
-        addButton(tr("I do not agree"), [this] { show(State::goodbye); });
+        // Who does not agree leaves nothing behind, and the place is free for another.
+        addButton(tr("I do not agree"),
+                  [this]
+                  {
+                      const fs::path log = running->session().path();
+                      running.reset();
+                      std::error_code ignored;
+                      fs::remove(log, ignored);
+                      show(State::goodbye);
+                  });
         break;
     case State::comfort:
         if (comfortNext >= study().comfort.size())
@@ -247,16 +262,18 @@ void StudyPage::buildSetUp()
         status.setText(tr("No audio device is open."));
 }
 
-std::optional<Profile> StudyPage::profile() const
+const NamedProfile* StudyPage::profile() const
 {
-    for (const NamedProfile& one : services.profiles)
-        if (one.name == actuator)
-            return *one.profile;
-    return std::nullopt;
+    const auto found = std::find_if(services.profiles.begin(), services.profiles.end(),
+                                    [this](const NamedProfile& one) { return one.name == actuator; });
+    return found == services.profiles.end() ? nullptr : &*found;
 }
 
 void StudyPage::begin(const fs::path& log)
 {
+    // Without its profile an actuator would lose its protection, so nobody goes on without it unawares.
+    if (!actuator.empty() && profile() == nullptr)
+        return status.setText(tr("The actuator of the study is not known: {0}", {toText(actuator)}));
     study::SessionStart start;
     start.language = language.toStdString();
     start.program = services.program;
@@ -269,7 +286,8 @@ void StudyPage::begin(const fs::path& log)
         language = toText((*session)->head().language);
     study::StimulusParams params;
     params.sampleRate = std::max(services.player->sampleRate(), 8000);
-    params.profile = profile();
+    if (const NamedProfile* known = profile())
+        params.profile = *known->profile;
     params.folder = place.folder;
     running = std::make_unique<study::StudyRun>(study(), std::move(*session), params, *services.player);
     comfortNext = 0;

@@ -81,7 +81,7 @@ private:
     void stop();
     LargeButton& addButton(const juce::String& text, std::function<void()> click);
     [[nodiscard]] const study::Study& study() const noexcept { return place.study; }
-    [[nodiscard]] std::optional<Profile> profile() const;
+    [[nodiscard]] const NamedProfile* profile() const; ///< null: none, or one that is not known
     [[nodiscard]] juce::String said(const study::Text& text) const;
 
     StudyPlace place;
