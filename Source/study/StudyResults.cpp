@@ -159,7 +159,8 @@ Study relocated(Study study, const std::filesystem::path& from, const std::files
     const auto move = [&](std::string& file)
     {
         std::error_code failed;
-        const std::filesystem::path moved = std::filesystem::relative(from / file, to, failed);
+        const std::filesystem::path moved =
+            std::filesystem::relative(std::filesystem::absolute(from / file), std::filesystem::absolute(to), failed);
         if (!file.empty())
             file = failed || moved.empty() ? std::filesystem::absolute(from / file, failed).generic_string()
                                            : moved.generic_string();
@@ -167,6 +168,10 @@ Study relocated(Study study, const std::filesystem::path& from, const std::files
     for (Stimulus& stimulus : study.stimuli)
         for (std::string* file : {&stimulus.sound, &stimulus.clip, &stimulus.drive})
             move(*file);
+    // A shipped profile is named, not found.
+    std::error_code unknown;
+    if (!study.profile.empty() && std::filesystem::is_regular_file(from / study.profile, unknown))
+        move(study.profile);
     return study;
 }
 

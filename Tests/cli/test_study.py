@@ -43,7 +43,9 @@ class Steps(StudyTest):
                 self.assertGreaterEqual(len(sheets), 6)
 
     def test_the_same_study_is_simulated_alike(self):
-        self.new()
+        # Sounds are named from the study's folder, so that both can be moved together.
+        self.assertEqual({stimulus["sound"] for stimulus in self.new()["stimuli"]},
+                         {f"../sounds/{name}.wav" for name in "abc"})
         texts = []
         for folder in ("one", "two"):
             self.succeeds("study", "simulate", "mine", "-o", folder, "--seed", "7", "--runs", "10")
@@ -83,6 +85,12 @@ class Profile(StudyTest):
         self.assertEqual(json.loads((self.folder / "mine.json").read_text())["range"]["dynamicRange"], report["dynamicRange"])
         self.clip()
         self.succeeds("render", "clip.json", "--profile", "mine.json", "-o", "mine.wav")
+        # A file is found from the study's folder, wherever that is seen from.
+        self.succeeds("study", "new", "own", "--template", "threshold", "--profile", "mine.json", "-g", "all:1")
+        self.assertEqual(json.loads((self.folder / "own/study.json").read_text())["profile"], "../mine.json")
+        self.succeeds("study", "check", "own")
+        self.succeeds("study", "simulate", "own", "-o", "deeper/simulated", "--runs", "10")
+        self.succeeds("study", "check", "deeper/simulated")
         self.fails(1, ["study", "profile", "simulated", "P999", "-o", "other.json"], "P999")
         self.assertFalse((self.folder / "other.json").exists())
 

@@ -36,7 +36,7 @@ public:
             return Exit::failed;
         study::StimulusParams params;
         params.folder = opened->folder;
-        const std::string actuator = profile.empty() ? opened->study.profile : profile;
+        const std::string actuator = actuatorOf(opened->study, opened->folder, profile);
         if (!actuator.empty())
         {
             params.profile = openProfile(console, actuator);

@@ -3,7 +3,6 @@
 #include "cli/Options.h"
 #include "cli/study/OpenStudy.h"
 #include "io/AtomicFile.h"
-#include "study/Session.h"
 #include "study/StudyExport.h"
 #include "study/StudyResults.h"
 
@@ -64,60 +63,11 @@ public:
 private:
     std::string named, output;
 };
-
-/// `study forget`: a participant's answers, all of them.
-class ForgetSubcommand : public Command
-{
-public:
-    CLI::App* declare(CLI::App& app) override
-    {
-        auto* command = app.add_subcommand("forget", "Delete all that a participant has answered");
-        addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
-        addOption(*command, "participant", participant, "Pseudonym, such as P007", "NAME")->required();
-        command->add_flag("--yes", sure, "Delete without being asked; without it only what would be deleted is said");
-        command->footer(
-            "The place becomes free: the next session takes it, with its group and orders. Reports and tables that\n"
-            "were written before still hold the answers.\n\nExample:\n  pacini study forget coherence P007 --yes");
-        return command;
-    }
-
-    Exit run(Console& console) override
-    {
-        const fs::path folder = study::studyFileOf(named).parent_path();
-        for (const fs::path& log : study::sessionLogs(folder))
-        {
-            if (log.stem() != participant)
-                continue;
-            if (!sure)
-            {
-                console.print(fmt::format("{} would be deleted; --yes does it", printable(log.string())));
-                return Exit::ok;
-            }
-            std::error_code failed;
-            if (!fs::remove(log, failed))
-                return console.fail(log.string(), fileError(failed.value()));
-            console.addToReport({{"deleted", log.string()}});
-            console.note(fmt::format("{} is deleted", printable(log.string())));
-            return Exit::ok;
-        }
-        return console.fail(
-            named, {ErrorCode::invalidArgument, "", fmt::format("has no session of '{}'", printable(participant))});
-    }
-
-private:
-    std::string named, participant;
-    bool sure = false;
-};
 } // namespace
 
 std::unique_ptr<Command> exportStudySubcommand()
 {
     return std::make_unique<ExportSubcommand>();
-}
-
-std::unique_ptr<Command> forgetStudySubcommand()
-{
-    return std::make_unique<ForgetSubcommand>();
 }
 
 } // namespace pacini::cli

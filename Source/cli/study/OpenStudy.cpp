@@ -3,6 +3,7 @@
 #include "study/StudyFile.h"
 #include "study/StudyResults.h"
 
+#include <system_error>
 #include <utility>
 
 namespace pacini::cli
@@ -23,6 +24,15 @@ std::optional<OpenedStudy> openStudy(Console& console, const std::string& named)
     console.warnings(opened.file.string(), warnings.texts());
     opened.study = std::move(*study);
     return opened;
+}
+
+std::string actuatorOf(const study::Study& study, const std::filesystem::path& folder, const std::string& given)
+{
+    std::error_code unknown;
+    if (!given.empty() || study.profile.empty())
+        return given;
+    const std::filesystem::path beside = folder / study.profile;
+    return std::filesystem::is_regular_file(beside, unknown) ? beside.string() : study.profile;
 }
 
 } // namespace pacini::cli

@@ -23,4 +23,9 @@ struct OpenedStudy
 /// The study in a folder or file; nothing when it cannot be read, and the console has said why.
 [[nodiscard]] std::optional<OpenedStudy> openStudy(Console& console, const std::string& named);
 
+/// The actuator that `given` (--profile) names, else that of the study: a shipped name, or a file, which counts from
+/// the study's folder.
+[[nodiscard]] std::string actuatorOf(const study::Study& study, const std::filesystem::path& folder,
+                                     const std::string& given);
+
 } // namespace pacini::cli

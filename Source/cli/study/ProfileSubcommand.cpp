@@ -2,6 +2,7 @@
 #include "cli/Options.h"
 #include "cli/Overwrite.h"
 #include "cli/ProfileInput.h"
+#include "cli/study/OpenStudy.h"
 #include "io/ProfileFile.h"
 #include "study/PersonalProfile.h"
 
@@ -40,7 +41,7 @@ public:
         const auto results = study::readResults(named);
         if (!results)
             return console.fail(named, results.error());
-        const std::string actuator = profile.empty() ? results->study.profile : profile;
+        const std::string actuator = actuatorOf(results->study, study::studyFileOf(named).parent_path(), profile);
         if (actuator.empty())
             return console.fail(
                 "", {ErrorCode::invalidArgument, "--profile", "is missing, and the study names no actuator"},
