@@ -156,14 +156,15 @@ std::filesystem::path studyFileOf(const std::filesystem::path& named)
 
 Study relocated(Study study, const std::filesystem::path& from, const std::filesystem::path& to)
 {
+    namespace fs = std::filesystem;
     const auto move = [&](std::string& file)
     {
+        if (file.empty())
+            return;
         std::error_code failed;
-        const std::filesystem::path moved =
-            std::filesystem::relative(std::filesystem::absolute(from / file), std::filesystem::absolute(to), failed);
-        if (!file.empty())
-            file = failed || moved.empty() ? std::filesystem::absolute(from / file, failed).generic_string()
-                                           : moved.generic_string();
+        const fs::path whole = fs::absolute(from / file, failed);
+        const fs::path moved = fs::relative(whole, fs::absolute(to.empty() ? "." : to, failed), failed);
+        file = (failed || moved.empty() ? whole : moved).generic_string();
     };
     for (Stimulus& stimulus : study.stimuli)
         for (std::string* file : {&stimulus.sound, &stimulus.clip, &stimulus.drive})
