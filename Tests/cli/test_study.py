@@ -86,7 +86,7 @@ class Profile(StudyTest):
         self.clip()
         self.succeeds("render", "clip.json", "--profile", "mine.json", "-o", "mine.wav")
         # A file is found from the study's folder, wherever that is seen from.
-        self.succeeds("study", "new", "own", "--template", "threshold", "--profile", "mine.json", "-g", "all:1")
+        self.succeeds("study", "new", "own", "--template", "threshold", "--profile", "mine.json", "-g", "all:2")
         self.assertEqual(json.loads((self.folder / "own/study.json").read_text())["profile"], "../mine.json")
         self.succeeds("study", "check", "own")
         self.succeeds("study", "simulate", "own", "-o", "deeper/simulated", "--runs", "10")
