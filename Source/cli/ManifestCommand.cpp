@@ -1,6 +1,6 @@
 // Command group for the manifests of runs over many files.
 
-#include "cli/Command.h"
+#include "cli/CommandGroup.h"
 #include "cli/Counted.h"
 #include "cli/Manifest.h"
 #include "cli/Options.h"
@@ -219,18 +219,16 @@ private:
 };
 
 /// `pacini manifest`: the records of runs over many files.
-class ManifestCommand : public Command
+class ManifestCommand : public CommandGroup
 {
 public:
     CLI::App* declare(CLI::App& app) override
     {
         auto* command = app.add_subcommand("manifest", "Merge, check and retry runs over many files");
         command->require_subcommand(1);
-        steps.push_back(std::make_unique<MergeSubcommand>());
-        steps.push_back(std::make_unique<CheckSubcommand>());
-        steps.push_back(std::make_unique<RetrySubcommand>());
-        for (const auto& step : steps)
-            declared.push_back(step->declare(*command));
+        addStep(*command, std::make_unique<MergeSubcommand>());
+        addStep(*command, std::make_unique<CheckSubcommand>());
+        addStep(*command, std::make_unique<RetrySubcommand>());
         command->footer(
             "encode, render and compare write a manifest with --manifest, convert of a folder always does. After\n"
             "'encode sounds/ -o clips/ --shard 3/8 --manifest clips/run.manifest.json' on each of eight machines:\n"
@@ -240,18 +238,6 @@ public:
             "A run that was stopped goes on when it is started again, with any number of shards.");
         return command;
     }
-
-    Exit run(Console& console) override
-    {
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            if (declared[i]->parsed())
-                return steps[i]->run(console);
-        return Exit::usage;
-    }
-
-private:
-    std::vector<std::unique_ptr<Command>> steps;
-    std::vector<CLI::App*> declared;
 };
 } // namespace
 

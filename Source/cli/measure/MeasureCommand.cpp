@@ -1,9 +1,8 @@
 // Command group for the measurement of actuators.
 
-#include "cli/Command.h"
+#include "cli/CommandGroup.h"
 
 #include <memory>
-#include <vector>
 
 namespace pacini::cli
 {
@@ -11,15 +10,10 @@ namespace pacini::cli
 namespace
 {
 /// `pacini measure`: from a sweep to an actuator that is flat, step by step.
-class MeasureCommand : public Command
+class MeasureCommand : public CommandGroup
 {
 public:
     CLI::App* declare(CLI::App& app) override;
-    Exit run(Console& console) override;
-
-private:
-    std::vector<std::unique_ptr<Command>> steps;
-    std::vector<CLI::App*> declared;
 };
 } // namespace
 
@@ -28,7 +22,7 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
     auto* command = app.add_subcommand("measure", "Measure an actuator and make it flat");
     command->require_subcommand(1);
     for (const auto make : {sweepSubcommand, analyseSubcommand, fitSubcommand, verifySubcommand, simulateSubcommand})
-        declared.push_back(steps.emplace_back(make())->declare(*command));
+        addStep(*command, make());
     command->footer(
         "From a bare actuator to a profile, with an accelerometer on it:\n"
         "  pacini measure sweep -o sweep.wav              play this, record the accelerometer\n"
@@ -39,14 +33,6 @@ CLI::App* MeasureCommand::declare(CLI::App& app)
         "Record the same actuator several times, attached anew or on other people, and name all recordings:\n"
         "their average leaves out the odd ones. 'pacini measure simulate' records without hardware.");
     return command;
-}
-
-Exit MeasureCommand::run(Console& console)
-{
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        if (declared[i]->parsed())
-            return steps[i]->run(console);
-    return Exit::usage;
 }
 
 std::unique_ptr<Command> measureCommand()

@@ -1,9 +1,8 @@
 // Command group for studies with people.
 
-#include "cli/Command.h"
+#include "cli/CommandGroup.h"
 
 #include <memory>
-#include <vector>
 
 namespace pacini::cli
 {
@@ -11,7 +10,7 @@ namespace pacini::cli
 namespace
 {
 /// `pacini study`: from a question to its statistics.
-class StudyCommand : public Command
+class StudyCommand : public CommandGroup
 {
 public:
     CLI::App* declare(CLI::App& app) override
@@ -22,7 +21,7 @@ public:
         for (const auto make :
              {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, reportStudySubcommand,
               profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
-            declared.push_back(steps.emplace_back(make())->declare(*command));
+            addStep(*command, make());
         command->footer("From a question to its answer:\n"
                         "  pacini study new coherence --template coherence sounds/\n"
                         "  pacini study check coherence --profile l5-wristband\n"
@@ -32,18 +31,6 @@ public:
                         "A study is a folder with study.json and, below sessions, one file for each participant.");
         return command;
     }
-
-    Exit run(Console& console) override
-    {
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            if (declared[i]->parsed())
-                return steps[i]->run(console);
-        return Exit::usage;
-    }
-
-private:
-    std::vector<std::unique_ptr<Command>> steps;
-    std::vector<CLI::App*> declared;
 };
 } // namespace
 
