@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -38,12 +37,6 @@ double elevationAt(double frequency)
 constexpr std::array vocabulary{"pulsing", "rough", "soft",    "short",    "rising",
                                 "deep",    "sharp", "humming", "knocking", "smooth"};
 } // namespace
-
-double normalNumber(Random& random) noexcept
-{
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-    return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
-}
 
 Observer::Observer(const Study& ofStudy, const ObserverParams& observerParams, std::size_t slot)
     : study(ofStudy), params(observerParams), random(observerParams.seed ^ seedOf(ofStudy, slot, forObservers))

@@ -4,7 +4,7 @@
 
 #include "study/Session.h"
 
-#include <pacini/foundation/Random.h>
+#include <pacini/foundation/Gaussian.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +29,6 @@ struct ObserverParams
     double discrimination = 0.8; ///< share of right answers in fixed comparisons
     std::uint64_t seed = 1;
 };
-
-/// A standard normal number (Box and Muller 1958).
-[[nodiscard]] double normalNumber(Random& random) noexcept;
 
 /// One simulated participant, always the same of a seed and a slot.
 class Observer

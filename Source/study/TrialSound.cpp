@@ -1,8 +1,6 @@
 #include "study/TrialSound.h"
 
-#include "study/Observers.h"
-
-#include <pacini/foundation/Random.h>
+#include <pacini/foundation/Gaussian.h>
 
 #include <algorithm>
 #include <cmath>

@@ -51,10 +51,10 @@ std::optional<std::string> smallLetter(std::string_view letter)
     return std::string(letter);
 }
 
-std::size_t lengthOfLetter(char first)
+/// Bytes of the character at `at`; one of what is none.
+std::size_t lengthOfLetter(std::string_view text, std::size_t at)
 {
-    const auto byte = static_cast<unsigned char>(first);
-    return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+    return std::max<std::size_t>(firstUtf8(text.substr(at)).bytes, 1);
 }
 } // namespace
 
@@ -71,7 +71,7 @@ std::vector<std::string> wordsOf(std::string_view given)
     };
     for (std::size_t i = 0; i < text.size();)
     {
-        const std::size_t length = std::min(lengthOfLetter(text[i]), text.size() - i);
+        const std::size_t length = lengthOfLetter(text, i);
         if (const auto letter = smallLetter(std::string_view(text).substr(i, length)))
             word += *letter;
         else if (text[i] == '-' && !word.empty() && i + 1 < text.size() &&
@@ -113,7 +113,7 @@ Result<WordCategories> WordCategories::ofCsv(std::string_view text)
         std::string small;
         for (std::size_t i = 0; i < word.size();)
         {
-            const std::size_t length = std::min(lengthOfLetter(word[i]), word.size() - i);
+            const std::size_t length = lengthOfLetter(word, i);
             const std::string_view letter = std::string_view(word).substr(i, length);
             small += smallLetter(letter).value_or(std::string(letter));
             i += length;

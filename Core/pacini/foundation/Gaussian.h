@@ -11,18 +11,21 @@
 namespace pacini
 {
 
-/// Normal distribution of mean 0, standard deviation 1, by G. Box and M. Muller, "A note on the generation of random
-/// normal deviates", 1958.
+/// A number of mean 0, standard deviation 1 from a normal distribution, by G. Box and M. Muller, "A note on the
+/// generation of random normal deviates", 1958.
+inline double normalNumber(Random& random) noexcept
+{
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+/// Such numbers by a seed of their own.
 class Gaussian
 {
 public:
     explicit Gaussian(std::uint64_t seed) noexcept : random(seed) {}
 
-    double next() noexcept
-    {
-        const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-        return radius * std::cos(2.0 * std::numbers::pi * random.uniform());
-    }
+    double next() noexcept { return normalNumber(random); }
 
 private:
     Random random;
