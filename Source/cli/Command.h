@@ -58,6 +58,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> profileStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> exportStudySubcommand();
 [[nodiscard]] std::unique_ptr<Command> forgetStudySubcommand();
+[[nodiscard]] std::unique_ptr<Command> latencyStudySubcommand();
 
 /// The whole program: parses, runs, returns the exit code. Exceptions of the parser end here.
 [[nodiscard]] int runCommandLine(int argc, const char* const* argv);

@@ -199,26 +199,33 @@ private:
 
 } // namespace
 
+static Result<void> parseText(std::string_view text, JsonHandler& handler, std::size_t maximumBytes,
+                              ReadWarnings* warnings)
+{
+    if (text.size() > maximumBytes)
+        return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
+    JsonSource source(text);
+    if (source.atEnd())
+        return Error{ErrorCode::invalidData, "", "is empty"};
+    if (source.startsWith("\xEF\xBB\xBF"))
+        return Error{ErrorCode::invalidData, source.place(1),
+                     "starts with a byte order mark; save it as UTF-8 without"};
+    if (source.startsWith("\xFE\xFF") || source.startsWith("\xFF\xFE"))
+        return Error{ErrorCode::invalidData, source.place(1), "is UTF-16 text; save it as UTF-8"};
+    Events events(handler, source, warnings);
+    if (!nlohmann::json::sax_parse(JsonCursor(source), JsonCursor(), &events))
+        return events.error;
+    if (source.endedByNul())
+        return Error{ErrorCode::invalidData, source.place(source.passed()), "has a NUL byte after its end"};
+    return {};
+}
+
 Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t maximumBytes, ReadWarnings* warnings)
 {
+#if defined(__cpp_exceptions)
     try
     {
-        if (text.size() > maximumBytes)
-            return Error{ErrorCode::tooLarge, "", "is a longer text than is accepted"};
-        JsonSource source(text);
-        if (source.atEnd())
-            return Error{ErrorCode::invalidData, "", "is empty"};
-        if (source.startsWith("\xEF\xBB\xBF"))
-            return Error{ErrorCode::invalidData, source.place(1),
-                         "starts with a byte order mark; save it as UTF-8 without"};
-        if (source.startsWith("\xFE\xFF") || source.startsWith("\xFF\xFE"))
-            return Error{ErrorCode::invalidData, source.place(1), "is UTF-16 text; save it as UTF-8"};
-        Events events(handler, source, warnings);
-        if (!nlohmann::json::sax_parse(JsonCursor(source), JsonCursor(), &events))
-            return events.error;
-        if (source.endedByNul())
-            return Error{ErrorCode::invalidData, source.place(source.passed()), "has a NUL byte after its end"};
-        return {};
+        return parseText(text, handler, maximumBytes, warnings);
     }
     catch (const std::bad_alloc&)
     {
@@ -228,6 +235,9 @@ Result<void> parseJson(std::string_view text, JsonHandler& handler, std::size_t 
     {
         return Error{ErrorCode::io, "", std::string("cannot be read: ") + exception.what()};
     }
+#else
+    return parseText(text, handler, maximumBytes, warnings);
+#endif
 }
 void appendJsonString(std::string& text, std::string_view value)
 {

@@ -28,6 +28,14 @@ namespace
 constexpr double longestStimulus = 60.0; // s
 constexpr Seconds lookAhead{0.001};
 
+double peakOf(const std::vector<float>& samples)
+{
+    double peak = 0.0;
+    for (const float sample : samples)
+        peak = std::max(peak, std::abs(static_cast<double>(sample)));
+    return peak;
+}
+
 void scale(std::vector<float>& samples, double gain)
 {
     for (float& sample : samples)
@@ -66,6 +74,7 @@ void vary(Stimulus& stimulus, const Variation& variation)
     switch (variation.variable)
     {
     case Variable::level: // of what is at full drive by itself
+        stimulus.sensationLevel = stimulus.acceleration = std::nullopt;
         if (stimulus.tone)
             stimulus.tone->level = std::min(0.0, variation.value);
         else
@@ -207,7 +216,8 @@ Result<std::vector<float>> StimulusMaker::translated(const Stimulus& stimulus) c
 
 Result<std::vector<float>> StimulusMaker::touchOf(const Stimulus& stimulus) const
 {
-    const double gain = Decibels(stimulus.touchLevel + whole.touchLevel).gain();
+    const bool calibrated = stimulus.sensationLevel || stimulus.acceleration;
+    const double gain = calibrated ? 1.0 : Decibels(stimulus.touchLevel + whole.touchLevel).gain();
     const auto asIs = [&](std::vector<float> samples)
     {
         scale(samples, gain);
@@ -247,6 +257,56 @@ Result<std::vector<float>> StimulusMaker::touchOf(const Stimulus& stimulus) cons
     return touch;
 }
 
+/// Brings the peak of a touch to what the stimulus asks for; what is wrong, if anything is.
+std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const Stimulus& stimulus) const
+{
+    const char* name = stimulus.sensationLevel ? "sensationLevel" : "acceleration";
+    const auto problem = [&](std::string message)
+    {
+        return Error{ErrorCode::invalidArgument, name, std::move(message)};
+    };
+    if (!settings.profile)
+        return problem("needs the profile of the actuator, which tells what is felt of it");
+    if (stimulus.acceleration && !feltModelParams(*settings.profile))
+        return problem("needs a profile with a body, which tells the acceleration that is felt");
+    const double wanted =
+        stimulus.sensationLevel
+            ? Decibels(*stimulus.sensationLevel - settings.profile->range.dynamicRange + stimulus.touchLevel).gain()
+            : *stimulus.acceleration * Decibels(stimulus.touchLevel).gain();
+    const double overdrive = settings.profile->drive.overdrive;
+    const auto reached = [&]
+    {
+        return stimulus.sensationLevel ? overdrive * peakOf(touch) // re full drive without it
+                                       : peakOf(feltOf(touch, settings.profile, settings.sampleRate));
+    };
+    // A spinning motor's force is not in proportion to its drive, and protection takes what is too much: in proportion
+    // at first, then between what was too weak and too strong.
+    const std::vector<float> asItWas = touch;
+    constexpr int attempts = 24;
+    constexpr double closeEnough = 0.01;
+    double gain = 1.0;
+    std::optional<double> tooWeak, tooStrong;
+    for (int attempt = 0; attempt < attempts; ++attempt)
+    {
+        const double now = reached();
+        if (!(now > 0.0) || std::abs(now / wanted - 1.0) < closeEnough)
+            break;
+        (now < wanted ? tooWeak : tooStrong) = gain;
+        gain = tooWeak && tooStrong ? std::sqrt(*tooWeak * *tooStrong) : gain * wanted / now;
+        touch = asItWas;
+        scale(touch, gain * overdrive);
+        protectDrive(touch, settings.profile, settings.sampleRate);
+    }
+    const double now = reached();
+    if (std::abs(now / wanted - 1.0) <= 0.05)
+        return std::nullopt;
+    return stimulus.sensationLevel
+               ? problem(fmt::format("is {} dB, but the actuator's whole range is {} dB", *stimulus.sensationLevel,
+                                     settings.profile->range.dynamicRange))
+               : problem(
+                     fmt::format("is {:.3g} m/s2, but within the actuator's limits it is {:.3g} m/s2", wanted, now));
+}
+
 Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const
 {
     auto sound = soundOf(stimulus);
@@ -255,6 +315,9 @@ Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const
     auto touch = touchOf(stimulus);
     if (!touch)
         return touch.error();
+    if (stimulus.sensationLevel || stimulus.acceleration)
+        if (auto problem = calibrate(*touch, stimulus))
+            return *problem;
     const std::size_t frames = std::max(sound->size(), touch->size());
     if (static_cast<double>(frames) > longestStimulus * settings.sampleRate)
         return Error{ErrorCode::tooLarge, "", fmt::format("lasts longer than {} s", longestStimulus)};

@@ -24,6 +24,7 @@ struct StimulusParams
     int sampleRate = 48000;         ///< Hz, of the device
     std::optional<Profile> profile; ///< of the actuator; without it full drive is the one limit
     std::filesystem::path folder;   ///< that the study's files count from
+    double touchLatency = 0.0; ///< s by which the set-up plays the touch later than the sound: trials make up for it
 };
 
 /// A stimulus on the device's clock.
@@ -60,6 +61,7 @@ private:
     [[nodiscard]] Result<std::vector<float>> touchOf(const Stimulus& stimulus) const;
     [[nodiscard]] Result<std::vector<float>> translated(const Stimulus& stimulus) const;
     [[nodiscard]] Result<std::vector<float>> rendered(const Clip& clip) const;
+    [[nodiscard]] std::optional<Error> calibrate(std::vector<float>& touch, const Stimulus& stimulus) const;
 
     Study whole;
     StimulusParams settings;

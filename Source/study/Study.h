@@ -73,6 +73,9 @@ struct Stimulus
     std::optional<double> bands, breakpoints, bits; ///< of translation by a2vt
     double soundLevel = 0.0;                        ///< dB
     double touchLevel = 0.0;                        ///< dB
+    /// Where one of these is given, the peak of the touch is there, and touchLevel (not the study's) counts from it.
+    std::optional<double> sensationLevel; ///< dB above the weakest drive that is felt, by the actuator's profile
+    std::optional<double> acceleration;   ///< m/s2 that are felt, by the actuator's profile
     bool operator==(const Stimulus&) const = default;
 };
 

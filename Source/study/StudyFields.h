@@ -61,6 +61,8 @@ void visitStimulus(AnyStimulus& stimulus, Visitor& visitor)
     visitor.optionalNumber("bits", stimulus.bits);
     visitor.number("soundLevel", stimulus.soundLevel, Need::usual);
     visitor.number("touchLevel", stimulus.touchLevel, Need::usual);
+    visitor.optionalNumber("sensationLevel", stimulus.sensationLevel);
+    visitor.optionalNumber("acceleration", stimulus.acceleration);
 }
 
 template <typename AnyScale, typename Visitor>

@@ -72,6 +72,12 @@ void checkStimulus(Rules& rules, const Stimulus& stimulus, const std::string& wh
                "has nothing to feel or hear: sound, clip, drive, tone, silence");
     rules.range(stimulus.soundLevel, -mostLevel, 40.0, where + ".soundLevel", " dB");
     rules.range(stimulus.touchLevel, -mostLevel, 40.0, where + ".touchLevel", " dB");
+    rules.that(!stimulus.sensationLevel || !stimulus.acceleration, where,
+               "has both sensationLevel and acceleration, which each say how strong it is");
+    if (stimulus.sensationLevel)
+        rules.range(*stimulus.sensationLevel, -40.0, 140.0, where + ".sensationLevel", " dB");
+    if (stimulus.acceleration)
+        rules.range(*stimulus.acceleration, 0.001, 1000.0, where + ".acceleration", " m/s2");
     if (stimulus.silence)
         rules.range(*stimulus.silence, 0.01, 60.0, where + ".silence", " s");
     if (stimulus.tone)

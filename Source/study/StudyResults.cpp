@@ -103,9 +103,16 @@ public:
     void finish()
     {
         for (const auto& [key, records] : staircases)
+        {
+            for (const Record& record : records)
+                if (record.correct && record.level)
+                    results.staircaseAnswers.push_back({key.first->name, key.second,
+                                                        strengthOf(key.first->adaptive.variable, *record.level),
+                                                        *record.correct});
             if (const auto found = thresholdOf(*key.first, records))
                 results.thresholds.push_back({head.group, head.participant, key.first->name, key.second, *found,
                                               valueOf(key.first->adaptive.variable, found->strength), records.size()});
+        }
         for (const auto& [key, counts] : choices)
             results.choices.push_back(
                 {head.group, head.participant, key.first->name, key.second, counts.first, counts.second});

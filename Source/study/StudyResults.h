@@ -25,6 +25,14 @@ struct PersonalThreshold
     std::size_t trials = 0;
 };
 
+/// One answer of a staircase.
+struct StaircaseAnswer
+{
+    std::string block, stimulus;
+    double strength = 0.0; ///< dB
+    bool right = false;
+};
+
 /// Right answers of one participant in a block of choices.
 struct PersonalChoices
 {
@@ -48,6 +56,7 @@ struct StudyResults
     std::vector<Rating> ranks;         ///< of ranking: 1 is the first place
     std::vector<Description> descriptions;
     std::vector<PersonalThreshold> thresholds;
+    std::vector<StaircaseAnswer> staircaseAnswers; ///< of all participants
     std::vector<PersonalChoices> choices;
     std::vector<PairRating> pairs;    ///< of similarity
     std::vector<PairRating> together; ///< of sorting: 0 in one heap, 1 in two

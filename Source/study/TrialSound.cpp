@@ -132,9 +132,12 @@ void finish(TrialSound& trial, const Assembly& assembly, const StimulusMaker& ma
                    maker.params().sampleRate, random);
 }
 
-double delayOf(const Block& block, const std::optional<Variation>& variation)
+/// Of the touch after the sound, so that what comes out has the delay that the study asks for.
+double delayOf(const StimulusMaker& maker, const Block& block, const std::optional<Variation>& variation)
 {
-    return block.delay + (variation && variation->variable == Variable::delay ? variation->value / 1000.0 : 0.0);
+    const double asked =
+        block.delay + (variation && variation->variable == Variable::delay ? variation->value / 1000.0 : 0.0);
+    return asked - maker.params().touchLatency;
 }
 } // namespace
 
@@ -156,7 +159,7 @@ Result<TrialSound> makeTrial(StimulusMaker& maker, const Trial& trial, std::opti
             std::fill(stimulus->touch.begin(), stimulus->touch.end(), 0.0f);
         if (i > 0)
             assembly.pause();
-        assembly.add(*stimulus, delayOf(block, variation));
+        assembly.add(*stimulus, delayOf(maker, block, variation));
     }
     finish(made, assembly, maker, block, maskingSeed);
     return made;
@@ -169,7 +172,7 @@ Result<TrialSound> makePart(StimulusMaker& maker, const Block& block, std::size_
         return prepared.error();
     TrialSound made;
     Assembly assembly(made, block, maker.params().sampleRate);
-    assembly.add(*prepared, block.delay);
+    assembly.add(*prepared, delayOf(maker, block, std::nullopt));
     finish(made, assembly, maker, block, maskingSeed);
     return made;
 }

@@ -111,6 +111,16 @@ def rain(seconds, seed=2):
     return samples
 
 
+def bursts(seconds):
+    """As `pacini study latency --probe` writes them: five periods of 160 Hz in the middle of each second."""
+    length = round(5 / 160 * RATE)
+    start = (RATE - length) // 2
+    second = [0.0] * RATE
+    for i in range(length):
+        second[start + i] = 0.25 * math.sin(math.pi * i / length) ** 2 * math.sin(2 * math.pi * 160 * i / RATE)
+    return second * round(seconds)
+
+
 class Documents(CommandTest):
     @classmethod
     def setUpClass(cls):
@@ -131,6 +141,7 @@ class Documents(CommandTest):
         self.put("ratings.csv", "group,stimulus,participant,rating\n" + "".join(
             f"{group},{stimulus},{person},{(person * stimulus + ord(group)) % 9}\n"
             for group in "ABC" for stimulus in (1, 2) for person in range(4)))
+        self.put("recorded.wav", wav([x for x in bursts(4.0) for _ in range(2)], RATE, channels=2))
         shutil.copytree(SOURCE / "Resources/demo", self.folder / "Resources/demo")
         self.put("corpus/gate.wav", wav(hits(0.1, 0.4, seconds=0.8, seed=5), RATE))
         for block in [block for document in self.documents for block in document.blocks]:

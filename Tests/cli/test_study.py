@@ -1,7 +1,9 @@
 """End to end: pacini study, from a template to a report, and what people do wrong with it."""
 import json
 import re
+import struct
 import unittest
+import wave
 
 from command import CommandTest, sine, wav
 
@@ -93,6 +95,48 @@ class Profile(StudyTest):
         self.succeeds("study", "check", "deeper/simulated")
         self.fails(1, ["study", "profile", "simulated", "P999", "-o", "other.json"], "P999")
         self.assertFalse((self.folder / "other.json").exists())
+
+
+class Latency(StudyTest):
+    def recorded(self, name, delay, channels=2, level=0.3):
+        """What two inputs hear of the probe: the first now, the second `delay` frames later."""
+        with wave.open(str(self.folder / "probe.wav")) as probe:
+            self.assertEqual((probe.getnchannels(), probe.getsampwidth()), (2, 3))
+            rate, frames = probe.getframerate(), probe.readframes(probe.getnframes())
+        samples = [int.from_bytes(frames[i:i + 3], "little", signed=True) for i in range(0, len(frames), 6)]
+        self.assertEqual(samples, [int.from_bytes(frames[i + 3:i + 6], "little", signed=True)
+                                   for i in range(0, len(frames), 6)])
+        late = [0] * delay + samples[:len(samples) - delay]
+        with wave.open(str(self.folder / name), "wb") as file:
+            file.setnchannels(channels)
+            file.setsampwidth(2)
+            file.setframerate(rate)
+            file.writeframes(b"".join(
+                struct.pack(f"<{channels}h", *([0] * (channels - 2)), now >> 8, int(level * (then >> 8)))
+                for now, then in zip(samples, late)))
+
+    def test_a_delay_is_measured_and_kept(self):
+        self.new()
+        self.succeeds("study", "latency", "mine", "--probe", "probe.wav", "--duration", "4", "--profile", "l5-wristband")
+        self.recorded("back.wav", 110)
+        report = self.report("study", "latency", "mine", "back.wav")
+        self.assertAlmostEqual(report["delay"], 110 / 48000, delta=1e-5)
+        self.assertLess(report["deviation"], 1e-5)
+        self.assertGreaterEqual(report["bursts"], 3)
+        self.recorded("four.wav", 4800, channels=4)
+        self.fails(1, ["study", "latency", "mine", "four.wav"], "--sound: there is no burst")
+        self.fails(2, ["study", "latency", "mine", "four.wav", "--touch", "5"], "there are only 4 channels")
+        self.succeeds("study", "latency", "mine", "four.wav", "--sound", "4", "--touch", "3", "--dry-run")
+        self.succeeds("study", "latency", "mine", "four.wav", "--sound", "4", "--touch", "3")
+        kept = json.loads((self.folder / "mine/latency.json").read_text())["measurements"]
+        self.assertEqual([round(one["delay"], 3) for one in kept], [0.002, -0.1])
+        self.fails(2, ["study", "latency", "mine"], "--probe OUT")
+        self.fails(2, ["study", "latency", "mine", "--probe", "x.wav", "--duration", "1"], "--duration")
+        self.fails(2, ["study", "latency", "mine", "sounds/a.wav"], "only 1 channel")
+        # Somebody's notes in its place are not written over.
+        self.put("mine/latency.json", b"my notes")
+        self.fails(1, ["study", "latency", "mine", "back.wav"], "latency.json")
+        self.assertEqual((self.folder / "mine/latency.json").read_text(), "my notes")
 
 
 class Mistakes(StudyTest):

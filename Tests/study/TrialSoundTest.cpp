@@ -228,3 +228,64 @@ TEST_CASE("What would spoil a study is found before anybody comes")
     CHECK(std::any_of(exposed.findings.begin(), exposed.findings.end(),
                       [](const Finding& one) { return one.spoils && one.where == "limits.daily"; }));
 }
+
+TEST_CASE("A touch is as strong as its sensation level or acceleration says", "[study][stimuli]")
+{
+    Study study = withClicks();
+    StimulusParams params;
+    params.folder = sourceFolder();
+    const auto peak = [](const std::vector<float>& samples)
+    {
+        double largest = 0.0;
+        for (const float sample : samples)
+            largest = std::max(largest, std::abs(static_cast<double>(sample)));
+        return largest;
+    };
+    const auto touchOf = [&](std::size_t stimulus)
+    {
+        StimulusMaker maker(study, params);
+        return maker.make(stimulus);
+    };
+    for (const char* name : {"l5-wristband", "lra-175", "erm-coin", "dualsense-voice-coil"})
+    {
+        CAPTURE(name);
+        params.profile = test::shippedProfile(name);
+        for (const std::size_t stimulus : {0u, 1u})
+        {
+            CAPTURE(stimulus);
+            study.stimuli[stimulus].sensationLevel = 0.5 * params.profile->range.dynamicRange;
+            study.stimuli[stimulus].acceleration = std::nullopt;
+            const auto felt = touchOf(stimulus);
+            REQUIRE(felt);
+            CHECK_THAT(20.0 * std::log10(params.profile->drive.overdrive * peak(felt->touch)),
+                       Catch::Matchers::WithinAbs(-0.5 * params.profile->range.dynamicRange, 0.5));
+            study.stimuli[stimulus].touchLevel = -6.0;
+            const auto weaker = touchOf(stimulus);
+            REQUIRE(weaker);
+            CHECK_THAT(20.0 * std::log10(peak(weaker->touch) / peak(felt->touch)),
+                       Catch::Matchers::WithinAbs(-6.0, 0.5));
+            study.stimuli[stimulus].touchLevel = 0.0;
+            study.stimuli[stimulus].sensationLevel = std::nullopt;
+            // A knock is over before a motor spins.
+            if (!params.profile->body || (stimulus == 0 && params.profile->technology == Technology::erm))
+                continue;
+            study.stimuli[stimulus].acceleration = 2.0;
+            const auto accelerated = touchOf(stimulus);
+            REQUIRE(accelerated);
+            CHECK_THAT(peak(feltOf(accelerated->touch, params.profile, params.sampleRate)),
+                       Catch::Matchers::WithinRel(2.0, 0.05));
+            // What the actuator cannot do is said, not left out.
+            study.stimuli[stimulus].acceleration = 900.0;
+            const auto tooMuch = touchOf(stimulus);
+            REQUIRE_FALSE(tooMuch);
+            CHECK(tooMuch.error().message.find("within the actuator's limits") != std::string::npos);
+            study.stimuli[stimulus].acceleration = std::nullopt;
+        }
+    }
+    params.profile = std::nullopt;
+    study.stimuli[1].sensationLevel = 20.0;
+    CHECK_FALSE(touchOf(1));
+    // A staircase of levels looks for the threshold itself.
+    StimulusMaker maker(study, params);
+    CHECK(maker.make(1, Variation{Variable::level, -20.0}));
+}

@@ -47,11 +47,13 @@ LITERALS = {
         "IPAGothic", "TakaoPGothic", "VL PGothic", "/usr/share/fonts/opentype/noto/NotoSansCJK-", "DualSense",
         "Joy-Con", "LRA 175 Hz", "LRA 235 Hz", "L5 wristband", "L5 test jig", "ERM coin", "English", "A Framework for Audio-Tactile Signal Translation"],
     "names of threads, folders and settings": [
-        "Pacini capture", "Pacini taps", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
+        "Pacini capture", "Pacini joysticks", "js", "/dev/input", "/dev/snd/seq", "joycon-hd-rumble", "erm-coin", "Pacini set-up", "Pacini clips", "Application Support", "~/.config", "quiet", "devices",
         "state", "recovery", "profiles", "Resources/demo", "share/pacini/demo", "pacini", "json", "wav", "pacb",
         "files", "clip", ".sound-", "md", "demo", "pacini-demo", "flac", "plain drive"],
     "records of studies, which are the same file in every language": [
-        "agreed: ", "stopped by the participant", "comfortable at ", "Pacini "],
+        "agreed: ", "the touch starts {:.3f} ms earlier", "stopped by the participant", "comfortable at ", "Pacini "],
+    "what a measured delay lacks, which the page has own texts for": [
+        "outputs", "inputs", "device", "touch", "are the same", "went away or changed"],
     "names that a new thing gets in the project, which is the same file in every language": [
         "capture ", "Marker ", "Group ", "Group", "-", "the actuator that is measured", "the measurement"],
     "the command line and its log, which are English": [

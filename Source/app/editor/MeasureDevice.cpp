@@ -100,6 +100,7 @@ RigPorts MeasureDevice::ports()
 void MeasureDevice::wire(const RigWiring& wiring)
 {
     output.store(static_cast<int>(wiring.output));
+    secondOutput.store(wiring.secondOutput ? static_cast<int>(*wiring.secondOutput) : -1);
     for (std::size_t i = 0; i < maxInputs; ++i)
         inputs[i].store(i < wiring.inputs.size() ? static_cast<int>(wiring.inputs[i]) : -1);
 }
@@ -168,6 +169,8 @@ void MeasureDevice::audioDeviceIOCallbackWithContext(const float* const* in, int
         if (const int c = input.load(); c >= 0 && c < ins && in[c] != nullptr)
             heard[used++] = {in[c], count};
     callback.process(std::span(heard).first(used), {out[to], count});
+    if (const int second = secondOutput.load(); second >= 0 && second < outs && second != to && out[second] != nullptr)
+        juce::FloatVectorOperations::copy(out[second], out[to], frames);
 }
 
 } // namespace pacini::app

@@ -49,6 +49,7 @@ private:
     juce::String openingError;
     MeasureCallback callback;
     std::atomic<int> output{0};
+    std::atomic<int> secondOutput{-1};                ///< -1: none
     std::array<std::atomic<int>, maxInputs> inputs{}; ///< -1: none
     std::atomic<bool> interrupted{false};
 };

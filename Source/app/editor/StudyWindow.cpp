@@ -4,6 +4,7 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 
+#include <optional>
 #include <utility>
 
 namespace pacini::app
@@ -69,10 +70,12 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
     : DocumentWindow(editor::toText(place.study.name), juce::Colours::black, DocumentWindow::allButtons),
       manager(devices),
       device(devices),
+      rig(devices),
       closed(std::move(whenClosed))
 {
     editor::StudyServices around;
     around.player = &device;
+    around.rig = &rig;
     around.outputNames = [this]
     {
         return device.outputNames();
@@ -106,12 +109,53 @@ StudyWindow::StudyWindow(editor::StudyPlace place, juce::AudioDeviceManager& dev
         if (monitor != nullptr)
             monitor->refresh();
     };
+    joysticks =
+        std::make_unique<JoystickReader>("/dev/input", [this](const JoystickPress& pressed) { press(pressed); });
 }
 
 StudyWindow::~StudyWindow()
 {
+    joysticks.reset();
+    cancelPendingUpdate();
     monitor.reset();
     clearContentComponent();
+}
+
+/// Buttons as most controllers number them: below, right, left and above. Axes: two sticks with a trigger each, and the
+/// cross.
+void StudyWindow::press(const JoystickPress& pressed)
+{
+    std::optional<editor::Control> control;
+    if (pressed.button == 0)
+        control = editor::Control::next;
+    else if (pressed.button == 1)
+        control = editor::Control::stop;
+    else if (pressed.button == 2 || pressed.button == 3)
+        control = editor::Control::play;
+    else if (pressed.axis == 0 || pressed.axis == 6)
+        control = pressed.direction < 0 ? editor::Control::left : editor::Control::right;
+    else if (pressed.axis == 1 || pressed.axis == 7)
+        control = pressed.direction < 0 ? editor::Control::up : editor::Control::down;
+    if (!control)
+        return;
+    {
+        const std::lock_guard lock(mutex);
+        waiting.push_back(*control);
+    }
+    triggerAsyncUpdate();
+}
+
+void StudyWindow::handleAsyncUpdate()
+{
+    std::vector<editor::Control> controls;
+    {
+        const std::lock_guard lock(mutex);
+        controls.swap(waiting);
+    }
+    if (!juce::Process::isForegroundProcess())
+        return;
+    for (const editor::Control control : controls)
+        content->control(control);
 }
 
 void StudyWindow::visibilityChanged()

@@ -3,6 +3,8 @@
 
 // Windows of a study: the participant's, and the experimenter's beside it.
 
+#include "app/editor/JoystickReader.h"
+#include "app/editor/MeasureDevice.h"
 #include "app/editor/StudyDevice.h"
 #include "editor/study/StudyPage.h"
 
@@ -10,11 +12,13 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 namespace pacini::app
 {
 
-class StudyWindow final : public juce::DocumentWindow
+class StudyWindow final : public juce::DocumentWindow, private juce::AsyncUpdater
 {
 public:
     /// Calls `whenClosed` once, later, from the message loop.
@@ -33,12 +37,18 @@ private:
 
     void showDevices();
     void showMonitor(bool shown);
+    void press(const JoystickPress& pressed);
+    void handleAsyncUpdate() override;
 
     juce::AudioDeviceManager& manager;
     StudyDevice device;
+    MeasureDevice rig;
     std::unique_ptr<editor::StudyPage> content;
     std::unique_ptr<Monitor> monitor; ///< null while it is not shown
     std::function<void()> closed;
+    std::mutex mutex; ///< of what waits
+    std::vector<editor::Control> waiting;
+    std::unique_ptr<JoystickReader> joysticks;
 };
 
 } // namespace pacini::app

@@ -3,6 +3,7 @@
 
 // Taps by pads and game controllers: events where the clip is while it plays.
 
+#include "app/editor/JoystickReader.h"
 #include "editor/clip/session/Tapping.h"
 
 #include <juce_audio_devices/juce_audio_devices.h>
@@ -19,13 +20,12 @@ namespace pacini::app
 /// Notes of all MIDI inputs, and buttons of the joysticks that Linux lists, become taps while a clip plays and the
 /// program is in front. A note's velocity is the event's level. Devices may come and go.
 class TapInput final : private juce::MidiInputCallback,
-                       private juce::Thread,
                        private juce::AsyncUpdater,
                        private juce::Timer
 {
 public:
-    /// `joysticks`: the folder that has them, as `js0`. [message]
-    TapInput(editor::Tapping& wanted, const editor::Transport& playing, std::filesystem::path joysticks = "/dev/input");
+    /// `folder`: that has the joysticks, as `js0`. [message]
+    TapInput(editor::Tapping& wanted, const editor::Transport& playing, std::filesystem::path folder = "/dev/input");
     ~TapInput() override;
 
     /// For tests: taps also while another program is in front.
@@ -36,16 +36,15 @@ public:
 
 private:
     void handleIncomingMidiMessage(juce::MidiInput* source, const juce::MidiMessage& message) override;
-    void run() override;
     void handleAsyncUpdate() override;
     void timerCallback() override;
 
     editor::Tapping& tapping;
     const editor::Transport& transport;
-    const std::filesystem::path folder;
     std::mutex mutex; ///< of what waits
     std::vector<double> waiting;
     std::vector<std::unique_ptr<juce::MidiInput>> inputs;
+    std::unique_ptr<JoystickReader> joysticks;
 };
 
 } // namespace pacini::app

@@ -34,10 +34,11 @@ public:
             ->allow_extra_args(false);
         addOption(*command, "--categories", categories,
                   "Table of categories of words (lines of category,word; word* for all that begin so)", "CSV");
+        command->add_flag("--mixed", mixed, "Also fit mixed models of ratings, by Python's statsmodels");
         overwriting.declare(*command);
         command->footer(
             "Means, SDs and intervals; box plots; t-tests (pooled, Welch, paired), Mann-Whitney, effect sizes, Holm\n"
-            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity.\n"
+            "and Bonferroni; ICC, Kendall's W, Friedman; thresholds; choices; words; maps of similarity; mixed models.\n"
             "A table of ratings has the columns stimulus and rating, and where there are any group, participant and\n"
             "block.\n\nExamples:\n  pacini study report coherence\n"
             "  pacini study report ratings.csv --combine A+B");
@@ -47,6 +48,7 @@ public:
     Exit run(Console& console) override
     {
         StudyReportParams params;
+        params.mixed = mixed;
         for (const std::string& text : combined)
         {
             study::GroupUnion members;
@@ -133,6 +135,7 @@ private:
 
     std::string named, output, categories;
     std::vector<std::string> combined;
+    bool mixed = false;
     OverwriteOptions overwriting;
 };
 } // namespace

@@ -19,8 +19,8 @@ public:
             app.add_subcommand("study", "Find out what people feel: plan, check, simulate and evaluate studies");
         command->require_subcommand(1);
         for (const auto make :
-             {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, reportStudySubcommand,
-              profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
+             {newStudySubcommand, checkStudySubcommand, simulateStudySubcommand, latencyStudySubcommand,
+              reportStudySubcommand, profileStudySubcommand, exportStudySubcommand, forgetStudySubcommand})
             addStep(*command, make());
         command->footer("From a question to its answer:\n"
                         "  pacini study new coherence --template coherence sounds/\n"

@@ -3,6 +3,7 @@
 #include "cli/plot/SvgCanvas.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -122,6 +123,56 @@ Figure intervalPlot(const std::vector<NamedInterval>& values, const std::string&
     panel.x = namedAxis(names);
     panel.y = axisAround(valueTitle, Scale::linear, shown);
     return {title, "with 95 % intervals", {std::move(panel)}};
+}
+
+Figure psychometricPlot(const std::vector<PsychometricCurve>& curves, const std::string& title,
+                        const std::string& valueTitle, Scale scale, const FigureStyle& style)
+{
+    const Look look = lookFor(style);
+    Panel panel;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+    {
+        const PsychometricCurve& curve = curves[i];
+        const Colour colour = look.theme.series(i);
+        Area band;
+        band.name = curve.name;
+        band.fill = colour.withAlpha(0.2);
+        band.listed = false;
+        Line line;
+        line.name = curve.name;
+        line.stroke = Stroke{colour, 0.15 * look.metrics.text};
+        for (const PsychometricCurve::At& at : curve.fitted)
+        {
+            band.upper.push_back({at.value, 100.0 * at.share95.high});
+            band.lower.push_back(100.0 * at.share95.low);
+            line.points.push_back({at.value, 100.0 * at.share});
+            values.push_back(at.value);
+        }
+        panel.series.push_back(std::move(band));
+        panel.series.push_back(std::move(line));
+        std::size_t most = 1;
+        for (const PsychometricCurve::Answers& seen : curve.answers)
+            most = std::max(most, seen.trials);
+        for (const PsychometricCurve::Answers& seen : curve.answers)
+        {
+            Line point;
+            point.name = curve.name;
+            point.listed = false;
+            const auto trials = static_cast<double>(seen.trials);
+            point.points = {{seen.value, 100.0 * static_cast<double>(seen.right) / trials}};
+            // The area of a point tells how many answers it stands for.
+            point.marker =
+                plot::Marker{markerShape(i), colour,
+                             look.metrics.text * std::max(0.25, 0.9 * std::sqrt(trials / static_cast<double>(most)))};
+            panel.series.push_back(std::move(point));
+        }
+    }
+    panel.x = axisAround(valueTitle, scale, values);
+    panel.y = axisAround("Right answers, %", Scale::linear, {0.0, 100.0});
+    return {title,
+            "fitted to the answers of all participants, with 95 % bands; larger points: more answers",
+            {std::move(panel)}};
 }
 
 Figure mapPlot(const study::Scaling& scaling, const std::vector<std::string>& names, const std::string& title,

@@ -2,6 +2,7 @@
 
 #include "cli/Console.h"
 #include "cli/Counted.h"
+#include "cli/study/MixedModel.h"
 #include "cli/study/StudyFigures.h"
 #include "study/Exposure.h"
 #include "study/StudyFields.h"
@@ -280,6 +281,44 @@ std::string fileNameOf(std::string_view text)
     return name;
 }
 
+Result<void> writeMixedModel(Writer& writer, Json& json, const std::vector<Rating>& ratings)
+{
+    const auto model = fitMixedModel(ratings);
+    if (!model)
+        return model.error();
+    const auto table = [&](const char* caption, const std::vector<FixedEffect>& effects, bool stimuli)
+    {
+        PageTable made{caption, {stimuli ? "Stimulus" : "Group", "Estimate", "SE", "95 %", "p"}, {}};
+        Json entries = Json::object();
+        for (std::size_t i = 0; i < effects.size(); ++i)
+        {
+            const FixedEffect& one = effects[i];
+            const std::string name = stimuli ? one.name : groupTitle(one.name);
+            made.rows.push_back(
+                {i == 0 ? name + ", mean" : name + " - " + made.rows[0][0].substr(0, made.rows[0][0].size() - 6),
+                 i == 0 ? decimalText(one.estimate, 2) : signedText(one.estimate, 2), decimalText(one.error, 2),
+                 intervalText({one.low, one.high}, 2), i == 0 ? "" : pText(one.p)});
+            entries[name] = {{"estimate", one.estimate}, {"error", one.error}, {"p", one.p}};
+        }
+        writer.table(std::move(made));
+        return entries;
+    };
+    json["groups"] =
+        table("Mixed model: groups, over participants and stimuli (both random, crossed)", model->groups, false);
+    json["stimuli"] = table("Mixed model: stimuli, over participants (random)", model->stimuli, true);
+    json["participantVariance"] = model->participantVariance;
+    json["stimulusVariance"] = model->stimulusVariance;
+    json["residualVariance"] = model->residualVariance;
+    json["converged"] = model->converged;
+    json["program"] = model->program;
+    writer.paragraph(fmt::format("Variance of participants {}, of stimuli {}, of what is left {}; restricted maximum "
+                                 "likelihood, Wald tests, by {}.{}",
+                                 decimalText(model->participantVariance, 2), decimalText(model->stimulusVariance, 2),
+                                 decimalText(model->residualVariance, 2), model->program,
+                                 model->converged ? "" : " It did NOT converge: trust none of it."));
+    return {};
+}
+
 /// All about the ratings of one block.
 Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>& ratings, const std::string& title,
                           const StudyReportParams& params)
@@ -307,7 +346,7 @@ Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>&
                                      decimalText(analysis.order.degrees, 0), decimalText(analysis.order.chiSquared, 2),
                                      pText(analysis.order.p)));
     json[title] = jsonOf(analysis);
-    return {};
+    return params.mixed ? writeMixedModel(writer, json[title]["mixedModel"], ratings) : Result<void>();
 }
 
 /// Blocks in the order of their first rating.
@@ -449,6 +488,38 @@ std::string unitOf(Variable variable)
     return "";
 }
 
+/// Answers of all participants to one stimulus of an adaptive block, and the function that fits them.
+PsychometricCurve curveOf(const StudyResults& results, const Block& block, const std::string& stimulus)
+{
+    PsychometricCurve curve;
+    curve.name = stimulus;
+    PsychometricPosterior posterior(priorOf(block.adaptive, block.intervals));
+    std::map<double, std::pair<std::size_t, std::size_t>> seen; // right and all, by whole dB
+    for (const StaircaseAnswer& one : results.staircaseAnswers)
+        if (one.block == block.name && one.stimulus == stimulus)
+        {
+            posterior.update(one.strength, one.right);
+            auto& [right, trials] = seen[std::round(one.strength)];
+            right += one.right ? 1u : 0u;
+            ++trials;
+        }
+    if (seen.empty())
+        return curve;
+    const Variable variable = block.adaptive.variable;
+    for (const auto& [strength, counts] : seen)
+        curve.answers.push_back({valueOf(variable, strength), counts.first, counts.second});
+    const Psychometric mean = posterior.mean();
+    constexpr double around = 3.0; // dB
+    constexpr int points = 80;
+    const double low = seen.begin()->first - around, high = seen.rbegin()->first + around;
+    for (int i = 0; i <= points; ++i)
+    {
+        const double strength = low + (high - low) * i / points;
+        curve.fitted.push_back({valueOf(variable, strength), mean(strength), posterior.share95(strength)});
+    }
+    return curve;
+}
+
 Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& results)
 {
     for (const Block& block : results.study.blocks)
@@ -457,6 +528,7 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
             continue;
         PageTable table{"", {"Stimulus", "Participants", "Threshold", "95 % of the mean", "SD, dB", "Trials"}, {}};
         std::vector<NamedInterval> shown;
+        std::vector<PsychometricCurve> curves;
         Json ofBlock = Json::object();
         for (const std::size_t stimulus : stimuliOf(results.study, block))
         {
@@ -483,6 +555,7 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
                                   fmt::to_string(trials)});
             ofBlock[name] = jsonOf(sample);
             ofBlock[name]["value"] = shown.back().value;
+            curves.push_back(curveOf(results, block, name));
         }
         if (table.rows.empty())
             continue;
@@ -490,6 +563,12 @@ Result<void> writeThresholds(Writer& writer, Json& json, const StudyResults& res
         table.caption = fmt::format("Thresholds in {}, over participants", unitOf(block.adaptive.variable));
         if (auto drawn = writer.picture(fileNameOf(block.name) + ".svg", "Thresholds of " + block.name,
                                         intervalPlot(shown, block.name, unitOf(block.adaptive.variable), pictureStyle));
+            !drawn)
+            return drawn;
+        const auto scale = block.adaptive.variable == Variable::level ? plot::Scale::linear : plot::Scale::logarithmic;
+        if (auto drawn = writer.picture(
+                fileNameOf(block.name) + "-functions.svg", "Psychometric functions of " + block.name,
+                psychometricPlot(curves, block.name, unitOf(block.adaptive.variable), scale, pictureStyle));
             !drawn)
             return drawn;
         writer.table(std::move(table));

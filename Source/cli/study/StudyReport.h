@@ -18,6 +18,7 @@ struct StudyReportParams
 {
     std::vector<study::GroupUnion> unions;
     std::optional<study::WordCategories> categories;
+    bool mixed = false; ///< also fit mixed models, by Python
 };
 
 /// What was found in ratings alone, as they come from other programs.
@@ -27,7 +28,7 @@ struct StudyReport
     nlohmann::ordered_json json;
 };
 
-/// Errors: those of drawing pictures.
+/// Errors: those of drawing pictures and of fitMixedModel().
 [[nodiscard]] Result<StudyReport> reportOfRatings(const std::vector<study::Rating>& ratings, const std::string& title,
                                                   const StudyReportParams& params);
 

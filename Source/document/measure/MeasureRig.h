@@ -25,7 +25,8 @@ struct RigPorts
 struct RigWiring
 {
     std::size_t output = 0;
-    std::vector<std::size_t> inputs = {0}; ///< one to three: a microphone or the axes of a sensor
+    std::vector<std::size_t> inputs = {0};                  ///< one to three: a microphone or the axes of a sensor
+    std::optional<std::size_t> secondOutput = std::nullopt; ///< plays the same
     bool operator==(const RigWiring&) const = default;
 };
 

@@ -4,6 +4,9 @@
 #include "editor/Text.h"
 #include "editor/Translation.h"
 #include "io/ProfileFile.h"
+#include "study/LatencyFile.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +97,32 @@ LargeButton& StudyPage::addButton(const juce::String& caption, std::function<voi
     return *buttons.back();
 }
 
+juce::ComboBox& StudyPage::addBox(const juce::String& name, const juce::StringArray& items, int selected,
+                                  std::function<void(int)> chosen)
+{
+    auto made = std::make_unique<juce::ComboBox>(name);
+    made->addItemList(items, 1);
+    made->setSelectedItemIndex(selected, juce::dontSendNotification);
+    made->setTitle(name);
+    auto* raw = made.get();
+    made->onChange = [raw, chosen = std::move(chosen)]
+    {
+        chosen(raw->getSelectedItemIndex());
+    };
+    auto label = std::make_unique<juce::Label>(juce::String(), name);
+    label->setFont(participantFont().withHeight(17.0f));
+    addAndMakeVisible(*label);
+    addAndMakeVisible(*made);
+    names.push_back(std::move(label));
+    boxes.push_back(std::move(made));
+    return *boxes.back();
+}
+
 void StudyPage::show(State wanted)
 {
     now = wanted;
+    if (now != State::delay)
+        delay.reset();
     scrolled.setViewedComponent(nullptr, false);
     scrolled.setVisible(false);
     pane.reset();
@@ -109,6 +135,9 @@ void StudyPage::show(State wanted)
     {
     case State::setUp:
         buildSetUp();
+        break;
+    case State::delay:
+        buildDelay();
         break;
     case State::welcome:
         buildText(tr("Welcome"), said(study().welcome));
@@ -192,26 +221,6 @@ void StudyPage::buildSetUp()
     buildText(toText(study().name),
               tr("Groups: {0}, participants planned: {1}",
                  {juce::String(study().groups.size()), juce::String(study::participantsOf(study()))}));
-    const auto box = [&](const juce::String& name, const juce::StringArray& items, int selected,
-                         std::function<void(int)> chosen) -> juce::ComboBox&
-    {
-        auto made = std::make_unique<juce::ComboBox>(name);
-        made->addItemList(items, 1);
-        made->setSelectedItemIndex(selected, juce::dontSendNotification);
-        made->setTitle(name);
-        auto* raw = made.get();
-        made->onChange = [raw, chosen = std::move(chosen)]
-        {
-            chosen(raw->getSelectedItemIndex());
-        };
-        auto label = std::make_unique<juce::Label>(juce::String(), name);
-        label->setFont(participantFont().withHeight(17.0f));
-        addAndMakeVisible(*label);
-        addAndMakeVisible(*made);
-        names.push_back(std::move(label));
-        boxes.push_back(std::move(made));
-        return *boxes.back();
-    };
     const auto codes = languagesOf(study());
     if (codes.size() > 1)
     {
@@ -220,7 +229,7 @@ void StudyPage::buildSetUp()
             shown.add(languageName(code));
         const int selected = std::max(0, codes.indexOf(language));
         language = codes[selected];
-        box(tr("Language"), shown, selected, [this, codes](int index) { language = codes[index]; });
+        addBox(tr("Language"), shown, selected, [this, codes](int index) { language = codes[index]; });
     }
     juce::StringArray actuators{tr("None: plain drive")};
     int chosen = 0;
@@ -230,23 +239,39 @@ void StudyPage::buildSetUp()
         if (one.name == actuator)
             chosen = actuators.size() - 1;
     }
-    box(tr("Actuator"), actuators, chosen,
-        [this](int index)
-        { actuator = index > 0 ? services.profiles[static_cast<std::size_t>(index) - 1].name : std::string(); });
-    box(tr("Colours"), {tr("Dark"), tr("Light")}, look.isDark() ? 0 : 1, [this](int index) { setDark(index == 0); });
+    addBox(tr("Actuator"), actuators, chosen,
+           [this](int index)
+           { actuator = index > 0 ? services.profiles[static_cast<std::size_t>(index) - 1].name : std::string(); });
+    addBox(tr("Colours"), {tr("Dark"), tr("Light")}, look.isDark() ? 0 : 1, [this](int index) { setDark(index == 0); });
     if (services.outputNames)
     {
         const auto outputs = services.outputNames();
         // Ears first; the actuator on what comes after them, or on the right channel of a device with two.
-        const int touch = outputs.size() > 2 ? 2 : outputs.size() - 1;
-        auto& sounds = box(tr("Sound on"), outputs, 0, [](int) {});
-        auto& touches = box(tr("Touch on"), outputs, touch, [](int) {});
-        const auto wire = [this, &sounds, &touches]
-        {
-            services.wire(sounds.getSelectedItemIndex(), touches.getSelectedItemIndex());
-        };
-        sounds.onChange = touches.onChange = wire;
-        wire();
+        if (touchOut == soundOut || touchOut >= outputs.size())
+            touchOut = outputs.size() > 2 ? 2 : outputs.size() - 1;
+        addBox(tr("Sound on"), outputs, soundOut,
+               [this](int index)
+               {
+                   soundOut = index;
+                   services.wire(soundOut, touchOut);
+               });
+        addBox(tr("Touch on"), outputs, touchOut,
+               [this](int index)
+               {
+                   touchOut = index;
+                   services.wire(soundOut, touchOut);
+               });
+        services.wire(soundOut, touchOut);
+    }
+    if (const auto measured = study::readLatencies(place.folder); measured && !measured->empty())
+    {
+        const auto& newest = measured->back();
+        touchLatency = newest.latency.delay;
+        addBox(tr("Delay"),
+               {tr("Made up for: {0} ms, measured {1}",
+                   {juce::String(1000.0 * newest.latency.delay, 2), toText(newest.time.substr(0, 10))}),
+                tr("Not made up for")},
+               0, [this, known = touchLatency](int index) { touchLatency = index == 0 ? known : 0.0; });
     }
     nextButton = &addButton(tr("New participant"), [this] { begin({}); });
     for (const fs::path& log : study::sessionLogs(place.folder))
@@ -256,10 +281,76 @@ void StudyPage::buildSetUp()
         addButton(tr("Experimenter's window"), services.showMonitor);
     if (services.showDevices)
         addButton(tr("Audio devices..."), services.showDevices);
+    if (services.rig != nullptr && services.outputNames)
+        addButton(tr("Measure the delay..."), [this] { show(State::delay); });
     if (services.close)
         addButton(tr("Close"), services.close);
     if (services.player->sampleRate() <= 0)
         status.setText(tr("No audio device is open."));
+}
+
+void StudyPage::buildDelay()
+{
+    buildText(tr("Delay between sound and touch"),
+              tr("Lead the outputs back to two inputs by cables, or put a sensor on the actuator. Nobody wears it "
+                 "meanwhile. Ten short bursts are played."));
+    if (!delay)
+        delay = std::make_unique<DelayMeasurement>(*services.rig, place.folder);
+    const auto ports = delay->ports();
+    juce::StringArray inputs;
+    for (const std::string& name : ports.inputs)
+        inputs.add(toText(name));
+    auto& heard = addBox(tr("Sound comes back on"), inputs, 0, [](int) {});
+    auto& felt = addBox(tr("Touch comes back on"), inputs, inputs.size() > 1 ? 1 : 0, [](int) {});
+    nextButton = &addButton(
+        tr("Measure"),
+        [this, &heard, &felt]
+        {
+            const auto index = [](int chosen)
+            {
+                return static_cast<std::size_t>(std::max(chosen, 0));
+            };
+            std::optional<Profile> limits;
+            if (const NamedProfile* known = profile())
+                limits = *known->profile;
+            const auto started = delay->start(index(soundOut), index(touchOut), index(heard.getSelectedItemIndex()),
+                                              index(felt.getSelectedItemIndex()), limits);
+            if (!started)
+                return status.setText(started.error().where == "outputs"  ? tr("Sound and touch are on one output.")
+                                      : started.error().where == "inputs" ? tr("Sound and touch are on one input.")
+                                                                          : toText(started.error().message));
+            nextButton->setEnabled(false);
+        });
+    addButton(tr("Back"), [this] { show(State::setUp); });
+    if (!ports.problem.empty())
+        status.setText(toText(ports.problem));
+}
+
+void StudyPage::pollDelay()
+{
+    if (!delay || !delay->isRunning())
+        return;
+    if (const auto latency = delay->poll())
+    {
+        nextButton->setEnabled(true);
+        if (latency->has_value())
+        {
+            const study::Latency& found = **latency;
+            return status.setText(
+                tr("The touch comes {0} ms after the sound: {1} bursts, SD {2} ms. It is kept, and sessions make up "
+                   "for it.",
+                   {juce::String(1000.0 * found.delay, 3), juce::String(found.bursts),
+                    juce::String(1000.0 * found.deviation, 3)}));
+        }
+        const Error& error = latency->error();
+        return status.setText(
+            error.where == "sound"   ? tr("The sound did not come back. Is its cable connected, its input loud enough?")
+            : error.where == "touch" ? tr("The touch did not come back. Is its cable or sensor connected, its input "
+                                          "loud enough?")
+            : error.where == "device" ? tr("The sound device went away. Please measure again.")
+                                      : toText(error.text()));
+    }
+    status.setText(tr("Measuring: {0} %", {juce::String(static_cast<int>(100.0 * delay->progress()))}));
 }
 
 const NamedProfile* StudyPage::profile() const
@@ -289,6 +380,12 @@ void StudyPage::begin(const fs::path& log)
     if (const NamedProfile* known = profile())
         params.profile = *known->profile;
     params.folder = place.folder;
+    params.touchLatency = touchLatency;
+    if (touchLatency != 0.0)
+        if (const auto kept =
+                (*session)->note(fmt::format("the touch starts {:.3f} ms earlier", 1000.0 * touchLatency));
+            !kept)
+            return status.setText(toText(kept.error().text()));
     running = std::make_unique<study::StudyRun>(study(), std::move(*session), params, *services.player);
     comfortNext = 0;
     useLanguage(language); // of all that participants read
@@ -432,8 +529,55 @@ bool StudyPage::keyPressed(const juce::KeyPress& key)
     return pane && character >= '1' && character <= '9' && pane->digit(character - '0');
 }
 
+void StudyPage::control(Control pressed)
+{
+    auto* focused = juce::Component::getCurrentlyFocusedComponent();
+    if (focused == nullptr || !isParentOf(focused))
+        focused = this;
+    auto* button = dynamic_cast<juce::Button*>(focused);
+    const bool back = pressed == Control::left || pressed == Control::up;
+    switch (pressed)
+    {
+    case Control::next:
+        // A choice of the pane is taken by its button, as a page's stimulus is played.
+        if (pane && button != nullptr && pane->isParentOf(button))
+            button->triggerClick();
+        else
+            goOn();
+        break;
+    case Control::play:
+        if (playButton != nullptr)
+            playButton->triggerClick();
+        break;
+    case Control::stop:
+        stop();
+        break;
+    case Control::left:
+    case Control::right:
+        if (focused->keyPressed(juce::KeyPress(back ? juce::KeyPress::leftKey : juce::KeyPress::rightKey)))
+            break;
+        [[fallthrough]];
+    case Control::up:
+    case Control::down:
+        if (focused == this && pane)
+        {
+            // From nowhere into the answer, at the end that was asked for.
+            std::vector<juce::Component*> stops;
+            for (auto* child : pane->getChildren())
+                if (child->isVisible() && child->isEnabled() && child->getWantsKeyboardFocus())
+                    stops.push_back(child);
+            if (!stops.empty())
+                (back ? stops.front() : stops.back())->grabKeyboardFocus();
+        }
+        else
+            focused->moveKeyboardFocusToSibling(!back);
+        break;
+    }
+}
+
 void StudyPage::timerCallback()
 {
+    pollDelay();
     if (!running || (now != State::trial && now != State::comfort))
         return;
     const auto playing = running->poll();

@@ -4,8 +4,10 @@
 // The pages that a participant goes through, and the experimenter's before them.
 
 #include "document/BuiltInProfiles.h"
+#include "document/measure/MeasureRig.h"
 #include "editor/Theme.h"
 #include "editor/study/AnswerPane.h"
+#include "editor/study/DelayMeasurement.h"
 #include "study/StudyRun.h"
 
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -23,6 +25,7 @@ namespace pacini::editor
 struct StudyServices
 {
     study::TrialPlayer* player = nullptr;
+    MeasureRig* rig = nullptr;                           ///< of the same device; null: delays are not measured
     std::function<juce::StringArray()> outputNames = {}; ///< of the device
     std::function<void(int sound, int touch)> wire = {}; ///< first of two channels for the ears; the actuator's
     std::function<void()> showDevices = {};              ///< null: no choice of devices
@@ -30,6 +33,18 @@ struct StudyServices
     std::function<void()> close = {};
     std::vector<NamedProfile> profiles = {};
     std::string program = {}; ///< name and version, for the logs
+};
+
+/// What a game controller says.
+enum class Control
+{
+    next, ///< goes on, or takes the choice that is marked
+    play,
+    stop,
+    left,
+    right,
+    up,
+    down
 };
 
 /// A study in its folder.
@@ -49,6 +64,7 @@ public:
     enum class State
     {
         setUp,
+        delay, ///< between sound and touch, is measured
         welcome,
         consent,
         comfort,
@@ -61,6 +77,7 @@ public:
     [[nodiscard]] study::StudyRun* run() noexcept { return running.get(); }
     std::function<void()> onProgress; ///< after each answer and each change of state
 
+    void control(Control pressed);
     void setDark(bool dark);
     void resized() override;
     void paint(juce::Graphics& g) override;
@@ -70,6 +87,8 @@ private:
     void timerCallback() override;
     void show(State wanted);
     void buildSetUp();
+    void buildDelay();
+    void pollDelay();
     void buildText(const juce::String& title, const juce::String& text);
     void buildComfort();
     void buildTrial();
@@ -80,6 +99,8 @@ private:
     void tell(study::PlayRefusal refusal);
     void stop();
     LargeButton& addButton(const juce::String& text, std::function<void()> click);
+    juce::ComboBox& addBox(const juce::String& name, const juce::StringArray& items, int selected,
+                           std::function<void(int)> chosen);
     [[nodiscard]] const study::Study& study() const noexcept { return place.study; }
     [[nodiscard]] const NamedProfile* profile() const; ///< null: none, or one that is not known
     [[nodiscard]] juce::String said(const study::Text& text) const;
@@ -88,7 +109,10 @@ private:
     StudyServices services;
     Look look;
     State now = State::setUp, before = State::trial;
-    std::string actuator; ///< name of its profile
+    std::string actuator;                    ///< name of its profile
+    double touchLatency = 0.0;               ///< s, that sessions make up for
+    int soundOut = 0, touchOut = 0;          ///< outputs, as they are listed
+    std::unique_ptr<DelayMeasurement> delay; ///< while that is shown
     juce::String language, programLanguage;
     std::unique_ptr<study::StudyRun> running;
     std::size_t comfortNext = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pacini::study
 {
@@ -128,6 +129,33 @@ Interval PsychometricPosterior::threshold95() const
         return grid.thresholds[sums.size() - 1];
     };
     return {where(0.025), where(0.975)};
+}
+
+Interval PsychometricPosterior::share95(double strength) const
+{
+    std::vector<std::pair<double, double>> shares; // with their weights
+    shares.reserve(weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        shares.emplace_back(at(i)(strength), weights[i]);
+    std::sort(shares.begin(), shares.end());
+    Interval found{shares.front().first, shares.back().first};
+    double sum = 0.0;
+    bool low = false;
+    for (const auto& [share, weight] : shares)
+    {
+        sum += weight;
+        if (!low && sum >= 0.025)
+        {
+            found.low = share;
+            low = true;
+        }
+        if (sum >= 0.975)
+        {
+            found.high = share;
+            break;
+        }
+    }
+    return found;
 }
 
 } // namespace pacini::study

@@ -78,6 +78,9 @@ public:
     [[nodiscard]] double thresholdSd() const;
     [[nodiscard]] Interval threshold95() const;
 
+    /// Of the share of right answers at a strength.
+    [[nodiscard]] Interval share95(double strength) const;
+
 private:
     [[nodiscard]] Psychometric at(std::size_t i) const;
     [[nodiscard]] std::vector<double> thresholdWeights() const;

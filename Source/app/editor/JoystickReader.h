@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Game controllers as Linux lists them: what is pressed.
+
+#include <juce_core/juce_core.h>
+
+#include <filesystem>
+#include <functional>
+
+namespace pacini::app
+{
+
+/// A button that goes down, or a stick or cross that is moved to an end; while it stays there, again and again.
+struct JoystickPress
+{
+    int button = -1;   ///< counted from 0; -1: an axis
+    int axis = -1;     ///< counted from 0; -1: a button
+    int direction = 0; ///< of the axis: -1 or 1
+};
+
+/// Listens to all joysticks, which may come and go. Elsewhere than on Linux there are none.
+class JoystickReader final : private juce::Thread
+{
+public:
+    /// `joysticks`: the folder that has them, as `js0`. `pressed` is called from a thread of this.
+    JoystickReader(std::filesystem::path joysticks, std::function<void(const JoystickPress&)> pressed);
+    ~JoystickReader() override;
+
+private:
+    void run() override;
+
+    const std::filesystem::path folder;
+    const std::function<void(const JoystickPress&)> tell;
+};
+
+} // namespace pacini::app

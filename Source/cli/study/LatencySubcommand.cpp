@@ -1,0 +1,226 @@
+#include "cli/Command.h"
+#include "cli/InputFiles.h"
+#include "cli/Options.h"
+#include "cli/Overwrite.h"
+#include "cli/ProfileInput.h"
+#include "cli/study/OpenStudy.h"
+#include "io/AudioReader.h"
+#include "io/AudioWriter.h"
+#include "io/Fingerprint.h"
+#include "study/LatencyFile.h"
+#include "study/SessionLog.h"
+#include "study/Stimuli.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pacini::cli
+{
+
+namespace
+{
+/// `study latency`: the true delay between sound and touch.
+class LatencySubcommand : public Command
+{
+public:
+    CLI::App* declare(CLI::App& app) override;
+    Exit run(Console& console) override;
+
+private:
+    Exit writeProbe(Console& console, const OpenedStudy& opened);
+    Exit measure(Console& console, const OpenedStudy& opened);
+
+    std::string named, recording, probeFile, profile;
+    study::LatencyProbe probe;
+    int sound = 1, touch = 2;
+    bool dry = false;
+    OverwriteOptions overwriting;
+};
+} // namespace
+
+CLI::App* LatencySubcommand::declare(CLI::App& app)
+{
+    auto* command = app.add_subcommand("latency", "Measure how much later than the sound the touch comes");
+    addOption(*command, "study", named, "Folder or file of the study", "STUDY")->required();
+    auto* heard =
+        addOption(*command, "recording", recording, "What came back of the probe; its result is kept", "RECORDING");
+    addOption(*command, "--probe", probeFile, "Write the sound to play on the ears' and the actuator's output", "OUT")
+        ->excludes(heard);
+    addPreset(*command, "--duration", probe.duration, "Length of the probe, s: a burst each second", "S");
+    addPreset(*command, "--frequency", probe.frequency, "Of the bursts, Hz; the same for probe and recording", "HZ");
+    addPreset(*command, "--level", probe.level, "Of the bursts, dB re full scale", "DB");
+    addPreset(*command, "--rate", probe.sampleRate, "Sample rate of the probe, Hz", wholeNumberFrom(8000, 384000),
+              "HZ");
+    addOption(*command, "--profile", profile,
+              "Actuator whose limits the probe keeps: a profile file, or the name of one that comes with Pacini [that "
+              "of the study]",
+              "PROFILE");
+    addPreset(*command, "--sound", sound, "Channel of the recording that has the sound", wholeNumberFrom(1, 64), "N");
+    addPreset(*command, "--touch", touch, "Channel that has the touch: a cable or an accelerometer",
+              wholeNumberFrom(1, 64), "N");
+    command->add_flag("--dry-run", dry, "Measure without keeping the result");
+    overwriting.declare(*command);
+    command->footer("Play the probe on both outputs and record both at once, from cables or from a sensor on the\n"
+                    "actuator. The result goes to latency.json beside the study, and sessions make up for it. The\n"
+                    "editor does all of it by itself: Tools, Run a study..., Measure the delay.\n\nExample:\n"
+                    "  pacini study latency lab --probe probe.wav\n"
+                    "  pacini study latency lab recorded.wav --sound 1 --touch 2");
+    return command;
+}
+
+Exit LatencySubcommand::run(Console& console)
+{
+    if (auto valid = study::validate(probe); !valid)
+    {
+        Error error = valid.error();
+        error.where = error.where == "sampleRate" ? "--rate" : "--" + error.where;
+        return console.fail("", error, Exit::usage);
+    }
+    if (recording.empty() && probeFile.empty())
+        return console.fail("",
+                            {ErrorCode::invalidArgument, "RECORDING",
+                             "is missing; --probe OUT writes the sound that is to be recorded"},
+                            Exit::usage);
+    const auto opened = openStudy(console, named);
+    if (!opened)
+        return Exit::failed;
+    return probeFile.empty() ? measure(console, *opened) : writeProbe(console, *opened);
+}
+
+Exit LatencySubcommand::writeProbe(Console& console, const OpenedStudy& opened)
+{
+    if (overwriting.keepsAll() && isOccupied(probeFile))
+    {
+        console.note(fmt::format("{} exists and was left", printable(probeFile)));
+        return Exit::ok;
+    }
+    std::vector<float> burst = study::latencyBurst(probe);
+    const std::string actuator = actuatorOf(opened.study, opened.folder, profile);
+    if (!actuator.empty())
+    {
+        const auto limits = openProfile(console, actuator);
+        if (!limits)
+            return Exit::failed;
+        study::protectDrive(burst, *limits, probe.sampleRate);
+    }
+    AudioWriteParams writing;
+    writing.sampleRate = probe.sampleRate;
+    writing.channels = 2;
+    writing.encoding = SampleEncoding::pcm24;
+    const auto existing =
+        mayReplace(probeFile, originOf(opened.file, probeFile, Fingerprint().text()), overwriting.of(true));
+    if (!existing)
+        return console.fail("", existing.error());
+    writing.existing = *existing;
+    auto writer = AudioWriter::create(probeFile, writing);
+    if (!writer)
+        return console.fail(probeFile, writer.error());
+    std::vector<float> both;
+    for (const float sample : burst)
+        both.insert(both.end(), {sample, sample});
+    const auto seconds = static_cast<int>(std::ceil(probe.duration));
+    for (int second = 0; second < seconds; ++second)
+        if (auto written = writer->write(both); !written)
+            return console.fail(probeFile, written.error());
+    if (const auto finished = writer->finish(); !finished)
+        return console.fail(probeFile, finished.error());
+    console.addToReport({{"output", probeFile}});
+    console.wrote(probeFile, fmt::format("{} bursts of {} Hz on two channels, for the ears' output and the "
+                                         "actuator's; nobody wears it meanwhile",
+                                         seconds, decimalText(probe.frequency, 0)));
+    return Exit::ok;
+}
+
+Exit LatencySubcommand::measure(Console& console, const OpenedStudy& opened)
+{
+    auto reader = AudioReader::open(recording);
+    if (!reader)
+        return console.fail(recording, reader.error());
+    for (const auto& [option, channel] : {std::pair("--sound", sound), std::pair("--touch", touch)})
+        if (channel > reader->channels())
+            return console.fail(recording,
+                                {ErrorCode::invalidArgument, option,
+                                 fmt::format("is {}, but there {}", channel,
+                                             reader->channels() == 1
+                                                 ? "is only 1 channel"
+                                                 : fmt::format("are only {} channels", reader->channels()))},
+                                Exit::usage);
+    if (sound == touch)
+        return console.fail(recording, {ErrorCode::invalidArgument, "--touch", "must be another channel than --sound"},
+                            Exit::usage);
+    probe.sampleRate = reader->sampleRate();
+    study::LatencyMeter meter(probe);
+    const auto channels = static_cast<std::size_t>(reader->channels());
+    const double frames = static_cast<double>(reader->frames().value_or(0));
+    double done = 0.0;
+    std::vector<float> heard, felt;
+    constexpr std::size_t blockFrames = 1 << 16;
+    const auto read = reader->forEachBlock(blockFrames,
+                                           [&](std::span<const float> block)
+                                           {
+                                               const std::size_t count = block.size() / channels;
+                                               heard.resize(count);
+                                               felt.resize(count);
+                                               for (std::size_t n = 0; n < count; ++n)
+                                               {
+                                                   heard[n] = block[n * channels + static_cast<std::size_t>(sound) - 1];
+                                                   felt[n] = block[n * channels + static_cast<std::size_t>(touch) - 1];
+                                               }
+                                               meter.push(heard, felt);
+                                               done += static_cast<double>(count);
+                                               if (frames > 0.0)
+                                                   console.progress(std::min(1.0, done / frames), "listening");
+                                               return true;
+                                           });
+    console.endProgress();
+    if (!read)
+        return console.fail(recording, read.error());
+    const auto latency = meter.latency();
+    if (!latency)
+    {
+        Error error = latency.error();
+        error.where = "--" + error.where;
+        return console.fail(recording, error);
+    }
+    console.print(fmt::format("the touch comes {} ms {} the sound: {} bursts, SD {} ms, largest difference {} ms",
+                              decimalText(1000.0 * std::abs(latency->delay), 3),
+                              latency->delay < 0.0 ? "before" : "after", latency->bursts,
+                              decimalText(1000.0 * latency->deviation, 3), decimalText(1000.0 * latency->largest, 3)));
+    console.print(fmt::format("drift {} ms in an hour; levels {} and {} dB re full scale",
+                              decimalText(1000.0 * latency->drift, 3), decimalText(latency->soundLevel, 1),
+                              decimalText(latency->touchLevel, 1)));
+    if (latency->missed > 0)
+        console.warning(recording, fmt::format("{} bursts came back on one channel alone", latency->missed));
+    console.addToReport({{"delay", latency->delay},
+                         {"deviation", latency->deviation},
+                         {"largest", latency->largest},
+                         {"drift", latency->drift},
+                         {"bursts", latency->bursts},
+                         {"missed", latency->missed},
+                         {"soundLevel", latency->soundLevel},
+                         {"touchLevel", latency->touchLevel}});
+    if (dry)
+        return Exit::ok;
+    study::MeasuredLatency measured;
+    measured.time = study::utcNow();
+    measured.device = std::filesystem::path(recording).filename().string();
+    measured.sampleRate = probe.sampleRate;
+    measured.latency = *latency;
+    const std::string kept = (opened.folder / study::latencyFileName).string();
+    if (const auto added = study::keepLatency(opened.folder, measured); !added)
+        return console.fail(kept, added.error());
+    console.wrote(kept, "sessions make up for this delay from now on");
+    return Exit::ok;
+}
+
+std::unique_ptr<Command> latencyStudySubcommand()
+{
+    return std::make_unique<LatencySubcommand>();
+}
+
+} // namespace pacini::cli

@@ -1,0 +1,85 @@
+#include "study/LatencyFile.h"
+
+#include "io/AtomicFile.h"
+#include "io/FieldsReader.h"
+#include "io/FieldsWriter.h"
+#include "io/InputFile.h"
+#include "io/JsonTree.h"
+
+#include <system_error>
+#include <utility>
+
+namespace pacini::study
+{
+
+namespace
+{
+constexpr std::size_t mostMeasurements = 10'000;
+constexpr std::size_t largestLatencyFile = 10'000'000; // bytes
+
+template <typename AnyMeasurement, typename Visitor>
+void visitMeasurement(AnyMeasurement& measured, Visitor& visitor)
+{
+    using enum Need;
+    visitor.text("time", measured.time);
+    visitor.optionalText("device", measured.device);
+    visitor.number("sampleRate", measured.sampleRate, usual);
+    auto& latency = measured.latency;
+    visitor.number("delay", latency.delay, required);
+    visitor.number("deviation", latency.deviation, usual);
+    visitor.number("largest", latency.largest, usual);
+    visitor.number("drift", latency.drift, usual);
+    visitor.number("soundLevel", latency.soundLevel, usual);
+    visitor.number("touchLevel", latency.touchLevel, usual);
+    visitor.integer("bursts", latency.bursts, "must be a whole number");
+    visitor.integer("missed", latency.missed, "must be a whole number");
+}
+
+template <typename AnyList, typename Visitor>
+void visitList(AnyList& list, Visitor& visitor)
+{
+    visitor.list("measurements", list, mostMeasurements, "measurements",
+                 [&](auto& measured) { visitMeasurement(measured, visitor); });
+}
+} // namespace
+
+Result<std::vector<MeasuredLatency>> readLatencies(const std::filesystem::path& folder)
+{
+    std::error_code unknown;
+    if (!std::filesystem::exists(folder / latencyFileName, unknown))
+        return std::vector<MeasuredLatency>{};
+    const auto text = readWholeFile(folder / latencyFileName, largestLatencyFile);
+    if (!text)
+        return text.error();
+    const auto document = readJsonTree(*text, largestLatencyFile);
+    if (!document)
+        return document.error();
+    if (!document->is_object())
+        return Error{ErrorCode::invalidData, "", "is no list of measured delays, which is a JSON object"};
+    FieldsReader reader(*document);
+    reader.format(latencyFormatName, latencyFormatVersion);
+    std::vector<MeasuredLatency> list;
+    visitList(list, reader);
+    if (reader.error)
+        return *reader.error;
+    return list;
+}
+
+Result<void> keepLatency(const std::filesystem::path& folder, const MeasuredLatency& measured)
+{
+    auto list = readLatencies(folder);
+    if (!list)
+        return list.error();
+    list->push_back(measured);
+    if (list->size() > mostMeasurements)
+        list->erase(list->begin());
+    FieldsWriter writer(FieldsWriter::Layout::spaced);
+    writer.format({latencyFormatName, latencyFormatVersion});
+    visitList(*list, writer);
+    const auto written = writeFileAtomically(folder / latencyFileName, std::move(writer).document());
+    if (!written)
+        return written.error();
+    return {};
+}
+
+} // namespace pacini::study

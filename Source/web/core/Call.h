@@ -1,0 +1,78 @@
+#pragma once
+
+// Calls from JavaScript: a name, options as JSON and buffers in; a value as JSON and buffers out.
+
+#include "io/FieldsReader.h"
+
+#include <pacini/actuator/Profile.h>
+#include <pacini/clip/Clip.h>
+#include <pacini/foundation/Result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pacini::web
+{
+
+using Json = nlohmann::ordered_json;
+
+/// Takes the next samples of the sound that a call works on from JavaScript: interleaved, how many frames came.
+using Pull = std::function<std::size_t(std::span<float>)>;
+
+/// One call while it is worked on.
+class Call
+{
+public:
+    Call(const nlohmann::json& options, std::vector<std::span<const std::byte>> inputs, Pull pull)
+        : reader(options), pullSound(std::move(pull)), given(std::move(inputs))
+    {
+    }
+
+    FieldsReader reader; ///< of the options
+    Pull pullSound;
+    Json value; ///< what comes back
+    std::vector<std::vector<std::byte>> outputs;
+
+    [[nodiscard]] std::size_t inputs() const noexcept { return given.size(); }
+    [[nodiscard]] std::string_view text(std::size_t input) const;
+    [[nodiscard]] std::span<const float> samples(std::size_t input) const;
+
+    void put(std::string_view bytes);
+    void put(std::span<const float> samples);
+
+    /// Of the options, within a range.
+    [[nodiscard]] double number(const char* name, double usual, double low, double high);
+    [[nodiscard]] std::optional<double> optionalNumber(const char* name, double low, double high);
+    [[nodiscard]] bool truth(const char* name, bool usual);
+    [[nodiscard]] std::string word(const char* name, std::string_view usual);
+
+private:
+    std::vector<std::span<const std::byte>> given;
+};
+
+/// Does the work of a call. What is wrong with its options stands in the reader.
+using Handler = Result<void> (*)(Call& call);
+
+[[nodiscard]] Result<void> encodeSound(Call& call);
+[[nodiscard]] Result<void> readClipBytes(Call& call);
+[[nodiscard]] Result<void> writeClipBytes(Call& call);
+[[nodiscard]] Result<void> listFormats(Call& call);
+[[nodiscard]] Result<void> renderClipOrScene(Call& call);
+[[nodiscard]] Result<void> compareSounds(Call& call);
+[[nodiscard]] Result<void> describeProfile(Call& call);
+[[nodiscard]] Result<void> lintClipOrScene(Call& call);
+
+/// The clip in a call's input, of any format; `extension` (with dot) tells formats apart that have no mark.
+[[nodiscard]] Result<Clip> clipOf(const Call& call, std::size_t input, std::string_view extension = {});
+
+/// The profile in an input, which is JSON.
+[[nodiscard]] Result<Profile> profileOf(const Call& call, std::size_t input);
+
+} // namespace pacini::web

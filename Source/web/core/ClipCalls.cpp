@@ -1,0 +1,132 @@
+// The calls `read`, `write`, `formats`, `profile` and `lint`: clips between formats, and what is lost on the way.
+
+#include "io/SceneCheck.h"
+#include "io/SceneJson.h"
+#include "io/formats/ClipFormat.h"
+#include "web/core/Call.h"
+
+
+#include <utility>
+
+namespace pacini::web
+{
+
+namespace
+{
+Json lossesOf(const std::vector<FormatLoss>& losses)
+{
+    Json list = Json::array();
+    for (const FormatLoss& loss : losses)
+        list.push_back({{"kind", lossName(loss.kind)},
+                        {"time", loss.time},
+                        {"duration", loss.duration},
+                        {"error", loss.error},
+                        {"message", loss.message}});
+    return list;
+}
+
+/// The export that a call asks for: the clip is the first input, the profile, where there is one, the second.
+Result<ExportedClip> exported(Call& call)
+{
+    const std::string name = call.word("format", "json");
+    const ClipFormat* format = clipFormatNamed(name);
+    if (format == nullptr || !format->isWritten())
+        return Error{ErrorCode::invalidArgument, "format",
+                     fmt::format("'{}' is no format that is written; formats() lists them", name)};
+    ExportParams params;
+    constexpr double most = 100000.0;
+    params.name = call.word("name", "");
+    params.amplitudePoints = call.optionalNumber("amplitudePoints", 0.0, most);
+    params.frequencyPoints = call.optionalNumber("frequencyPoints", 0.0, most);
+    if (const auto rate = call.optionalNumber("sampleRate", 2000.0, 768000.0))
+        params.sampleRate = static_cast<int>(*rate);
+    params.split = call.truth("split", false);
+    params.strength = call.number("strength", standardStrength, 0.0, 1.0);
+    auto clip = clipOf(call, 0, call.word("extension", ""));
+    if (!clip)
+        return clip.error();
+    if (call.inputs() > 1)
+    {
+        auto profile = profileOf(call, 1);
+        if (!profile)
+            return profile.error();
+        params.profile = std::move(*profile);
+    }
+    if (call.reader.error)
+        return *call.reader.error;
+    return format->write(*clip, params);
+}
+} // namespace
+
+Result<void> readClipBytes(Call& call)
+{
+    const std::string extension = call.word("extension", "");
+    const ClipFormat* format = clipFormatOf(extension, call.text(0));
+    if (format == nullptr || !format->isRead())
+        return Error{ErrorCode::invalidData, "", "is a clip in no format that is read"};
+    auto read = format->read(call.text(0), call.truth("strict", false));
+    if (!read)
+        return read.error();
+    const auto json = jsonFormat().write(read->clip);
+    if (!json)
+        return json.error();
+    call.put(json->files.front().bytes);
+    call.value["format"] = format->name;
+    call.value["warnings"] = read->warnings;
+    return {};
+}
+
+Result<void> writeClipBytes(Call& call)
+{
+    const auto made = exported(call);
+    if (!made)
+        return made.error();
+    Json suffixes = Json::array();
+    for (const ExportedFile& file : made->files)
+    {
+        call.put(file.bytes);
+        suffixes.push_back(file.suffix);
+    }
+    call.value["suffixes"] = std::move(suffixes);
+    call.value["losses"] = lossesOf(made->losses);
+    return {};
+}
+
+Result<void> listFormats(Call& call)
+{
+    Json list = Json::array();
+    for (const ClipFormat& format : clipFormats())
+        list.push_back({{"name", format.name},
+                        {"title", format.title},
+                        {"extension", format.extension},
+                        {"keeps", format.keeps},
+                        {"reads", format.isRead()},
+                        {"writes", format.isWritten()},
+                        {"samples", format.isSamples}});
+    call.value["formats"] = std::move(list);
+    return {};
+}
+
+Result<void> describeProfile(Call& call)
+{
+    const auto profile = profileOf(call, 0);
+    if (!profile)
+        return profile.error();
+    call.value = {{"name", profile->name},
+                  {"low", profile->range.lowFrequency},
+                  {"high", profile->range.highFrequency},
+                  {"dynamicRange", profile->range.dynamicRange},
+                  {"felt", profile->body.has_value()}};
+    return {};
+}
+
+Result<void> lintClipOrScene(Call& call)
+{
+    const auto made = exported(call);
+    if (!made)
+        return made.error();
+    call.value["losses"] = lossesOf(made->losses);
+    return {};
+}
+
+} // namespace pacini::web
