@@ -42,7 +42,7 @@ Result<void> DelayMeasurement::start(std::size_t soundOut, std::size_t touchOut,
         signal.insert(signal.end(), burst.begin(), burst.end());
     rig.wire({soundOut, {soundIn, touchIn}, touchOut});
     auto started = rig.start(std::move(signal));
-    running = started.has_value();
+    running = static_cast<bool>(started);
     return started;
 }
 

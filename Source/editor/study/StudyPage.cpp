@@ -333,7 +333,7 @@ void StudyPage::pollDelay()
     if (const auto latency = delay->poll())
     {
         nextButton->setEnabled(true);
-        if (latency->has_value())
+        if (*latency)
         {
             const study::Latency& found = **latency;
             return status.setText(
