@@ -284,11 +284,13 @@ std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const S
     const std::vector<float> asItWas = touch;
     constexpr int attempts = 24;
     constexpr double closeEnough = 0.01;
-    double gain = 1.0;
+    double gain = 1.0, nearest = 0.0;
     std::optional<double> tooWeak, tooStrong;
     for (int attempt = 0; attempt < attempts; ++attempt)
     {
         const double now = reached();
+        if (std::abs(now - wanted) < std::abs(nearest - wanted))
+            nearest = now;
         if (!(now > 0.0) || std::abs(now / wanted - 1.0) < closeEnough)
             break;
         (now < wanted ? tooWeak : tooStrong) = gain;
@@ -303,8 +305,9 @@ std::optional<Error> StimulusMaker::calibrate(std::vector<float>& touch, const S
     return stimulus.sensationLevel
                ? problem(fmt::format("is {} dB, but the actuator's whole range is {} dB", *stimulus.sensationLevel,
                                      settings.profile->range.dynamicRange))
-               : problem(
-                     fmt::format("is {:.3g} m/s2, but within the actuator's limits it is {:.3g} m/s2", wanted, now));
+               : problem(fmt::format(
+                     "is {:.3g} m/s2, but the nearest that the actuator does within its limits is {:.3g} m/s2", wanted,
+                     nearest));
 }
 
 Result<PreparedStimulus> StimulusMaker::made(const Stimulus& stimulus) const

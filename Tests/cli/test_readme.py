@@ -149,6 +149,7 @@ class Documents(CommandTest):
             if '"pacini.scene"' in text:
                 self.put("hall.scene.json", text)
         self.shell("pacini encode rain.wav -o rain.pacb")
+        self.shell("pacini study new lab --template jnd")
 
     def shell(self, line, file_limit=LARGEST):
         """Runs a line as a person types it; `pacini` is the command under test."""

@@ -1,0 +1,127 @@
+// A study's pages by a game controller: what its buttons mean on each.
+
+#include "editor/study/StudyPage.h"
+
+#include "editor/Bench.h"
+#include "editor/Pump.h"
+#include "support/TempFolder.h"
+
+#include <memory>
+#include <utility>
+
+using namespace pacini;
+using namespace pacini::test;
+
+namespace
+{
+/// Plays at once, to the end.
+class InstantDevice final : public study::TrialPlayer
+{
+public:
+    [[nodiscard]] int sampleRate() const override { return 48000; }
+    void play(study::TrialSound) override
+    {
+        ++plays;
+        last = {};
+        last.complete = true;
+    }
+    void stop() override { ++stops; }
+    [[nodiscard]] study::PlaybackReport report() const override { return last; }
+    int plays = 0, stops = 0;
+
+private:
+    study::PlaybackReport last;
+};
+
+study::Study twoTones()
+{
+    study::Study study;
+    study.name = "tones";
+    study.groups = {{"all", 1}};
+    for (const char* name : {"weak", "strong"})
+    {
+        study::Stimulus tone;
+        tone.name = name;
+        tone.tone = study::Tone{160.0, 0.2, 0.05, name == std::string("weak") ? -12.0 : -3.0};
+        study.stimuli.push_back(tone);
+    }
+    study::Block block;
+    block.name = "rated";
+    block.question = {{"en", "How strong?"}};
+    study.blocks = {block};
+    study.welcome = {{"en", "Hello"}};
+    study.consent = {{"en", "Is that fine?"}};
+    return study;
+}
+
+juce::Slider* sliderIn(juce::Component& within)
+{
+    for (auto* child : within.getChildren())
+    {
+        if (auto* slider = dynamic_cast<juce::Slider*>(child); slider != nullptr)
+            return slider;
+        if (auto* deeper = sliderIn(*child); deeper != nullptr)
+            return deeper;
+    }
+    return nullptr;
+}
+} // namespace
+
+TEST_CASE("A game controller goes through a study from its welcome to its end")
+{
+    const TempFolder folder;
+    InstantDevice device;
+    editor::StudyServices services;
+    services.player = &device;
+    editor::StudyPage page({twoTones(), folder.path()}, services);
+    page.setSize(960, 720);
+    using State = editor::StudyPage::State;
+    const auto goesTo = [&](editor::Control control, State wanted)
+    {
+        page.control(control);
+        return pumpUntil([&] { return page.state() == wanted; });
+    };
+    REQUIRE(page.state() == State::setUp);
+    REQUIRE(goesTo(editor::Control::next, State::welcome));
+    REQUIRE(goesTo(editor::Control::next, State::consent));
+    REQUIRE(goesTo(editor::Control::next, State::trial));
+    // Nothing is answered before it was felt.
+    page.control(editor::Control::next);
+    pumpFor(0.1);
+    CHECK(page.run()->session().answered() == 0);
+    page.control(editor::Control::play);
+    REQUIRE(pumpUntil([&] { return device.plays == 1 && page.run()->canAnswer(); }));
+    page.control(editor::Control::next);
+    pumpFor(0.1);
+    CHECK(page.run()->session().answered() == 0); // nor without an answer
+    auto* slider = sliderIn(page);
+    REQUIRE(slider != nullptr);
+    REQUIRE(slider->keyPressed(juce::KeyPress(juce::KeyPress::rightKey)));
+    REQUIRE(pumpUntil(
+        [&]
+        {
+            page.control(editor::Control::next);
+            return page.run()->session().answered() == 1;
+        }));
+    // The second is stopped, and goes on.
+    const int stopped = device.stops;
+    REQUIRE(goesTo(editor::Control::stop, State::stopped));
+    CHECK(device.stops > stopped);
+    REQUIRE(goesTo(editor::Control::next, State::trial));
+    pumpFor(0.6); // it may play by itself
+    page.control(editor::Control::play);
+    REQUIRE(pumpUntil([&] { return page.run()->canAnswer(); }));
+    REQUIRE(sliderIn(page)->keyPressed(juce::KeyPress(juce::KeyPress::leftKey)));
+    REQUIRE(pumpUntil(
+        [&]
+        {
+            if (page.state() == State::trial)
+                page.control(editor::Control::next);
+            return page.state() == State::goodbye;
+        }));
+    // Without anything focused, directions do no harm on any page.
+    for (const auto control :
+         {editor::Control::left, editor::Control::right, editor::Control::up, editor::Control::down})
+        page.control(control);
+    CHECK(page.state() == State::goodbye);
+}
