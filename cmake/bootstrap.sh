@@ -7,9 +7,10 @@
 #   bash cmake/bootstrap.sh plugin   install and build all that people run: the command, the plugin (VST3, LV2), its
 #                                    standalone program and PaciniEditor: build/release/bin, build/release/plugins
 #   bash cmake/bootstrap.sh package  install, build the same and make a Debian package of it: build/package/pacini_*.deb
+#   bash cmake/bootstrap.sh web      install, build the web page and serve it on this machine alone
 #   bash cmake/bootstrap.sh deps     only install what building and testing need
 set -euo pipefail
-help=$(sed -n '2,10p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
+help=$(sed -n '2,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//')
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build ccache pkg-config nlohmann-json3-dev libfmt-dev libboost-dev libcli11-dev libsndfile1-dev
@@ -27,6 +28,10 @@ slow_binding_packages=(rustc cargo nodejs npm)
 node_modules=(koffi@3.3.4 pyright@1.1.405)
 # Schedulers that the scripts of Resources/cluster are for, likewise.
 cluster_packages=(parallel slurmctld slurmd slurm-client munge)
+# WebAssembly, and the browser that the page is tried in.
+web_packages=(clang-22 lld-22 libc++-22-dev-wasm32 libc++abi-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc)
+web_test_packages=(nodejs npm chromium)
+web_modules=(puppeteer-core@25.16.0 axe-core@4.14.1)
 # For CI alone: other machines, which must make the same clips, another compiler with its library, and its reader of sources.
 portability_packages=(g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user clang clang-tidy
     libclang-rt-dev libc++-dev libc++abi-dev)
@@ -172,6 +177,14 @@ build_command() {
     build release pacini "${alone[@]}"
 }
 
+# The core as WebAssembly, the npm package and the page.
+build_web() {
+    say "Building for the web"
+    cmake -S Source/web -B build/web -G Ninja --toolchain "$PWD/cmake/wasm32.cmake" \
+        "-DPACINI_PROGRAM=$PWD/build/release/bin/pacini" >/dev/null || fail "cannot configure Source/web"
+    cmake --build build/web --parallel "$(jobs)"
+}
+
 # All that people run, and further targets; what else this folder was configured for before stays so.
 build_programs() {
     need_room 1500
@@ -243,6 +256,13 @@ package)
     rm -rf build/package/_CPack_Packages
     say "To install it, as root or with sudo: apt install ./build/package/$(ls -t build/package | head -n 1)"
     ;;
+web)
+    install_packages "${build_packages[@]}" "${web_packages[@]}" python3
+    build_command
+    build_web
+    say "Serving http://127.0.0.1:${PACINI_PORT:=8722}/ until Ctrl+C"
+    exec python3 -B Source/web/serve.py build/web/page "$PACINI_PORT"
+    ;;
 test)
     install_packages "${build_packages[@]}" "${test_packages[@]}"
     install_host_modules
@@ -275,7 +295,7 @@ sanitized-tests)
     usage
     ;;
 *)
-    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package and deps\n\n" "$1" >&2
+    [ $# -eq 0 ] || printf "bootstrap: '%s' is not one of demo, test, build, plugin, package, web and deps\n\n" "$1" >&2
     usage >&2
     exit 2
     ;;

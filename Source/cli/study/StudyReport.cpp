@@ -33,6 +33,12 @@ std::string pText(double p)
     return p < 0.0005 ? "< .001" : decimalText(p, 3);
 }
 
+/// The same within a sentence.
+std::string pSaid(double p)
+{
+    return p < 0.0005 ? "p < .001" : "p = " + pText(p);
+}
+
 std::string intervalText(const Interval& interval, int decimals)
 {
     return fmt::format("{} to {}", decimalText(interval.low, decimals), decimalText(interval.high, decimals));
@@ -194,9 +200,9 @@ void writeFindings(Writer& writer, const RatingAnalysis& analysis)
     std::string text;
     for (const GroupComparison& one : analysis.comparisons)
         if (!one.combined && one.byParticipant)
-            text += fmt::format("{} and {} {} (p = {}, after Holm {}). ", one.first, one.second,
+            text += fmt::format("{} and {} {} ({}, after Holm {}). ", one.first, one.second,
                                 one.holm <= level ? "differ" : "do not differ beyond chance",
-                                pText(one.byParticipant->p), pText(one.holm));
+                                pSaid(one.byParticipant->p), pText(one.holm));
     std::size_t tests = 0, below = 0, left = 0;
     for (const GroupComparison& one : analysis.comparisons)
         for (const auto& test : one.stimuli)
@@ -338,13 +344,13 @@ Result<void> writeRatings(Writer& writer, Json& json, const std::vector<Rating>&
     if (analysis.everybody.complete.size() > 1 && analysis.stimuli.size() > 1)
         writer.paragraph(fmt::format("Agreement of the {} who rated everything: ICC(2,1) {} (95 %: {}), of their mean "
                                      "ICC(2,k) {}; Kendall's W {}, "
-                                     "Friedman's chi-squared({}) = {}, p = {}.",
+                                     "Friedman's chi-squared({}) = {}, {}.",
                                      counted(analysis.everybody.complete.size(), "participant", "participants"),
                                      decimalText(analysis.agreement.single, 2),
                                      intervalText(analysis.agreement.single95, 2),
                                      decimalText(analysis.agreement.mean, 2), decimalText(analysis.order.kendallsW, 2),
                                      decimalText(analysis.order.degrees, 0), decimalText(analysis.order.chiSquared, 2),
-                                     pText(analysis.order.p)));
+                                     pSaid(analysis.order.p)));
     json[title] = jsonOf(analysis);
     return params.mixed ? writeMixedModel(writer, json[title]["mixedModel"], ratings) : Result<void>();
 }

@@ -1,0 +1,143 @@
+// Pacini for JavaScript: sounds to haptic clips, clips to what actuators play, and to every format.
+
+import { compile, Instance, PaciniError } from './module.js'
+import profileTable from './profiles.js'
+import { monoOf, soundOf } from './sound.js'
+
+export { PaciniError } from './module.js'
+export { readWav } from './sound.js'
+
+let source
+let instance
+
+/** Loads from another place than beside this file: a URL, or a compiled WebAssembly.Module. Before the first call. */
+export const loadFrom = (place) => {
+  source = place
+}
+
+const ready = async (signal) => {
+  signal?.throwIfAborted()
+  instance ??= new Instance(await compile(source))
+  signal?.throwIfAborted()
+  return instance
+}
+
+const floats = (bytes) => new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4)
+const bytesOf = (clip) => {
+  if (clip instanceof Uint8Array) return clip
+  if (clip instanceof ArrayBuffer) return new Uint8Array(clip)
+  if (typeof clip === 'string') return new TextEncoder().encode(clip)
+  if (clip && typeof clip === 'object') return new TextEncoder().encode(JSON.stringify(clip))
+  throw new PaciniError({ code: 'invalidArgument', where: 'clip', message: 'must be bytes, a text, or an object of a clip' })
+}
+const profileBytes = (profile) => {
+  if (typeof profile === 'string' && !profile.trimStart().startsWith('{')) {
+    if (!Object.hasOwn(profileTable, profile))
+      throw new PaciniError({
+        code: 'invalidArgument', where: 'profile', message: `'${profile}' is none of ${Object.keys(profileTable).join(', ')}`
+      })
+    return bytesOf(profileTable[profile])
+  }
+  return bytesOf(profile)
+}
+const given = (options, names) =>
+  Object.fromEntries(names.filter((name) => options[name] !== undefined).map((name) => [name, options[name]]))
+
+/** Names of the actuators that come with Pacini. */
+export const profileNames = () => Object.keys(profileTable)
+
+/** One of them, or what a profile (an object or a text) says of its actuator. */
+export const profileInfo = async (profile, { signal } = {}) =>
+  (await ready(signal)).call('profile', {}, [profileBytes(profile)]).value
+
+/**
+ * A sound as a clip: an object as it stands in a `.json` file, the text of that file (`format: 'text'`), or the bytes of
+ * a `.pacb` file (`format: 'packed'`); a Float32Array by methods that make a drive signal.
+ */
+export const encode = async (sound, options = {}) => {
+  const { signal, progress } = options
+  const { sampleRate, channels, frames, reader } = soundOf(sound)
+  const module = await ready(signal)
+  const read = reader()
+  let done = 0
+  const settings = given(options, ['method', 'bands', 'breakpoints', 'quantise', 'low', 'high', 'spacing', 'audible',
+    'sensitivity', 'keepLevel', 'name', 'source'])
+  settings.format = options.format === 'packed' ? 'packed' : 'json'
+  try {
+    const { value, outputs } = module.call('encode', { ...settings, sampleRate, channels, frames }, [], {
+      channels,
+      read: (into) => {
+        signal?.throwIfAborted()
+        const count = read(into)
+        done += count / channels
+        if (progress && frames > 0) progress(done / frames)
+        return count
+      }
+    })
+    if (value.signal) return floats(outputs[0])
+    if (options.format === 'packed') return outputs[0]
+    const text = new TextDecoder().decode(outputs[0])
+    return options.format === 'text' ? text : JSON.parse(text)
+  } catch (error) {
+    // What a call was in the midst of when it was left is not undone.
+    if (!(error instanceof PaciniError)) instance = undefined
+    throw error
+  }
+}
+
+/** A clip of any format as the object of a `.json` clip, with what was let pass. */
+export const read = async (bytes, { extension = '', strict = false, signal } = {}) => {
+  const { value, outputs } = (await ready(signal)).call('read', { extension, strict }, [bytesOf(bytes)])
+  return { clip: JSON.parse(new TextDecoder().decode(outputs[0])), ...value }
+}
+
+const exporting = ['format', 'name', 'amplitudePoints', 'frequencyPoints', 'sampleRate', 'split', 'strength', 'extension']
+const exported = async (name, clip, options) => {
+  const inputs = [bytesOf(clip)]
+  if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
+  return (await ready(options.signal)).call(name, given(options, exporting), inputs)
+}
+
+/** The files that a clip becomes in a format, and what is lost on the way. */
+export const write = async (clip, options = {}) => {
+  const { value, outputs } = await exported('write', clip, options)
+  return { files: outputs.map((bytes, i) => ({ suffix: value.suffixes[i], bytes })), losses: value.losses }
+}
+
+/** What a format would lose of a clip. */
+export const lint = async (clip, options = {}) => (await exported('lint', clip, options)).value.losses
+
+/** All formats, Pacini's own first. */
+export const formats = async ({ signal } = {}) => (await ready(signal)).call('formats').value.formats
+
+const rendering = ['sampleRate', 'leaveOut', 'adapt', 'strength', 'gain', 'transpose', 'stretch', 'wearer', 'fullScale',
+  'protect']
+const rendered = async (what, options, more) => {
+  const scene = options.clips !== undefined
+  const inputs = [bytesOf(what)]
+  if (options.profile !== undefined) inputs.push(profileBytes(options.profile))
+  for (const clip of options.clips ?? []) inputs.push(bytesOf(clip))
+  const { value, outputs } = (await ready(options.signal)).call('render',
+    { ...given(options, rendering), ...more, scene, withProfile: options.profile !== undefined }, inputs)
+  const channels = outputs.map(floats)
+  return { samples: channels.length === 1 ? channels[0] : channels, sampleRate: options.sampleRate ?? 48000, ...value }
+}
+
+/**
+ * The drive signal of a clip for the actuator of a profile, or for none. With `clips` it is a scene, whose text names
+ * them "0", "1" and so on.
+ */
+export const render = (clip, options = {}) => rendered(clip, options, {})
+
+/** The acceleration that is felt of it: m/s2 over `fullScale` (100). */
+export const felt = (clip, options = {}) => rendered(clip, options, { felt: true })
+
+/** How close a haptic signal is to its sound, by all measures. */
+export const compare = async (sound, candidate, { signal } = {}) => {
+  const module = await ready(signal)
+  return module.call('compare', { sampleRate: soundOf(sound).sampleRate, candidateRate: soundOf(candidate).sampleRate },
+    [monoOf(sound), monoOf(candidate)]).value
+}
+
+/** What the module takes of memory, bytes. */
+export const memoryInUse = () => instance?.memoryBytes ?? 0

@@ -1,0 +1,43 @@
+// Audio worklet of the live translator: sound in, drive signal out, block by block. Nothing is allocated while it runs.
+
+class PaciniTranslator extends AudioWorkletProcessor {
+  constructor({ processorOptions }) {
+    super()
+    const { module, profile } = processorOptions
+    const wasi = {}
+    for (const one of WebAssembly.Module.imports(module))
+      if (one.module === 'wasi_snapshot_preview1') wasi[one.name] = () => 0
+    const { exports } = new WebAssembly.Instance(module, { pacini: { pull: () => 0 }, wasi_snapshot_preview1: wasi })
+    exports._initialize()
+    const bytes = profile ?? new Uint8Array()
+    const address = exports.allocate(bytes.length)
+    new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes)
+    this.handle = exports.translatorCreate(sampleRate, address, bytes.length)
+    exports.release(address)
+    this.exports = exports
+    if (this.handle !== 0) {
+      this.from = new Float32Array(exports.memory.buffer, exports.translatorIn(this.handle), 1024)
+      this.to = new Float32Array(exports.memory.buffer, exports.translatorOut(this.handle), 1024)
+    }
+    this.port.postMessage(this.handle === 0
+      ? { failed: 'this profile or sample rate cannot be played' }
+      : { latency: exports.translatorLatency(this.handle) })
+  }
+
+  process([input], [output]) {
+    if (this.handle === 0) return false
+    const to = output[0]
+    const count = to.length
+    const scale = 1 / Math.max(1, input.length)
+    for (let n = 0; n < count; ++n) {
+      let sum = 0
+      for (let c = 0; c < input.length; ++c) sum += input[c][n]
+      this.from[n] = scale * sum
+    }
+    this.exports.translatorProcess(this.handle, count)
+    for (let n = 0; n < count; ++n) to[n] = this.to[n]
+    return true
+  }
+}
+
+registerProcessor('pacini-translator', PaciniTranslator)

@@ -1,0 +1,41 @@
+// Calls of the worker. A call that a newer one of its kind makes pointless is ended with the worker.
+
+export class Core {
+  #worker
+  #waiting = new Map()
+  #next = 1
+
+  #start() {
+    this.#worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' })
+    this.#worker.onmessage = ({ data: { number, result, error } }) => {
+      const asked = this.#waiting.get(number)
+      if (!asked) return
+      this.#waiting.delete(number)
+      if (error) asked.reject(Object.assign(new Error(error.message), error))
+      else asked.resolve(result)
+    }
+    this.#worker.onerror = (event) => {
+      for (const { reject } of this.#waiting.values()) reject(new Error(event.message || 'The core could not be loaded.'))
+      this.#waiting.clear()
+      this.#worker = undefined
+    }
+  }
+
+  /** What the call of the package gives; rejects with `superseded` when cancel() came first. */
+  call(name, ...parameters) {
+    if (!this.#worker) this.#start()
+    const number = this.#next++
+    return new Promise((resolve, reject) => {
+      this.#waiting.set(number, { resolve, reject })
+      this.#worker.postMessage({ number, name, parameters })
+    })
+  }
+
+  cancel() {
+    if (this.#waiting.size === 0) return
+    this.#worker.terminate()
+    this.#worker = undefined
+    for (const { reject } of this.#waiting.values()) reject(Object.assign(new Error('superseded'), { superseded: true }))
+    this.#waiting.clear()
+  }
+}

@@ -1,0 +1,93 @@
+// Touch: game controllers, and phones that vibrate.
+
+/** Controllers that rumble now. */
+export const rumbling = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.vibrationActuator)
+
+/** What is there to feel with, in words. */
+export const describeFeel = () => {
+  const pads = rumbling()
+  if (pads.length > 0) return `On ${pads.map((pad) => pad.id.replace(/\s*\(.*$/, '')).join(', ')}.`
+  if (typeof navigator.vibrate === 'function' && navigator.maxTouchPoints > 0) return 'On this phone.'
+  return 'Connect a game controller and press one of its buttons, or open this page on a phone that vibrates. ' +
+    'An actuator on a sound interface plays "Sound left, touch right".'
+}
+
+/** Strong and weak motor over time: low bands and high ones, as `{start, duration, strong, weak}` of 16 ms. */
+export const rumbleOf = (clip) => {
+  const step = 0.016, frames = []
+  const at = (points, time) => {
+    let i = points.findIndex((point) => point.time > time)
+    if (i === 0) return points[0].amplitude
+    if (i < 0) return points.length > 0 ? points.at(-1).amplitude : 0
+    const a = points[i - 1], b = points[i]
+    return a.amplitude + (b.amplitude - a.amplitude) * (time - a.time) / (b.time - a.time)
+  }
+  for (let time = 0; time < clip.duration; time += step) {
+    let low = 0, high = 0
+    for (const band of clip.bands) {
+      const value = at(band.amplitude, time)
+      if (band.centreFrequency < 90) low = Math.hypot(low, value)
+      else high = Math.hypot(high, value)
+    }
+    if (clip.bands.length === 0) low = high = at(clip.envelope, time)
+    for (const event of clip.transients)
+      if (event.time >= time - step && event.time < time + step)
+        high = Math.max(high, event.amplitude), low = Math.max(low, event.amplitude * (1 - event.sharpness))
+    frames.push({ start: time, duration: step, strong: Math.min(1, low), weak: Math.min(1, high) })
+  }
+  return frames
+}
+
+const isLoud = ({ strong, weak }) => Math.max(strong, weak) > 0.15
+
+/** Where the first touch of a phone begins, s, and how long it is on, off, on... in ms from there; a phone is only that. */
+export const vibrationOf = (clip) => {
+  const frames = rumbleOf(clip)
+  const first = frames.findIndex(isLoud)
+  if (first < 0) return { start: 0, pattern: [] }
+  const pattern = [0]
+  let on = true
+  for (const frame of frames.slice(first)) {
+    if (isLoud(frame) !== on) {
+      on = !on
+      pattern.push(0)
+    }
+    pattern[pattern.length - 1] += 16
+  }
+  return { start: frames[first].start, pattern: on ? pattern : pattern.slice(0, -1) }
+}
+
+/** Plays on all that is there until it ends or `signal` stops it; whether there was anything. */
+export const feel = async (clip, signal) => {
+  const pads = rumbling()
+  if (pads.length === 0) {
+    if (typeof navigator.vibrate !== 'function') return false
+    const { start, pattern } = vibrationOf(clip)
+    if (pattern.length === 0) return false
+    await new Promise((resolve) => setTimeout(resolve, 1000 * start))
+    if (signal.aborted) return true
+    signal.addEventListener('abort', () => navigator.vibrate(0), { once: true })
+    return navigator.vibrate(pattern)
+  }
+  const frames = rumbleOf(clip)
+  const started = performance.now()
+  signal.addEventListener('abort', () => pads.forEach((pad) => pad.vibrationActuator.reset?.()), { once: true })
+  let last = -1
+  await new Promise((resolve) => {
+    const tick = () => {
+      const index = Math.floor((performance.now() - started) / 16)
+      if (signal.aborted || index >= frames.length) return resolve()
+      if (index !== last) {
+        last = index
+        for (const pad of pads)
+          pad.vibrationActuator.playEffect('dual-rumble', {
+            startDelay: 0, duration: 60, strongMagnitude: frames[index].strong, weakMagnitude: frames[index].weak
+          })
+      }
+      requestAnimationFrame(tick)
+    }
+    tick()
+  })
+  pads.forEach((pad) => pad.vibrationActuator.reset?.())
+  return true
+}

@@ -1,0 +1,30 @@
+// The page without a network, after the first visit: what was fetched from its own place is kept and renewed.
+
+const cacheName = 'pacini-1'
+const first = ['./', 'index.html', 'style.css', 'app.js', 'core.js', 'feel.js', 'lanes.js', 'store.js', 'worker.js',
+  'gallery/list.js', 'pacini/index.js', 'pacini/module.js', 'pacini/sound.js', 'pacini/profiles.js', 'pacini/pacini.wasm']
+
+self.addEventListener('install', (event) => {
+  event.waitUntil(caches.open(cacheName).then((cache) => cache.addAll(first)).then(() => self.skipWaiting()))
+})
+self.addEventListener('activate', (event) => {
+  event.waitUntil(caches.keys()
+    .then((names) => Promise.all(names.filter((name) => name !== cacheName).map((name) => caches.delete(name))))
+    .then(() => self.clients.claim()))
+})
+self.addEventListener('fetch', (event) => {
+  const { request } = event
+  if (request.method !== 'GET' || new URL(request.url).origin !== self.location.origin) return
+  event.respondWith((async () => {
+    const cache = await caches.open(cacheName)
+    try {
+      const answer = await fetch(request)
+      if (answer.ok) cache.put(request, answer.clone())
+      return answer
+    } catch (error) {
+      const there = await cache.match(request, { ignoreSearch: true })
+      if (there) return there
+      throw error
+    }
+  })())
+})

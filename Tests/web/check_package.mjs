@@ -1,0 +1,145 @@
+// The npm package in Node: the same bytes as the program, errors as they are documented, the examples of its README.
+//
+// check_package.mjs PACKAGE PACINI SOUNDS    PACKAGE: the built folder; SOUNDS: a folder of WAV files. Exit 0, 1 on a
+// failed check.
+import { execFileSync } from 'node:child_process'
+import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { basename, join } from 'node:path'
+import { gzipSync } from 'node:zlib'
+
+const [packageFolder, program, sounds] = process.argv.slice(2)
+const folder = mkdtempSync(join(tmpdir(), 'pacini-web-'))
+let failures = 0
+const check = (what, holds, detail = '') => {
+  console.log(`${holds ? 'ok  ' : 'FAIL'} ${what} ${detail}`)
+  if (!holds) ++failures
+}
+const native = (...words) => execFileSync(program, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] })
+const same = (a, b) => Buffer.compare(Buffer.from(a.buffer, a.byteOffset, a.byteLength), b) === 0
+const fails = async (work) => {
+  try {
+    await work()
+  } catch (error) {
+    return error
+  }
+  return undefined
+}
+
+try {
+  // As users have it: packed, then installed in a clean folder.
+  const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', folder], { cwd: packageFolder, encoding: 'utf8' })
+    .trim().split('\n').at(-1)
+  writeFileSync(join(folder, 'package.json'), '{"type": "module", "private": true}')
+  execFileSync('npm', ['install', '--silent', '--no-audit', '--no-fund', join(folder, packed)], { cwd: folder })
+  const installed = join(folder, 'node_modules/pacini')
+  const pacini = await import(join(installed, 'index.js'))
+  const { encode, read, write, lint, render, felt, compare, formats, profileNames, profileInfo, readWav, PaciniError } = pacini
+
+  let differing = 0, rendered = 0
+  const names = readdirSync(sounds).filter((name) => name.endsWith('.wav')).sort()
+  for (const file of names) {
+    const path = join(sounds, file), name = basename(file, '.wav')
+    const sound = readWav(readFileSync(path))
+    native('encode', path, '-o', 'native.pacb', '--format', 'packed', '-y')
+    native('encode', path, '-o', 'native.json', '-y')
+    const packedClip = await encode(sound, { name, source: file, format: 'packed' })
+    const text = await encode(sound, { name, source: file, format: 'text' })
+    const nativePacked = readFileSync(join(folder, 'native.pacb')), nativeText = readFileSync(join(folder, 'native.json'))
+    if (!same(packedClip, nativePacked) || !same(new TextEncoder().encode(text), nativeText)) {
+      ++differing
+      console.log(`     ${name}: ${packedClip.length} and ${nativePacked.length} bytes packed, text ${same(new TextEncoder().encode(text), nativeText) ? 'the same' : 'differs'}`)
+    }
+    for (const profile of ['l5-wristband', 'lra-175', 'erm-coin']) {
+      native('render', 'native.json', '-o', 'native.wav', '--profile', profile, '-y')
+      const heard = readWav(readFileSync(join(folder, 'native.wav')))
+      const drive = await render(text, { profile, sampleRate: heard.sampleRate })
+      let largest = drive.samples.length === heard.samples.length ? 0 : 1
+      for (let n = 0; n < heard.samples.length; ++n) largest = Math.max(largest, Math.abs(heard.samples[n] - drive.samples[n]))
+      rendered = Math.max(rendered, largest)
+    }
+  }
+  check(`clips of ${names.length} sounds are those of the program, byte for byte`, names.length > 0 && differing === 0, `${differing} differ`)
+  check('and so are drive signals for three actuators', rendered === 0, `largest difference ${rendered}`)
+
+  // The way through all formats that are written and read.
+  const sound = readWav(readFileSync(join(sounds, names[0])))
+  const clip = await encode(sound)
+  const all = await formats()
+  for (const format of all.filter((one) => one.writes)) {
+    const { files } = await write(clip, { format: format.name, ...(format.samples ? { profile: 'l5-wristband' } : {}) })
+    const nonEmpty = files.length > 0 && files.every(({ bytes }) => bytes.length > 0)
+    let back = true
+    if (format.reads) {
+      const again = await fails(async () => { back = (await read(files[0].bytes, { extension: format.extension })).clip.duration > 0 })
+      if (again) back = again.message
+    }
+    check(`format ${format.name}`, nonEmpty && back === true, back === true ? '' : back)
+  }
+  check('losses are told', (await lint(clip, { format: 'android' })).length >= 0)
+
+  const skin = await felt(clip, { profile: 'l5-wristband' })
+  check('what is felt has samples', skin.samples.some((value) => value !== 0))
+  const drive = await render(clip, { sampleRate: sound.sampleRate })
+  const figures = await compare(sound, drive)
+  check('a comparison has its figures', figures.hts > 0 && figures.match > 0, `HTS ${figures.hts}, match ${figures.match}`)
+  check('actuators are there', profileNames().length === 12 && (await profileInfo('lra-175')).high > 0)
+  const scene = { format: 'pacini.scene', version: 1, duration: 1, clips: [{ file: '0' }], plays: [{ clip: 0, start: 0.1 }] }
+  const sceneDrive = await fails(async () => check('a scene is rendered', (await render(scene, { clips: [clip] })).samples.length > 0))
+  if (sceneDrive) check('a scene is rendered', false, sceneDrive.message)
+
+  // What is wrong.
+  const wrong = [
+    ['no rate', () => encode({ samples: new Float32Array(10) }), 'sampleRate'],
+    ['no samples', () => encode({ samples: 'x', sampleRate: 48000 }), 'samples'],
+    ['not a number', () => encode({ samples: new Float32Array([0, NaN]), sampleRate: 48000 }), 'frame 1, channel 0'],
+    ['an unknown method', () => encode(sound, { method: 'x' }), 'method'],
+    ['an option out of range', () => encode(sound, { bands: 1000 }), 'bands'],
+    ['an option of another method', () => encode(sound, { method: 'decomposition', bands: 4 }), 'bands'],
+    ['garbage', () => read(new Uint8Array([1, 2, 3])), ''],
+    ['an unknown format', () => write(clip, { format: 'x' }), 'format'],
+    ['an unknown profile', () => render(clip, { profile: 'x' }), 'profile'],
+    ['no WAV', async () => readWav(new Uint8Array(50)), '']
+  ]
+  for (const [what, work, where] of wrong) {
+    const error = await fails(work)
+    check(`error: ${what}`, error instanceof PaciniError && error.where.startsWith(where) && error.code.length > 0, error?.message)
+  }
+  const stopped = new AbortController()
+  const long = { samples: new Float32Array(480000), sampleRate: 48000 }
+  const reason = await fails(() => encode(long, { signal: stopped.signal, progress: () => stopped.abort() }))
+  check('a signal stops a call', reason?.name === 'AbortError')
+  check('and the next one works', (await encode(sound)).duration === clip.duration)
+
+  // Memory of ten minutes, and speed beside the program's.
+  const ten = new Float32Array(600 * 44100)
+  const source = sound.samples instanceof Float32Array ? sound.samples : sound.samples[0]
+  for (let n = 0; n < ten.length; ++n) ten[n] = source[n % source.length]
+  const started = performance.now()
+  await encode({ samples: ten, sampleRate: 44100 })
+  const seconds = (performance.now() - started) / 1000
+  const megabytes = pacini.memoryInUse() / 1e6
+  check('ten minutes take less than 100 MB', megabytes < 100, `${megabytes.toFixed(1)} MB, ${(600 / seconds).toFixed(0)} times real time`)
+  const wasm = readFileSync(join(installed, 'pacini.wasm'))
+  console.log(`     pacini.wasm: ${wasm.length} bytes, ${gzipSync(wasm, { level: 9 }).length} gzipped`)
+
+  // The README, as printed.
+  const work = join(folder, 'readme')
+  mkdirSync(work)
+  cpSync(join(sounds, names[0]), join(work, 'knock.wav'))
+  const examples = [...readFileSync(join(installed, 'README.md'), 'utf8').matchAll(/```js\n(.*?)```/gs)].map((match) => match[1])
+  check('the README has examples', examples.length >= 4)
+  examples.forEach((example, i) => {
+    writeFileSync(join(work, 'example.mjs'), example)
+    try {
+      execFileSync('node', ['example.mjs'], { cwd: work, stdio: ['ignore', 'pipe', 'pipe'] })
+      check(`example ${i + 1} of the README`, true)
+    } catch (error) {
+      check(`example ${i + 1} of the README`, false, error.stderr)
+    }
+  })
+  check('what the first one wrote is there', statSync(join(work, 'knock.json')).size > 100)
+} finally {
+  rmSync(folder, { recursive: true, force: true })
+}
+process.exit(failures ? 1 : 0)
